@@ -1,0 +1,110 @@
+#include "core/collision/broad_phase.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace scree {
+namespace {
+
+constexpr double kMostCells = 64.0;  // a body over more cells goes to the list of large ones
+
+struct CellRange {
+    std::array<std::int64_t, 3> first, last;
+    double count() const
+    {
+        double product = 1.0;
+        for (int k = 0; k < 3; ++k) product *= static_cast<double>(last[k] - first[k] + 1);
+        return product;
+    }
+};
+
+std::int64_t cellOf(double coordinate, double cellSize)
+{
+    // Twenty-one bits a coordinate fit into one key; farther bodies share the outermost cells.
+    constexpr double kFarthest = 1 << 20;
+    return static_cast<std::int64_t>(
+        std::clamp(std::floor(coordinate / cellSize), -kFarthest, kFarthest - 1.0));
+}
+
+CellRange cellsOf(const Aabb& box, double cellSize)
+{
+    CellRange range{};
+    for (int k = 0; k < 3; ++k) {
+        range.first[k] = cellOf(box.min[k], cellSize);
+        range.last[k] = cellOf(box.max[k], cellSize);
+    }
+    return range;
+}
+
+std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
+{
+    constexpr std::int64_t kOffset = 1 << 20;
+    return static_cast<std::uint64_t>(x + kOffset) << 42 |
+           static_cast<std::uint64_t>(y + kOffset) << 21 | static_cast<std::uint64_t>(z + kOffset);
+}
+
+}  // namespace
+
+const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxes,
+                                                   const std::vector<BodyMass>& mass)
+{
+    pairs_.clear();
+    entries_.clear();
+    large_.clear();
+    edges_.clear();
+    const auto report = [&](BodyId a, BodyId b) {
+        if (!mass[a].isMovable() && !mass[b].isMovable()) return;
+        if (!boxes[a].overlaps(boxes[b])) return;
+        pairs_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
+    };
+
+    for (const Aabb& box : boxes) {
+        if (const double edge = box.longestEdge(); std::isfinite(edge)) edges_.push_back(edge);
+    }
+    if (edges_.empty()) return pairs_;
+    const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(edges_.size() / 2);
+    std::nth_element(edges_.begin(), middle, edges_.end());
+    const double cellSize = std::max(2.0 * *middle, 1e-12);
+
+    for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
+        const CellRange range = cellsOf(boxes[body], cellSize);
+        if (range.count() > kMostCells) {
+            large_.push_back(body);
+            continue;
+        }
+        for (std::int64_t x = range.first[0]; x <= range.last[0]; ++x) {
+            for (std::int64_t y = range.first[1]; y <= range.last[1]; ++y) {
+                for (std::int64_t z = range.first[2]; z <= range.last[2]; ++z) {
+                    entries_.push_back({keyOf(x, y, z), body});
+                }
+            }
+        }
+    }
+
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& p, const Entry& q) {
+        return p.cell < q.cell || (p.cell == q.cell && p.body < q.body);
+    });
+    for (std::size_t begin = 0; begin < entries_.size();) {
+        std::size_t end = begin;
+        while (end < entries_.size() && entries_[end].cell == entries_[begin].cell) ++end;
+        for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t j = i + 1; j < end; ++j) report(entries_[i].body, entries_[j].body);
+        }
+        begin = end;
+    }
+    for (std::size_t i = 0; i < large_.size(); ++i) {
+        for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
+            // Two large bodies meet once, when the first of them is walked.
+            const bool alsoLarge = std::binary_search(large_.begin(), large_.end(), body);
+            if (alsoLarge && body <= large_[i]) continue;
+            report(large_[i], body);
+        }
+    }
+
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    return pairs_;
+}
+
+}  // namespace scree

@@ -1,0 +1,38 @@
+// Candidate pairs from boxes: a uniform grid for most bodies, a list for the few that are huge.
+// [A14]
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math/aabb.h"
+#include "core/scene/body.h"
+
+namespace scree {
+
+/// Always a < b.
+struct BodyPair {
+    BodyId a = 0, b = 0;
+    friend bool operator==(const BodyPair&, const BodyPair&) = default;
+    friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+};
+
+class BroadPhase {
+public:
+    /// All pairs whose boxes overlap and of which at least one body is movable, sorted, each once.
+    /// The result stays valid until the next call.
+    const std::vector<BodyPair>& findPairs(const std::vector<Aabb>& boxes,
+                                           const std::vector<BodyMass>& mass);
+
+private:
+    struct Entry {
+        std::uint64_t cell;
+        BodyId body;
+    };
+    std::vector<Entry> entries_;
+    std::vector<BodyId> large_;
+    std::vector<double> edges_;
+    std::vector<BodyPair> pairs_;
+};
+
+}  // namespace scree

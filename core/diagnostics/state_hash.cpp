@@ -1,0 +1,28 @@
+#include "core/diagnostics/state_hash.h"
+
+#include <array>
+
+#include "core/base/hash.h"
+#include "core/scene/world.h"
+
+namespace scree {
+
+std::uint64_t stateHash(const World& world)
+{
+    std::uint64_t hash = 0;
+    for (const BodyMotion& m : world.motion) {
+        // Field by field: a struct may have padding, whose bytes mean nothing.
+        const std::array<double, 13> state = {
+            m.position.x(),       m.position.y(),    m.position.z(),        m.orientation.w(),
+            m.orientation.x(),    m.orientation.y(), m.orientation.z(),     m.velocity.x(),
+            m.velocity.y(),       m.velocity.z(),    m.angularMomentum.x(), m.angularMomentum.y(),
+            m.angularMomentum.z()};
+        hash = hashBytes(state.data(), sizeof state, hash);
+    }
+    hash = hashBytes(world.order.data(), world.order.size() * sizeof(BodyId), hash);
+    const std::array<std::int64_t, 2> steps = {world.clock.frame, world.clock.subStep};
+    hash = hashBytes(steps.data(), sizeof steps, hash);
+    return hashBytes(&world.clock.frameTimeDone, sizeof(double), hash);
+}
+
+}  // namespace scree

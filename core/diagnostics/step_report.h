@@ -1,0 +1,76 @@
+// What a step says of itself.  [A58, A59]
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scene/body.h"
+
+namespace scree {
+
+/// What decided the length of a step.
+enum class StepLimit : std::uint8_t { frame, relativeSpeed, spin, hover, substepCap };
+
+/// How impulses came out, by friction case.  [A31–A33]
+struct ImpulseCounts {
+    std::int64_t sticking = 0;
+    std::int64_t sliding = 0;
+    std::int64_t fallback = 0;  ///< neither was admissible: blended on the segment
+
+    std::int64_t total() const { return sticking + sliding + fallback; }
+    ImpulseCounts& operator+=(const ImpulseCounts& other);
+};
+
+/// The phases of a step, in the order in which they run.
+enum class Phase : std::uint8_t {
+    stepLimit,
+    collision,
+    contactGraph,
+    contact,
+    shock,
+    position,
+    pushOut,
+    count
+};
+const char* nameOf(Phase phase);
+
+struct StepReport {
+    double dt = 0.0;  ///< [s]
+    StepLimit limitedBy = StepLimit::frame;
+    std::int64_t broadPairs = 0;     ///< pairs whose boxes meet
+    std::int64_t touchingPairs = 0;  ///< pairs with interference in the collision phase: the set P
+    std::int64_t contactPairs = 0;   ///< pairs processed by contact
+    int levels = 0;
+    int largestLevel = 0;  ///< bodies in the fullest level above 0
+    ImpulseCounts collisionImpulses, contactImpulses, shockImpulses;
+    std::int64_t pushes = 0;
+    std::int64_t loopsAtTheirCap =
+        0;                       ///< pair visits that ended because the impulse cap was reached
+    std::int64_t pushesCut = 0;  ///< pushes longer than the limit allows
+    double deepestBeforePushOut = 0.0;    ///< by the solver's own samples [m]
+    double deepestAfterPushOut = 0.0;     ///< [m]
+    BodyId deepestA = -1, deepestB = -1;  ///< the pair of deepestAfterPushOut
+    double pushOutWork = 0.0;             ///< potential energy that push-out added [J]
+    std::vector<BodyId> nonFinite;  ///< bodies that are no longer numbers: the run must stop  [A59]
+    Phase nonFinitePhase = Phase::position;  ///< the phase after which they were found
+    std::array<double, static_cast<int>(Phase::count)> seconds = {};  ///< wall time by phase [s]
+};
+
+/// A frame in numbers: its steps summed or the worst of them.
+struct FrameReport {
+    int steps = 0;
+    double shortestStep = 0.0, longestStep = 0.0;  ///< [s]
+    StepReport sum;  ///< counts and seconds summed, depths and levels the largest of any step
+    bool substepCapReached = false;
+    BodyId fastestBody = -1;                            ///< who asked for the shortest step
+    double kineticEnergy = 0.0, potentialEnergy = 0.0;  ///< at the end of the frame [J]
+    Vec3 momentum = Vec3::Zero();                       ///< [kg m/s]
+    int bodiesAwake = 0;                                ///< dynamic bodies that are simulated
+    double worstOverlapRatio = 0.0;  ///< deepestAfterPushOut / longest box edge of the smaller body
+    std::uint64_t stateHash = 0;
+    bool finished = true;  ///< false: stopped between two sub-steps, as asked
+};
+
+}  // namespace scree

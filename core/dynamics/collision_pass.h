@@ -1,0 +1,14 @@
+// Phase 1: collisions at predicted positions change velocities that have not felt gravity yet.
+// [GBF03 “Collisions”], [A22–A24, A26]
+#pragma once
+
+#include "core/dynamics/scratch.h"
+
+namespace scree {
+
+/// Applies collision impulses to world.motion and records in scratch.pairs which pairs have
+/// interfered at all (isTouched).
+ImpulseCounts resolveCollisions(World& world, const StepSettings& settings, double dt,
+                                StepScratch& scratch, std::int64_t& loopsAtTheirCap);
+
+}  // namespace scree

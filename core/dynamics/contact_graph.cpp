@@ -1,0 +1,236 @@
+// Departs from [GBF03 “Contact Graph”], which keeps the other bodies stationary while one falls:
+// they drift with their present velocity here. For a heap at rest that is the same; on a lift, on a
+// turntable or in free fall it is what makes the graph the heap's own.  [A36]
+#include "core/dynamics/contact_graph.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/parallel.h"
+
+namespace scree {
+namespace {
+
+/// Neighbours of every node in one array.
+struct Adjacency {
+    std::vector<std::uint32_t> start, target;
+
+    Adjacency(std::size_t nodeCount, std::span<const SupportEdge> edges, bool transposed)
+        : start(nodeCount + 1, 0), target(edges.size())
+    {
+        const auto tail = [&](const SupportEdge& e) { return transposed ? e.to : e.from; };
+        const auto head = [&](const SupportEdge& e) { return transposed ? e.from : e.to; };
+        for (const SupportEdge& e : edges) ++start[tail(e) + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+        for (const SupportEdge& e : edges)
+            target[next[tail(e)]++] = static_cast<std::uint32_t>(head(e));
+    }
+};
+
+/// Depth-first search from `root`; appends nodes to `finished` when they are left for good.
+void depthFirst(const Adjacency& graph, std::uint32_t root, std::vector<char>& seen,
+                std::vector<std::uint32_t>& finished)
+{
+    struct Visit {
+        std::uint32_t node, nextEdge;
+    };
+    std::vector<Visit> stack{{root, graph.start[root]}};
+    seen[root] = 1;
+    while (!stack.empty()) {
+        Visit& top = stack.back();
+        if (top.nextEdge == graph.start[top.node + 1]) {
+            finished.push_back(top.node);
+            stack.pop_back();
+            continue;
+        }
+        const std::uint32_t next = graph.target[top.nextEdge++];
+        if (seen[next]) continue;
+        seen[next] = 1;
+        stack.push_back({next, graph.start[next]});
+    }
+}
+
+/// Representative of a set of bodies; the lowest index stands for the set.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count) : parent_(count)
+    {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
+    std::size_t find(std::size_t x)
+    {
+        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+        return x;
+    }
+    void join(std::size_t a, std::size_t b)
+    {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::size_t> parent_;
+};
+
+/// Cuts one level's pairs into islands. Islands keep the order of their first pairs.
+void cutIntoIslands(const World& world, const StepScratch& scratch, ContactLevel& level)
+{
+    DisjointSets sets(world.bodyCount());
+    for (std::size_t i : level.pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (world.mass[a].isMovable() && world.mass[b].isMovable()) sets.join(a, b);
+    }
+    const auto islandOf = [&](std::size_t i) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        return sets.find(world.mass[a].isMovable() ? a : b);
+    };
+    std::vector<std::size_t> firstPlace(world.bodyCount(), level.pairs.size());
+    for (std::size_t place = 0; place < level.pairs.size(); ++place) {
+        std::size_t& first = firstPlace[islandOf(level.pairs[place])];
+        first = std::min(first, place);
+    }
+    std::stable_sort(level.pairs.begin(), level.pairs.end(), [&](std::size_t p, std::size_t q) {
+        return firstPlace[islandOf(p)] < firstPlace[islandOf(q)];
+    });
+    for (std::size_t place = 1; place <= level.pairs.size(); ++place) {
+        const bool ends = place == level.pairs.size() ||
+                          islandOf(level.pairs[place]) != islandOf(level.pairs[place - 1]);
+        if (ends) level.islandEnds.push_back(place);
+    }
+}
+
+void findFalls(const World& world, StepScratch& scratch)
+{
+    parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            PairRecord& pair = scratch.pairs[i];
+            const auto [a, b] = pair.bodies;
+            const auto meets = [&](const Pose& poseA, const Pose& poseB) {
+                return pair.proximity.interferes(placePair(world, pair, poseA, poseB), pair.tau);
+            };
+            pair.aFallsOnB =
+                world.mass[a].isMovable() && meets(scratch.fallPose[a], scratch.driftPose[b]);
+            pair.bFallsOnA =
+                world.mass[b].isMovable() && meets(scratch.driftPose[a], scratch.fallPose[b]);
+        }
+    });
+}
+
+/// Without gravity nothing falls: of two bodies that touch the heavier carries the lighter, equals
+/// carry each other.
+void settleWeightless(const World& world, StepScratch& scratch)
+{
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        PairRecord& pair = scratch.pairs[i];
+        const double inverseA = world.mass[pair.bodies.a].inverseMass;
+        const double inverseB = world.mass[pair.bodies.b].inverseMass;
+        pair.aFallsOnB = pair.isTouched && inverseA >= inverseB;
+        pair.bFallsOnA = pair.isTouched && inverseB >= inverseA;
+    }
+}
+
+}  // namespace
+
+GraphLevels computeLevels(std::size_t nodeCount, std::span<const SupportEdge> edges,
+                          std::span<const char> isFixed)
+{
+    const Adjacency forward(nodeCount, edges, false);
+    const Adjacency backward(nodeCount, edges, true);
+
+    // Two searches: finish order on the graph, then the transpose in decreasing finish time. The
+    // components come out in topological order of the collapsed graph.
+    std::vector<char> seen(nodeCount, 0);
+    std::vector<std::uint32_t> finished;
+    finished.reserve(nodeCount);
+    for (std::uint32_t n = 0; n < nodeCount; ++n) {
+        if (!seen[n]) depthFirst(forward, n, seen, finished);
+    }
+    GraphLevels result;
+    result.component.assign(nodeCount, -1);
+    std::fill(seen.begin(), seen.end(), 0);
+    std::vector<std::vector<std::uint32_t>> members;
+    for (auto n = finished.rbegin(); n != finished.rend(); ++n) {
+        if (seen[*n]) continue;
+        std::vector<std::uint32_t> component;
+        depthFirst(backward, *n, seen, component);
+        for (std::uint32_t m : component) result.component[m] = result.componentCount;
+        ++result.componentCount;
+        members.push_back(std::move(component));
+    }
+
+    std::vector<int> levelOf(result.componentCount, 0);
+    std::vector<char> supported(result.componentCount, 0);
+    for (int c = 0; c < result.componentCount; ++c) {
+        for (std::uint32_t n : members[c]) supported[c] |= isFixed[n];
+        for (std::uint32_t n : members[c]) {
+            for (std::uint32_t e = forward.start[n]; e < forward.start[n + 1]; ++e) {
+                const int next = result.component[forward.target[e]];
+                if (next == c) continue;
+                levelOf[next] = std::max(levelOf[next], levelOf[c] + 1);
+                supported[next] |= supported[c];
+            }
+        }
+    }
+    result.level.resize(nodeCount);
+    result.isSupported.resize(nodeCount);
+    for (std::size_t n = 0; n < nodeCount; ++n) {
+        result.level[n] = levelOf[result.component[n]];
+        result.isSupported[n] = supported[result.component[n]];
+    }
+    return result;
+}
+
+ContactGraph buildContactGraph(const World& world, const StepSettings& settings, double dt,
+                               StepScratch& scratch)
+{
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        predictBody(world, settings, dt, static_cast<BodyId>(b), scratch);
+    }
+    if (settings.gravity.isZero()) {
+        settleWeightless(world, scratch);
+    } else {
+        findFalls(world, scratch);
+    }
+
+    std::vector<SupportEdge> edges;
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        const PairRecord& pair = scratch.pairs[i];
+        const auto [a, b] = pair.bodies;
+        if (pair.aFallsOnB && world.mass[a].isMovable()) edges.push_back({b, a});
+        if (pair.bFallsOnA && world.mass[b].isMovable()) edges.push_back({a, b});
+    }
+    std::vector<char> isFixed(world.bodyCount());
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) isFixed[b] = !world.mass[b].isMovable();
+
+    ContactGraph graph;
+    graph.levels = computeLevels(world.bodyCount(), edges, isFixed);
+    const auto& levelOf = graph.levels.level;
+    const int levelCount = 1 + *std::max_element(levelOf.begin(), levelOf.end());
+    graph.contact.resize(levelCount);
+    graph.overlap.resize(levelCount);
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (isFixed[b]) continue;
+        for (auto* levels : {&graph.contact, &graph.overlap}) {
+            ContactLevel& level = (*levels)[levelOf[b]];
+            ++level.bodies;
+            if (graph.levels.isSupported[b])
+                level.supportedBodies.push_back(static_cast<BodyId>(b));
+        }
+    }
+    for (std::size_t i : scratch.pairOrder) {
+        const PairRecord& pair = scratch.pairs[i];
+        if (!pair.isTouched) continue;
+        const int level = std::max(levelOf[pair.bodies.a], levelOf[pair.bodies.b]);
+        graph.overlap[level].pairs.push_back(i);
+        if (!pair.aFallsOnB && !pair.bFallsOnA) continue;
+        graph.contact[level].pairs.push_back(i);
+        ++graph.contactPairs;
+    }
+    for (ContactLevel& level : graph.contact) cutIntoIslands(world, scratch, level);
+    for (ContactLevel& level : graph.overlap) cutIntoIslands(world, scratch, level);
+    return graph;
+}
+
+}  // namespace scree

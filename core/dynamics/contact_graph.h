@@ -1,0 +1,53 @@
+// Who rests on whom: each body falls alone → edges → strongly connected sets → levels.
+// [GBF03 “Contact Graph”], [A36–A38]
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/scratch.h"
+
+namespace scree {
+
+/// An edge from → to says that `to` rests on `from`.
+struct SupportEdge {
+    BodyId from = 0, to = 0;
+};
+
+/// Levels of a directed graph whose cycles are collapsed: a component's level is the length of the
+/// longest path to it from a source of what is then acyclic.
+struct GraphLevels {
+    std::vector<int> component;  ///< per node; components are numbered in topological order
+    int componentCount = 0;
+    std::vector<int> level;         ///< per node
+    std::vector<char> isSupported;  ///< per node: is fixed, or some ancestor is  [A47]
+};
+
+/// `isFixed` per node. Iterative: chains of a hundred thousand nodes are no trouble.
+GraphLevels computeLevels(std::size_t nodeCount, std::span<const SupportEdge> edges,
+                          std::span<const char> isFixed);
+
+/// One level's work: pairs in processing order, cut into islands that share no movable body, so
+/// that islands may run at once and the bits stay those of running one after the other.
+struct ContactLevel {
+    std::vector<std::size_t> pairs;       ///< indices into StepScratch::pairs, island by island
+    std::vector<std::size_t> islandEnds;  ///< where each island ends in `pairs`
+    std::vector<BodyId> supportedBodies;  ///< movable bodies of the level that shock freezes
+    int bodies = 0;                       ///< movable bodies of the level
+};
+
+struct ContactGraph {
+    GraphLevels levels;
+    std::vector<ContactLevel> contact;  ///< by level: pairs that rest and may be processed (set P)
+    std::vector<ContactLevel>
+        overlap;  ///< by level: these and all other touching pairs, for push-out
+    std::int64_t contactPairs = 0;
+};
+
+/// Fills aFallsOnB and bFallsOnA of every pair with the present velocities, which have not felt
+/// gravity yet, and builds the graph.
+ContactGraph buildContactGraph(const World& world, const StepSettings& settings, double dt,
+                               StepScratch& scratch);
+
+}  // namespace scree

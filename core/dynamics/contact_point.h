@@ -1,0 +1,24 @@
+// A touch seen from two placed bodies: point, levers and normal in the world.  [A39]
+#pragma once
+
+#include "core/collision/interference.h"
+#include "core/dynamics/scratch.h"
+
+namespace scree {
+
+/// S is the body that owns the sample, F the one whose field it entered; n points from F to S and u
+/// is S's velocity against F's.
+struct ContactPoint {
+    BodyId sampleBody = 0, fieldBody = 0;
+    Vec3 rS, rF;  ///< contact point minus centre of mass [m]
+    Vec3 normal;
+    Vec3 u;  ///< relative velocity [m/s]
+};
+
+/// Places the touch with the bodies at the given poses, whose world inertias the caller supplies,
+/// and with their present velocities.
+ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
+                          const Pose& poseA, const Pose& poseB, const Mat3& inverseInertiaA,
+                          const Mat3& inverseInertiaB);
+
+}  // namespace scree

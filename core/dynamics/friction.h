@@ -1,0 +1,33 @@
+// The impulse of one contact: Newton restitution along the normal, Coulomb friction across it.
+// [GBF03 “Collisions”, “Static and Kinetic Friction”], [A29–A35]
+//
+// Symbols: K collision matrix of the pair (3×3), u relative velocity of A's point against B's, n
+// unit
+//          normal from B to A, e restitution, mu friction, j impulse on A (−j on B) [N s].
+#pragma once
+
+#include "core/diagnostics/step_report.h"
+#include "core/math/types.h"
+
+namespace scree {
+
+enum class FrictionCase { none, sticking, sliding, fallback };
+
+struct ContactImpulse {
+    Vec3 impulse = Vec3::Zero();
+    FrictionCase kind = FrictionCase::none;
+};
+
+/// The impulse for an approaching contact (u·n < 0). K must be symmetric positive definite; e in
+/// [−1, 1], mu ≥ 0. Afterwards u'·n = −e u·n, the impulse lies in the friction cone, never pulls
+/// and never adds energy.
+ContactImpulse contactImpulse(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double e,
+                              double mu);
+
+/// Change of kinetic energy by impulse j: u·j + ½ jᵀKj.
+double workOf(const Vec3& impulse, const Mat3& collisionMatrix, const Vec3& u);
+
+/// Adds one impulse of this kind to the counts.
+void countImpulse(ImpulseCounts& counts, FrictionCase kind);
+
+}  // namespace scree

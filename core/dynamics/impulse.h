@@ -1,0 +1,52 @@
+// Points on moving bodies: their velocity, the matrix K that says how an impulse there changes it,
+// and the application of impulses.  [GBF03 “Collisions”], [A0, A29, A34]
+//
+// Symbols: r contact point minus centre of mass, K = δ/m + r*ᵀ I⁻¹ r*, u velocity of the point.
+#pragma once
+
+#include "core/math/rotation.h"
+#include "core/scene/body.h"
+
+namespace scree {
+
+/// The inertia a pass works with: world axes, zero when the body cannot be moved in this pass.
+struct PassInertia {
+    double inverseMass = 0.0;
+    Mat3 inverseInertia = Mat3::Zero();  // world
+
+    bool isMovable() const { return inverseMass > 0.0; }
+};
+
+inline PassInertia passInertia(const BodyMass& mass, const Quat& orientation)
+{
+    if (!mass.isMovable()) return {};
+    return {mass.inverseMass,
+            inverseInertiaWorld(orientation.toRotationMatrix(), mass.inverseInertia)};
+}
+
+/// Zero for a body that cannot be moved.
+inline Mat3 collisionMatrix(const PassInertia& inertia, const Vec3& r)
+{
+    if (!inertia.isMovable()) return Mat3::Zero();
+    const Mat3 rStar = skew(r);
+    return inertia.inverseMass * Mat3::Identity() +
+           rStar.transpose() * inertia.inverseInertia * rStar;
+}
+
+/// `inverseInertia` must be the body's own, even when a pass has frozen it: freezing forbids
+/// change, not motion.
+inline Vec3 pointVelocity(const BodyMotion& motion, const Mat3& inverseInertia, const Vec3& r)
+{
+    return motion.velocity + Vec3(inverseInertia * motion.angularMomentum).cross(r);
+}
+
+/// Does nothing to a body that cannot be moved.
+inline void applyImpulse(BodyMotion& motion, const PassInertia& inertia, const Vec3& r,
+                         const Vec3& impulse)
+{
+    if (!inertia.isMovable()) return;
+    motion.velocity += inertia.inverseMass * impulse;
+    motion.angularMomentum += r.cross(impulse);
+}
+
+}  // namespace scree

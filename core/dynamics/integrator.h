@@ -1,0 +1,28 @@
+// Motion without contact: gravity, and the one function that says where a body will be.
+// [GBF03 “Time Integration”], [A18–A20]
+#pragma once
+
+#include "core/dynamics/settings.h"
+#include "core/scene/world.h"
+
+namespace scree {
+
+/// Where the body is after dt with velocity v and angular momentum L. Collision, contact graph and
+/// contact predict with it, and the position update is this very function: what contact has not
+/// found cannot happen.  [A19, A20]
+Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& velocity,
+                 const Vec3& angularMomentum, OrientationUpdate update, double dt);
+
+/// v += dt g for every movable body.  [A17 step 3]
+void addGravity(World& world, const StepSettings& settings, double dt);
+
+/// x and q of every movable body by predictPose with its present velocities.  [A17 step 5]
+void advancePositions(World& world, const StepSettings& settings, double dt);
+
+/// ω = I⁻¹ L [rad/s].
+Vec3 angularVelocity(const BodyMotion& motion, const BodyMass& mass);
+
+/// Of one body: ½ m v² + ½ ω·L [J]; 0 for one that cannot be moved.
+double kineticEnergy(const BodyMotion& motion, const BodyMass& mass);
+
+}  // namespace scree

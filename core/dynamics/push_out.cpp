@@ -1,0 +1,150 @@
+// Symbols: J first-order impulse [kg m], K collision matrix, f fraction of the depth removed now.
+#include "core/dynamics/push_out.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/dynamics/contact_point.h"
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+constexpr double kMostTurn = 0.1;  // per push [rad]
+
+/// The share of a push that keeps a body within the limits of one push.
+double admissibleShare(const Shape& shape, const Vec3& shift, const Vec3& turn)
+{
+    const double longest = 0.5 * shape.innerThickness;
+    double share = 1.0;
+    if (shift.norm() > longest) share = std::min(share, longest / shift.norm());
+    if (turn.norm() > kMostTurn) share = std::min(share, kMostTurn / turn.norm());
+    return share;
+}
+
+struct Push {
+    Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();
+};
+
+Push pushFrom(const PassInertia& inertia, const Vec3& r, const Vec3& impulse)
+{
+    if (!inertia.isMovable()) return {};
+    return {inertia.inverseMass * impulse, inertia.inverseInertia * r.cross(impulse)};
+}
+
+void move(BodyMotion& motion, const Push& push)
+{
+    motion.position += push.shift;
+    motion.orientation = rotated(motion.orientation, push.turn);
+}
+
+/// One push at the deepest overlap of the pair. False when nothing overlaps.
+bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen, double fraction,
+              PushOutTally& tally)
+{
+    const auto [a, b] = pair.bodies;
+    const auto inertiaOf = [&](BodyId body) {
+        return isFrozen[body] ? PassInertia{}
+                              : passInertia(world.mass[body], world.motion[body].orientation);
+    };
+    const PassInertia inertiaA = inertiaOf(a), inertiaB = inertiaOf(b);
+    if (!inertiaA.isMovable() && !inertiaB.isMovable()) return false;
+
+    thread_local std::vector<Touch> touches;
+    touches.clear();
+    const Pose poseA = world.motion[a].worldFromBody(), poseB = world.motion[b].worldFromBody();
+    pair.proximity.findTouches(placePair(world, pair, poseA, poseB), pair.tau, touches);
+    const auto deepest = std::min_element(touches.begin(), touches.end(), isDeeper);
+    if (deepest == touches.end() || deepest->phi >= 0.0) return false;
+
+    const ContactPoint contact = placeContact(world, pair, *deepest, poseA, poseB,
+                                              inertiaA.inverseInertia, inertiaB.inverseInertia);
+    const PassInertia& inertiaS = deepest->sampleOnA ? inertiaA : inertiaB;
+    const PassInertia& inertiaF = deepest->sampleOnA ? inertiaB : inertiaA;
+    const Mat3 k = collisionMatrix(inertiaS, contact.rS) + collisionMatrix(inertiaF, contact.rF);
+    const Eigen::LLT<Mat3> cholesky(k);
+    if (cholesky.info() != Eigen::Success) return false;
+    const Vec3 impulse = cholesky.solve(-fraction * deepest->phi * contact.normal);
+
+    Push ofS = pushFrom(inertiaS, contact.rS, impulse);
+    Push ofF = pushFrom(inertiaF, contact.rF, -impulse);
+    const double share =
+        std::min(inertiaS.isMovable()
+                     ? admissibleShare(world.shapeOf(contact.sampleBody), ofS.shift, ofS.turn)
+                     : 1.0,
+                 inertiaF.isMovable()
+                     ? admissibleShare(world.shapeOf(contact.fieldBody), ofF.shift, ofF.turn)
+                     : 1.0);
+    ++tally.pushes;
+    tally.cut += share < 1.0;
+    for (Push* push : {&ofS, &ofF}) {
+        push->shift *= share;
+        push->turn *= share;
+    }
+    if (inertiaS.isMovable()) move(world.motion[contact.sampleBody], ofS);
+    if (inertiaF.isMovable()) move(world.motion[contact.fieldBody], ofF);
+    return true;
+}
+
+}  // namespace
+
+PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const StepSettings& settings,
+                              StepScratch& scratch)
+{
+    std::vector<char> isFrozen(world.bodyCount(), 0);
+    PushOutTally tally;
+    for (const ContactLevel& level : graph.overlap) {
+        std::vector<PushOutTally> tallies(level.islandEnds.size());
+        parallelFor(tallies.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t island = begin; island < end; ++island) {
+                const std::size_t first = island == 0 ? 0 : level.islandEnds[island - 1];
+                for (int l = 1; l <= settings.pushOutLevelIterations; ++l) {
+                    const double fraction =
+                        static_cast<double>(l) / settings.pushOutLevelIterations;
+                    for (std::size_t place = first; place < level.islandEnds[island]; ++place) {
+                        PairRecord& pair = scratch.pairs[level.pairs[place]];
+                        for (int n = 0; n < settings.pushOutPairImpulses; ++n) {
+                            if (!pushOnce(world, pair, isFrozen, fraction, tallies[island])) break;
+                        }
+                    }
+                }
+            }
+        });
+        for (const PushOutTally& island : tallies) {
+            tally.pushes += island.pushes;
+            tally.cut += island.cut;
+        }
+        for (BodyId body : level.supportedBodies) isFrozen[body] = 1;
+    }
+    return tally;
+}
+
+DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch)
+{
+    std::vector<double> deepest(scratch.pairCount, 0.0);
+    parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
+        thread_local std::vector<Touch> touches;
+        for (std::size_t i = begin; i < end; ++i) {
+            PairRecord& pair = scratch.pairs[i];
+            if (!pair.isTouched) continue;
+            touches.clear();
+            pair.proximity.findTouches(
+                placePair(world, pair, world.motion[pair.bodies.a].worldFromBody(),
+                          world.motion[pair.bodies.b].worldFromBody()),
+                pair.tau, touches);
+            for (const Touch& touch : touches) deepest[i] = std::max(deepest[i], -touch.phi);
+        }
+    });
+    DeepestOverlap result;
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        if (deepest[i] <= result.depth) continue;
+        result = {deepest[i], scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b};
+    }
+    return result;
+}
+
+}  // namespace scree

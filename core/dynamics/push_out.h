@@ -1,0 +1,27 @@
+// Optional last phase: first-order separation of what still overlaps. Changes positions and
+// orientations only.  [GBF03 “Shock Propagation”, last paragraph], [A52]
+#pragma once
+
+#include "core/dynamics/contact_graph.h"
+#include "core/dynamics/scratch.h"
+
+namespace scree {
+
+struct PushOutTally {
+    std::int64_t pushes = 0;
+    std::int64_t cut = 0;  ///< longer than half the inner thickness, or turning more than 0.1 rad
+};
+
+/// Pushes apart level by level, a growing fraction of the depth at a time; finished levels stay
+/// put.
+PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const StepSettings& settings,
+                              StepScratch& scratch);
+
+/// The deepest interference below 0 of any touching pair where the bodies are now.
+struct DeepestOverlap {
+    double depth = 0.0;  ///< [m], ≥ 0
+    BodyId a = -1, b = -1;
+};
+DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch);
+
+}  // namespace scree

@@ -1,0 +1,22 @@
+// How long a step may be. The method detects nothing between positions, so bodies that may meet
+// must not pass a good part of the thinner one in a step.  [A16]
+#pragma once
+
+#include "core/diagnostics/step_report.h"
+#include "core/dynamics/scratch.h"
+
+namespace scree {
+
+struct StepLength {
+    double dt = 0.0;  ///< [s]
+    StepLimit limitedBy = StepLimit::frame;
+    BodyId body = -1;         ///< who asks for it
+    bool capReached = false;  ///< the limit of steps a frame forbids what the motion asks for
+};
+
+/// The next of the equal steps that fill what remains of the frame. scratch.pairs must hold the
+/// pairs whose boxes, swept over the rest of the frame, meet.
+StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
+                      double remaining, const StepScratch& scratch);
+
+}  // namespace scree

@@ -1,0 +1,249 @@
+#include "core/dynamics/stepper.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/base/random.h"
+#include "core/diagnostics/state_hash.h"
+#include "core/dynamics/collision_pass.h"
+#include "core/dynamics/contact_graph.h"
+#include "core/dynamics/contact_pass.h"
+#include "core/dynamics/integrator.h"
+#include "core/dynamics/push_out.h"
+#include "core/dynamics/scratch.h"
+#include "core/dynamics/step_limit.h"
+
+namespace scree {
+namespace {
+
+/// Adds the wall time of a scope to one phase of a report.
+class PhaseTimer {
+public:
+    PhaseTimer(StepReport& report, Phase phase)
+        : seconds_(report.seconds[static_cast<int>(phase)]), start_(Clock::now())
+    {
+    }
+    ~PhaseTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    PhaseTimer(const PhaseTimer&) = delete;
+    PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_;
+};
+
+/// As many swaps as there are bodies, each drawn for this very step: no draw depends on those
+/// before it, so a resumed run draws the same.  [A21]
+void shuffleOrder(World& world, std::uint64_t seed)
+{
+    const std::uint64_t count = world.order.size();
+    const auto frame = static_cast<std::uint64_t>(world.clock.frame);
+    const auto subStep = static_cast<std::uint64_t>(world.clock.subStep);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const std::uint64_t p = randomIndex(count, seed, frame, subStep, 2 * i);
+        const std::uint64_t q = randomIndex(count, seed, frame, subStep, 2 * i + 1);
+        std::swap(world.order[p], world.order[q]);
+    }
+}
+
+double potentialEnergy(const World& world, const Vec3& gravity)
+{
+    double energy = 0.0;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (!world.mass[b].isMovable()) continue;
+        energy -= gravity.dot(world.motion[b].position) / world.mass[b].inverseMass;
+    }
+    return energy;
+}
+
+void findNonFinite(const World& world, Phase phase, StepReport& report)
+{
+    if (!report.nonFinite.empty()) return;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        const BodyMotion& m = world.motion[b];
+        const bool isFinite = m.position.allFinite() && m.orientation.coeffs().allFinite() &&
+                              m.velocity.allFinite() && m.angularMomentum.allFinite();
+        if (!isFinite) report.nonFinite.push_back(static_cast<BodyId>(b));
+    }
+    report.nonFinitePhase = phase;
+}
+
+void describeGraph(const ContactGraph& graph, const StepScratch& scratch, StepReport& report)
+{
+    report.broadPairs = static_cast<std::int64_t>(scratch.pairCount);
+    report.contactPairs = graph.contactPairs;
+    report.levels = static_cast<int>(graph.contact.size());
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        report.touchingPairs += scratch.pairs[i].isTouched;
+    }
+    for (std::size_t l = 1; l < graph.contact.size(); ++l) {
+        report.largestLevel = std::max(report.largestLevel, graph.contact[l].bodies);
+    }
+}
+
+void addStep(const World& world, const StepReport& step, FrameReport& frame)
+{
+    StepReport& sum = frame.sum;
+    frame.shortestStep = frame.steps == 0 ? step.dt : std::min(frame.shortestStep, step.dt);
+    frame.longestStep = std::max(frame.longestStep, step.dt);
+    if (frame.steps == 0 || step.dt <= frame.shortestStep) sum.limitedBy = step.limitedBy;
+    ++frame.steps;
+    sum.dt += step.dt;
+    sum.broadPairs = std::max(sum.broadPairs, step.broadPairs);
+    sum.touchingPairs = std::max(sum.touchingPairs, step.touchingPairs);
+    sum.contactPairs = std::max(sum.contactPairs, step.contactPairs);
+    sum.levels = std::max(sum.levels, step.levels);
+    sum.largestLevel = std::max(sum.largestLevel, step.largestLevel);
+    sum.collisionImpulses += step.collisionImpulses;
+    sum.contactImpulses += step.contactImpulses;
+    sum.shockImpulses += step.shockImpulses;
+    sum.pushes += step.pushes;
+    sum.loopsAtTheirCap += step.loopsAtTheirCap;
+    sum.pushesCut += step.pushesCut;
+    sum.pushOutWork += step.pushOutWork;
+    sum.deepestBeforePushOut = std::max(sum.deepestBeforePushOut, step.deepestBeforePushOut);
+    if (step.deepestAfterPushOut > sum.deepestAfterPushOut) {
+        sum.deepestAfterPushOut = step.deepestAfterPushOut;
+        sum.deepestA = step.deepestA;
+        sum.deepestB = step.deepestB;
+        double smaller = 1e300;
+        for (BodyId body : {step.deepestA, step.deepestB}) {
+            const Shape& shape = world.shapeOf(body);
+            if (!shape.isPlane) smaller = std::min(smaller, shape.box.longestEdge());
+        }
+        frame.worstOverlapRatio =
+            std::max(frame.worstOverlapRatio, step.deepestAfterPushOut / smaller);
+    }
+    sum.nonFinite = step.nonFinite;
+    sum.nonFinitePhase = step.nonFinitePhase;
+    for (std::size_t p = 0; p < sum.seconds.size(); ++p) sum.seconds[p] += step.seconds[p];
+}
+
+void describeState(const World& world, const Vec3& gravity, FrameReport& report)
+{
+    report.potentialEnergy = potentialEnergy(world, gravity);
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (!world.mass[b].isMovable()) continue;
+        ++report.bodiesAwake;
+        report.kineticEnergy += kineticEnergy(world.motion[b], world.mass[b]);
+        report.momentum += world.motion[b].velocity / world.mass[b].inverseMass;
+    }
+    report.stateHash = stateHash(world);
+}
+
+}  // namespace
+
+Stepper::Stepper(const StepSettings& settings)
+    : settings_(settings), scratch_(std::make_unique<StepScratch>())
+{
+}
+
+Stepper::~Stepper() = default;
+
+StepReport Stepper::step(World& world, double dt)
+{
+    findPairs(world, settings_, dt, *scratch_);
+    return stepFoundPairs(world, dt);
+}
+
+StepReport Stepper::stepFoundPairs(World& world, double dt)
+{
+    StepReport report;
+    report.dt = dt;
+    StepScratch& scratch = *scratch_;
+    shuffleOrder(world, settings_.seed);
+    beginStep(world, settings_, dt, scratch);
+
+    // Collisions are found at predicted positions but change velocities that have not yet felt
+    // gravity. A block at rest is therefore never mistaken for one that just landed.
+    {
+        const PhaseTimer timer(report, Phase::collision);
+        report.collisionImpulses =
+            resolveCollisions(world, settings_, dt, scratch, report.loopsAtTheirCap);
+    }
+    findNonFinite(world, Phase::collision, report);
+
+    ContactGraph graph;
+    {
+        const PhaseTimer timer(report, Phase::contactGraph);
+        graph = buildContactGraph(world, settings_, dt, scratch);
+    }
+    addGravity(world, settings_, dt);
+    {
+        const PhaseTimer timer(report, Phase::contact);
+        report.contactImpulses =
+            resolveContacts(world, graph, settings_, dt, scratch, report.loopsAtTheirCap);
+    }
+    findNonFinite(world, Phase::contact, report);
+    if (settings_.shockPropagation) {
+        const PhaseTimer timer(report, Phase::shock);
+        report.shockImpulses =
+            propagateShock(world, graph, settings_, dt, scratch, report.loopsAtTheirCap);
+    }
+    findNonFinite(world, Phase::shock, report);
+    {
+        const PhaseTimer timer(report, Phase::position);
+        advancePositions(world, settings_, dt);
+    }
+    findNonFinite(world, Phase::position, report);
+    if (report.nonFinite.empty()) {
+        const PhaseTimer timer(report, Phase::pushOut);
+        report.deepestBeforePushOut = findDeepestOverlap(world, scratch).depth;
+        const double before = potentialEnergy(world, settings_.gravity);
+        if (settings_.pushOut) {
+            const PushOutTally tally = separateOverlaps(world, graph, settings_, scratch);
+            report.pushes = tally.pushes;
+            report.pushesCut = tally.cut;
+        }
+        report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
+        const DeepestOverlap deepest = findDeepestOverlap(world, scratch);
+        report.deepestAfterPushOut = deepest.depth;
+        report.deepestA = deepest.a;
+        report.deepestB = deepest.b;
+    }
+    findNonFinite(world, Phase::pushOut, report);
+
+    describeGraph(graph, scratch, report);
+    ++world.clock.subStep;
+    return report;
+}
+
+FrameReport Stepper::advanceFrame(World& world, double frameDuration,
+                                  const std::function<bool()>& stopRequested)
+{
+    FrameReport frame;
+    while (true) {
+        const double remaining = frameDuration - world.clock.frameTimeDone;
+        StepLength length;
+        StepReport limitReport;
+        {
+            const PhaseTimer timer(limitReport, Phase::stepLimit);
+            findPairs(world, settings_, remaining, *scratch_);
+            length = chooseStep(world, settings_, frameDuration, remaining, *scratch_);
+        }
+        StepReport report = stepFoundPairs(world, length.dt);
+        report.limitedBy = length.limitedBy;
+        report.seconds[static_cast<int>(Phase::stepLimit)] +=
+            limitReport.seconds[static_cast<int>(Phase::stepLimit)];
+        if (frame.steps == 0 || length.dt < frame.shortestStep) frame.fastestBody = length.body;
+        frame.substepCapReached = frame.substepCapReached || length.capReached;
+        addStep(world, report, frame);
+        world.clock.frameTimeDone += length.dt;
+        if (!report.nonFinite.empty()) break;
+
+        if (length.dt == remaining) {
+            world.clock = {world.clock.frame + 1, 0, 0.0};
+            break;
+        }
+        if (stopRequested && stopRequested()) {
+            frame.finished = false;
+            break;
+        }
+    }
+    describeState(world, settings_.gravity, frame);
+    return frame;
+}
+
+}  // namespace scree

@@ -1,0 +1,40 @@
+// One time step and one frame: the table of contents of this folder.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/diagnostics/step_report.h"
+#include "core/dynamics/settings.h"
+#include "core/scene/world.h"
+
+namespace scree {
+
+struct StepScratch;
+
+class Stepper {
+public:
+    explicit Stepper(const StepSettings& settings);
+    ~Stepper();
+
+    /// Advances the world by one time step of dt seconds.  [GBF03 “Time Integration”], [A17]
+    StepReport step(World& world, double dt);
+
+    /// Advances the world to the end of the frame that its clock stands in, in as many steps as the
+    /// limiter asks for [A16], and moves the clock on. `stopRequested` is asked between steps; when
+    /// it answers true the world stays between two sub-steps and a later call goes on from there
+    /// to the same bits.
+    FrameReport advanceFrame(World& world, double frameDuration,
+                             const std::function<bool()>& stopRequested = {});
+
+    const StepSettings& settings() const { return settings_; }
+
+private:
+    /// The step proper, with the pairs that may meet already in scratch.
+    StepReport stepFoundPairs(World& world, double dt);
+
+    StepSettings settings_;
+    std::unique_ptr<StepScratch> scratch_;
+};
+
+}  // namespace scree

@@ -1,0 +1,156 @@
+#include "core/geometry/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+constexpr double kSharpEdge = 40.0 * kPi / 180.0;  // [A6]
+constexpr int kLeastResolution = 48;               // [A4]
+constexpr int kMostResolution = 512;
+constexpr double kVoxelsPerThickness = 12.0;
+constexpr int kMarginCells = 4;  // around the mesh
+
+/// First percentile, by area, of the length of a ray from a face inward to the opposite wall; at
+/// most the shortest box edge.  [A16]
+double measureThickness(const TriMesh& mesh, const SurfaceRays& rays, const Aabb& box)
+{
+    struct Sample {
+        double thickness, area;
+    };
+    std::vector<Sample> samples;
+    double totalArea = 0.0;
+    const double below = 1e-5 * box.diagonal();
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        const Vec3 scaledNormal = (b - a).cross(c - a);
+        const double area = 0.5 * scaledNormal.norm();
+        const Vec3 inward = -scaledNormal.normalized();
+        const Vec3 origin = (a + b + c) / 3.0 + below * inward;
+        const auto hit = rays.firstHit(origin, inward, box.diagonal(), SurfaceRays::Facing::along);
+        if (!hit) continue;
+        samples.push_back({below + hit->distance, area});
+        totalArea += area;
+    }
+    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+        return a.thickness < b.thickness || (a.thickness == b.thickness && a.area < b.area);
+    });
+    double seen = 0.0;
+    for (const Sample& sample : samples) {
+        seen += sample.area;
+        if (seen >= 0.01 * totalArea) return std::min(sample.thickness, box.shortestEdge());
+    }
+    return box.shortestEdge();
+}
+
+/// Node spacing from the settings, or from the thickness.  [A4]
+double chooseSpacing(const std::string& name, const ShapeSettings& settings, const Aabb& box,
+                     double thickness)
+{
+    const double longest = box.longestEdge();
+    double spacing = std::min(thickness / kVoxelsPerThickness, longest / kLeastResolution);
+    if (settings.resolution) spacing = longest / *settings.resolution;
+    if (settings.voxel) spacing = *settings.voxel;
+    const double resolution = longest / spacing;
+    if (resolution > kMostResolution + 0.5) {
+        char text[320];
+        std::snprintf(
+            text, sizeof text,
+            "shape '%s': its thinnest wall of %.4g m needs a field of %.0f voxels along "
+            "its longest edge of %.4g m, more than the %d allowed; thicken the wall, split "
+            "the shape, or set sdf = { resolution = %d } and accept a coarser field",
+            name.c_str(), thickness, std::ceil(resolution), longest, kMostResolution,
+            kMostResolution);
+        throw Error(ErrorKind::badInput, text);
+    }
+    return spacing;
+}
+
+GridNodes layOutNodes(const Aabb& box, double spacing)
+{
+    // Nodes lie on the low faces of the box, and on the high ones where the edge is a multiple of
+    // h.
+    GridNodes nodes;
+    nodes.spacing = spacing;
+    nodes.origin = box.min - Vec3::Constant(kMarginCells * spacing);
+    for (int k = 0; k < 3; ++k) {
+        const double cells = std::ceil(box.size()[k] / spacing - 1e-9);
+        nodes.count[k] = static_cast<int>(cells) + 1 + 2 * kMarginCells;
+    }
+    return nodes;
+}
+
+}  // namespace
+
+std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
+                                            const ShapeSettings& settings)
+{
+    auto shape = std::make_shared<Shape>();
+    shape->name = name;
+    shape->assetMesh = assetMesh;
+    const TriMesh solid = mergeEqualPoints(assetMesh);
+    requireSolid(solid, name);
+    try {
+        shape->unitMass = massProperties(solid);
+    } catch (const Error& error) {
+        throw Error(error.kind(), "shape '" + name + "': " + error.what());
+    }
+
+    shape->bodyFromAsset = inverse(Pose{shape->unitMass.centre, shape->unitMass.meshFromPrincipal});
+    shape->mesh = transformed(solid, shape->bodyFromAsset);
+    for (Eigen::Index v = 0; v < shape->mesh.points.cols(); ++v) {
+        const Vec3 p = shape->mesh.points.col(v);
+        shape->box.include(p);
+        shape->boundingRadius = std::max(shape->boundingRadius, p.norm());
+    }
+
+    shape->rays = SurfaceRays(shape->mesh);
+    shape->innerThickness = measureThickness(shape->mesh, shape->rays, shape->box);
+    shape->usesTrueNormals =
+        settings.normals == NormalMode::trueNormals ||
+        (settings.normals == NormalMode::automatic && sharpestEdge(shape->mesh) > kSharpEdge);
+    const bool withEdges =
+        settings.edgeSamples.value_or(longestBentEdge(shape->mesh) > 0.5 * shape->innerThickness);
+    shape->samples = makeSurfaceSamples(shape->mesh, withEdges);
+
+    const double spacing = chooseSpacing(name, settings, shape->box, shape->innerThickness);
+    GridNodes nodes = layOutNodes(shape->box, spacing);
+    fillSignedDistance(shape->mesh, shape->rays, nodes);
+    shape->distance =
+        SignedDistance(shape->mesh, std::move(nodes), settings.field == FieldMode::refined);
+    return shape;
+}
+
+std::shared_ptr<const Shape> buildPlaneShape(const std::string& name)
+{
+    auto shape = std::make_shared<Shape>();
+    shape->name = name;
+    shape->isPlane = true;
+    shape->distance = SignedDistance::plane();
+    shape->box = Aabb::everything();
+    return shape;
+}
+
+Pose worldFromPlane(const Vec3& point, const Vec3& normal)
+{
+    // The shortest turn from +y to the normal; for opposite directions any half turn about x will
+    // do.
+    const Vec3 n = normal.normalized();
+    const Vec3 halfway = Vec3::UnitY() + n;
+    if (halfway.norm() < 1e-9) return {point, Quat(0.0, 1.0, 0.0, 0.0)};
+    const Vec3 axis = Vec3::UnitY().cross(n);
+    Quat q(1.0 + n.y(), axis.x(), axis.y(), axis.z());
+    q.normalize();
+    return {point, q};
+}
+
+}  // namespace scree

@@ -1,0 +1,75 @@
+// A shape: everything that many bodies share. Mesh and distance field describe the same solid in
+// the object frame, whose origin is the centre of mass and whose axes are principal.  [A1–A6]
+//
+// The mesh supplies sample points, true normals and mass; the field supplies inside tests, depth
+// and smooth normals. A plane is a shape too: an exact half space without samples, volume or box.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/geometry/mass_properties.h"
+#include "core/geometry/signed_distance.h"
+#include "core/geometry/surface_rays.h"
+#include "core/geometry/surface_samples.h"
+#include "core/geometry/tri_mesh.h"
+#include "core/math/aabb.h"
+
+namespace scree {
+
+/// Where contact normals come from.  [A5, A6]
+enum class NormalMode {
+    automatic,    ///< true when any edge is sharper than 40°, else smooth
+    smooth,       ///< gradient of the distance field
+    trueNormals,  ///< of the mesh, by ray casts along that gradient
+};
+
+/// What decides inside and depth near the surface.  [A4]
+enum class FieldMode {
+    refined,  ///< exact distance to the mesh
+    grid,     ///< the trilinear field alone, as in the paper
+};
+
+struct ShapeSettings {
+    std::optional<int> resolution;  ///< voxels along the longest box edge; default from thickness
+    std::optional<double> voxel;    ///< [m], instead of resolution
+    NormalMode normals = NormalMode::automatic;
+    FieldMode field = FieldMode::refined;
+    std::optional<bool>
+        edgeSamples;  ///< [A8]; otherwise on when edges are long against the thickness
+};
+
+struct Shape {
+    std::string name;
+    bool isPlane = false;
+
+    TriMesh assetMesh;        ///< as the artist made it, scale baked in [m]; empty for a plane
+    Pose bodyFromAsset;       ///< object frame from the artist's frame
+    MassProperties unitMass;  ///< for density 1 kg/m³, in the object frame
+
+    TriMesh mesh;                 ///< in the object frame [m]
+    Aabb box;                     ///< of the mesh, object frame
+    double boundingRadius = 0.0;  ///< of the mesh about the centre of mass [m]
+    double innerThickness = 0.0;  ///< first percentile of the inscribed-ball diameter [m]  [A16]
+    bool usesTrueNormals = false;
+
+    SignedDistance distance;  ///< grid, exact refinement, or plane
+    SurfaceSamples samples;   ///< empty for a plane
+    SurfaceRays rays;         ///< empty for a plane
+};
+
+/// Builds mass, field, samples and rays from a closed mesh in the artist's frame, lengths in
+/// metres. Throws Error{badInput} naming `name` when the mesh is not a solid [A1], has no volume
+/// [A2] or is too thin for the largest allowed resolution, 512 [A4]: the message says which would
+/// do.
+std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
+                                            const ShapeSettings& settings = {});
+
+/// The half space below the plane through its own origin with normal +y; exact.  [A9]
+std::shared_ptr<const Shape> buildPlaneShape(const std::string& name);
+
+/// Pose of a plane body: its origin at `point`, its +y along `normal` (not zero).
+Pose worldFromPlane(const Vec3& point, const Vec3& normal);
+
+}  // namespace scree

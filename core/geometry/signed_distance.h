@@ -1,0 +1,91 @@
+// Signed distance to a solid: a dense grid of nodes, and near the surface the mesh itself.  [A4,
+// A5]
+//
+// A trilinear grid rounds edges: where a box's true distance is 0 it reads +h/4 at an edge and +0.4
+// h at a corner, and a stack of ten cubes on such a field falls over at any affordable resolution.
+// So the grid only filters. Its nodes are exact and distance is 1-Lipschitz, hence the interpolated
+// value is off by at most the distance to the farthest corner that has weight, √3/2 h: wherever it
+// reads less than that, the true distance is computed from the few triangles that can be closest in
+// that cell.
+//
+// Cost measured on the 320-triangle ring: grid 10 ns, refined 40–90 ns a point.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/level_set_build.h"
+#include "core/geometry/triangle_distance.h"
+#include "core/math/aabb.h"
+
+namespace scree {
+
+class SignedDistance {
+public:
+    SignedDistance() = default;
+
+    /// The half space y < 0, exact everywhere.  [A9]
+    static SignedDistance plane();
+
+    /// From a solid mesh and its filled lattice. `refined` switches the exact distance near the
+    /// surface on; without it values are purely trilinear, as in the paper.
+    SignedDistance(const TriMesh& mesh, GridNodes nodes, bool refined);
+
+    bool isPlane() const { return isPlane_; }
+    double spacing() const { return nodes_.spacing; }
+    const Aabb& domain() const { return domain_; }
+
+    /// Signed distance [m]: this decides inside, depth and rank.
+    double value(const Vec3& point) const;
+
+    /// Trilinear value; outside the domain the clamped value plus the way there, an upper bound.
+    double gridValue(const Vec3& point) const;
+
+    /// True when nothing of the solid can lie within `radius` of the point: a filter that may say
+    /// no too often but never yes wrongly.
+    bool isClearOf(const Vec3& point, double radius) const;
+
+    /// Gradient of the trilinear field by central differences over one spacing, not normalised; at
+    /// the clamped point when outside the domain. Short (< 0.1) near the medial axis.  [A5]
+    Vec3 gridGradient(const Vec3& point) const;
+
+    /// The exact signed distance and where it is reached, from the triangles of the cell; only for
+    /// points where |gridValue| < refinementBand().
+    struct Exact {
+        double value;
+        Vec3 closest;
+    };
+    Exact exact(const Vec3& point) const;
+    double refinementBand() const { return band_; }
+
+    /// A face that passes within `tolerance` of a point, with the angle it spans there: half
+    /// a turn, or the corner's own angle at a corner [rad].
+    struct NearFace {
+        Vec3 normal;
+        double angle;
+    };
+    /// Appends the faces of the cell that pass within `tolerance` of the point (at most a few).
+    void facesNear(const Vec3& point, double tolerance, std::vector<NearFace>& faces) const;
+
+private:
+    struct Face {
+        Vec3 corner[3];
+        double angle[3];
+        Vec3 normal[7];  // by TriangleFeature: angle-weighted at corners, summed at edges, face
+    };
+
+    void buildFaces(const TriMesh& mesh);
+    void buildCandidates();
+    std::size_t cellIndex(const Vec3& pointInDomain) const;
+
+    bool isPlane_ = false;
+    GridNodes nodes_;
+    Aabb domain_;        // of the nodes
+    Aabb surfaceBox_;    // of the mesh
+    double band_ = 0.0;  // 0: never refine
+    std::vector<Face> faces_;
+    std::vector<std::uint32_t> candidateStart_;  // #cells + 1
+    std::vector<std::uint32_t> candidates_;  // triangles that can be closest somewhere in the cell
+};
+
+}  // namespace scree

@@ -1,0 +1,52 @@
+// A binary tree of bounding spheres over things that have bounding spheres (points, edges).  [A13]
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/types.h"
+
+namespace scree {
+
+struct Sphere {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0.0;
+};
+
+class SphereTree {
+public:
+    SphereTree() = default;
+    /// Splits at the median of the longest axis until at most 8 things are left; the same input
+    /// gives the same tree everywhere.
+    explicit SphereTree(std::span<const Sphere> things);
+
+    /// Calls leaf(thing) for every thing below nodes that prune(centre, radius) does not reject.
+    template <class Prune, class Leaf>
+    void visit(const Prune& prune, const Leaf& leaf) const
+    {
+        for (std::size_t n = 0; n < nodes_.size();) {
+            const Node& node = nodes_[n];
+            if (prune(node.sphere.centre, node.sphere.radius)) {
+                n = node.next;
+                continue;
+            }
+            for (std::uint32_t i = node.begin; i < node.end; ++i) leaf(things_[i]);
+            ++n;
+        }
+    }
+
+private:
+    struct Node {
+        Sphere sphere;
+        std::uint32_t begin = 0, end = 0;  // things of a leaf; empty for an inner node
+        std::uint32_t next = 0;  // the node after this whole subtree, in depth-first order
+    };
+
+    void build(std::span<const Sphere> things, std::uint32_t begin, std::uint32_t end);
+
+    std::vector<Node> nodes_;  // depth-first
+    std::vector<std::uint32_t> things_;
+};
+
+}  // namespace scree

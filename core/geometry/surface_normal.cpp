@@ -1,0 +1,102 @@
+// Symbols: phi signed distance, h node spacing of the field.
+#include "core/geometry/surface_normal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace scree {
+namespace {
+
+/// Below this length of the gradient the point lies near the medial axis and the field has no say.
+/// [A5]
+constexpr double kMedialAxis = 0.1;
+
+/// Within this fraction of h of two faces, a hit counts as a hit of their edge. [A6]
+constexpr double kEdgeHit = 1e-3;
+
+Vec3 triangleNormal(const TriMesh& mesh, int triangle)
+{
+    const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
+    const Vec3 b = mesh.points.col(mesh.triangles(1, triangle));
+    const Vec3 c = mesh.points.col(mesh.triangles(2, triangle));
+    return (b - a).cross(c - a).normalized();
+}
+
+Vec3 closestPoint(const TriMesh& mesh, int triangle, const Vec3& point)
+{
+    return closestOnTriangle(point, mesh.points.col(mesh.triangles(0, triangle)),
+                             mesh.points.col(mesh.triangles(1, triangle)),
+                             mesh.points.col(mesh.triangles(2, triangle)))
+        .point;
+}
+
+/// Away from the solid, whichever side the point is on; the face's normal when it lies on the
+/// surface.
+Vec3 directionFromClosest(const Shape& shape, const Vec3& point)
+{
+    const int triangle = shape.rays.closestTriangle(point);
+    const Vec3 away = point - closestPoint(shape.mesh, triangle, point);
+    const double distance = away.norm();
+    if (distance < 1e-9 * shape.boundingRadius) return triangleNormal(shape.mesh, triangle);
+    return (shape.distance.value(point) < 0.0 ? -1.0 : 1.0) / distance * away;
+}
+
+/// Faces that meet at a hit share it by angle and by how fast the other body runs into them.
+///
+/// Departs from A6, which averages by angle unless a face is separating: a block at rest runs into
+/// the faces beside its corners with 1e-12 m/s of rounding, and half of a sideways normal from that
+/// throws it about. Weighted by speed the rule is the same for the clear cases and continuous
+/// between.
+Vec3 sharedNormal(const std::vector<SignedDistance::NearFace>& faces, const Vec3& approach,
+                  const Vec3& hitNormal)
+{
+    Vec3 bySpeed = Vec3::Zero(), byAngle = Vec3::Zero();
+    for (const SignedDistance::NearFace& face : faces) {
+        bySpeed += face.angle * std::max(0.0, -approach.dot(face.normal)) * face.normal;
+        byAngle += face.angle * face.normal;
+    }
+    for (const Vec3& sum : {bySpeed, byAngle}) {
+        const double length = sum.norm();
+        if (length > 1e-12 * (1.0 + approach.norm())) return sum / length;
+    }
+    return hitNormal;
+}
+
+Vec3 trueNormal(const Shape& shape, const Vec3& point, const Vec3& outward, const Vec3& approach)
+{
+    const double phi = shape.distance.value(point);
+    const double reach = std::abs(phi) + 2.0 * std::sqrt(3.0) * shape.distance.spacing();
+
+    // Start a little behind the point, so that a point lying on the surface still sees it ahead.
+    const bool inside = phi < 0.0;
+    const Vec3 direction = inside ? outward : Vec3(-outward);
+    const double behind = 1e-2 * shape.distance.spacing();
+    const auto facing = inside ? SurfaceRays::Facing::along : SurfaceRays::Facing::against;
+    const Vec3 origin = point - behind * direction;
+    const auto hit = shape.rays.firstHit(origin, direction, behind + reach, facing);
+
+    const int triangle = hit ? hit->triangle : shape.rays.closestTriangle(point);
+    const Vec3 place =
+        hit ? Vec3(origin + hit->distance * direction) : closestPoint(shape.mesh, triangle, point);
+    const Vec3 normal = triangleNormal(shape.mesh, triangle);
+
+    thread_local std::vector<SignedDistance::NearFace> faces;
+    faces.clear();
+    shape.distance.facesNear(place, kEdgeHit * shape.distance.spacing(), faces);
+    return faces.size() > 1 ? sharedNormal(faces, approach, normal) : normal;
+}
+
+}  // namespace
+
+Vec3 surfaceNormal(const Shape& shape, const Vec3& point, const Vec3& approach)
+{
+    if (shape.isPlane) return Vec3::UnitY();
+    const Vec3 gradient = shape.distance.gridGradient(point);
+    const double length = gradient.norm();
+    const Vec3 outward =
+        length < kMedialAxis ? directionFromClosest(shape, point) : Vec3(gradient / length);
+    return shape.usesTrueNormals ? trueNormal(shape, point, outward, approach) : outward;
+}
+
+}  // namespace scree

@@ -1,0 +1,41 @@
+// Rays and closest points on a mesh, by Embree. It answers with triangles; positions and normals
+// are computed here in double precision, so that single precision only ever decides ties.  [A6]
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/geometry/tri_mesh.h"
+
+namespace scree {
+
+class SurfaceRays {
+public:
+    SurfaceRays();
+    /// Keeps its own copy of what it needs of the mesh. The build is single-threaded and uses one
+    /// instruction set on every machine, for equal bits.
+    explicit SurfaceRays(const TriMesh& mesh);
+    ~SurfaceRays();
+    SurfaceRays(SurfaceRays&&) noexcept;
+    SurfaceRays& operator=(SurfaceRays&&) noexcept;
+
+    enum class Facing { any, along, against };  ///< sign of (triangle normal · ray direction)
+
+    struct Hit {
+        int triangle = -1;
+        double distance = 0.0;  ///< along the unit direction [m]
+    };
+
+    /// The first triangle within `reach` that faces as asked.
+    std::optional<Hit> firstHit(const Vec3& origin, const Vec3& direction, double reach,
+                                Facing facing) const;
+
+    /// Index of the triangle closest to `point`.
+    int closestTriangle(const Vec3& point) const;
+
+private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace scree

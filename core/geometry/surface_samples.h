@@ -1,0 +1,35 @@
+// The points of a surface that are tested against other bodies: its vertices and, where edges are
+// long, the deepest points of its edges.  [A7, A8, A13]
+//
+// Sample ids are stable: vertex v has id v; the points found on edge e have ids #V + 3 e + 0 … 2.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/sphere_tree.h"
+#include "core/geometry/tri_mesh.h"
+
+namespace scree {
+
+struct SurfaceSamples {
+    Points vertices;                        // 3×#V, object frame
+    std::vector<std::array<int, 2>> edges;  // vertex indices; empty when edges are not sampled
+    std::vector<double> edgeLengths;        // [m]
+    SphereTree vertexTree, edgeTree;
+
+    bool isEmpty() const { return vertices.cols() == 0; }
+};
+
+/// Samples of a mesh without equal points. Edges inside a flat region are left out: what touches
+/// the region there, touches it with a vertex or an edge of its own.
+SurfaceSamples makeSurfaceSamples(const TriMesh& mesh, bool withEdges);
+
+/// The sharpest dihedral angle of the mesh, as the angle between the two normals [rad].
+double sharpestEdge(const TriMesh& mesh);
+
+/// Of the edges that would be sampled: those between faces that do not lie in one plane [m].
+double longestBentEdge(const TriMesh& mesh);
+
+}  // namespace scree

@@ -1,0 +1,48 @@
+// What those who show or store a scene need of it: names, meshes as the artist made them, and poses
+// of the artist's own frames. It is the one language that simulation, writers and pictures share;
+// looks and cameras are not in it.
+//
+// Lengths are in the shot's unit of length, axes are the shot's axes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/math/types.h"
+
+namespace scree {
+
+/// A mesh in the artist's frame, shared by many bodies.
+struct SceneMesh {
+    std::string name;
+    Points points;        // 3×#V
+    Triangles triangles;  // 3×#F
+};
+
+struct SceneBody {
+    std::string name;      ///< identifier, unique in the scene
+    std::size_t mesh = 0;  ///< index into SceneDescription::meshes
+    std::string material;  ///< name of its material
+    double mass = 0.0;     ///< [kg], 0 for bodies that cannot be moved
+    bool moves = true;     ///< false: the pose of the first frame holds for all
+};
+
+struct SceneDescription {
+    std::string name;  ///< identifier; top-level object of every export
+    double framesPerSecond = 24.0;
+    double metresPerUnit = 1.0;  ///< length of one unit [m]
+    bool zUp = false;            ///< the shot's up axis is z instead of y
+    std::vector<SceneMesh> meshes;
+    std::vector<SceneBody> bodies;
+};
+
+/// One sample of the motion: everything parallel to SceneDescription::bodies.
+struct SceneFrame {
+    int frame = 1001;
+    std::vector<Pose> worldFromAsset;
+    std::vector<Vec3> velocity;         ///< of the asset's origin, units per second
+    std::vector<Vec3> angularVelocity;  ///< world axes [rad/s]
+};
+
+}  // namespace scree

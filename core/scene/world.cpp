@@ -1,0 +1,67 @@
+#include "core/scene/world.h"
+
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+
+namespace scree {
+
+ShapeId World::addShape(std::shared_ptr<const Shape> shape)
+{
+    shapes_.push_back(std::move(shape));
+    return static_cast<ShapeId>(shapes_.size()) - 1;
+}
+
+MaterialId World::addMaterial(Material material)
+{
+    materials_.push_back(std::move(material));
+    return static_cast<MaterialId>(materials_.size()) - 1;
+}
+
+BodyId World::addBody(const BodyDefinition& definition)
+{
+    SCREE_CHECK(definition.shape >= 0 && definition.shape < static_cast<int>(shapes_.size()),
+                definition.name);
+    SCREE_CHECK(
+        definition.material >= 0 && definition.material < static_cast<int>(materials_.size()),
+        definition.name);
+    const Shape& shape = *shapes_[definition.shape];
+    const Pose worldFromBody = definition.worldFromAsset * inverse(shape.bodyFromAsset);
+    BodyMotion state;
+    state.position = worldFromBody.position;
+    state.orientation = worldFromBody.orientation.normalized();
+
+    BodyMass inertia;
+    if (definition.kind == BodyKind::dynamic) {
+        const double density = definition.mass ? *definition.mass / shape.unitMass.volume
+                                               : materials_[definition.material].density;
+        const double weight = density * shape.unitMass.volume;
+        if (shape.isPlane || !(weight > 0.0)) {
+            throw Error(ErrorKind::badInput,
+                        "body '" + definition.name + "' is dynamic but " +
+                            (shape.isPlane ? "a plane has no mass" : "its mass is not positive"));
+        }
+        const Vec3 moments = density * shape.unitMass.moments;
+        inertia.inverseMass = 1.0 / weight;
+        inertia.inverseInertia = moments.cwiseInverse();
+        state.velocity = definition.velocity;
+        const Mat3 rotation = state.orientation.toRotationMatrix();
+        state.angularMomentum =
+            rotation * moments.asDiagonal() * rotation.transpose() * definition.angularVelocity;
+    }
+
+    const auto id = static_cast<BodyId>(motion.size());
+    motion.push_back(state);
+    mass.push_back(inertia);
+    info.push_back({definition.name, definition.shape, definition.material, definition.kind});
+    order.push_back(id);
+    return id;
+}
+
+Pose World::worldFromAsset(BodyId body) const
+{
+    return motion[body].worldFromBody() * shapeOf(body).bodyFromAsset;
+}
+
+}  // namespace scree

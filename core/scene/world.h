@@ -1,0 +1,65 @@
+// The world: shapes, materials and bodies in parallel arrays, the order in which bodies are
+// processed, and the clock. motion, order and clock are everything that a step changes; saving and
+// restoring those three continues a simulation bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/shape.h"
+#include "core/scene/body.h"
+
+namespace scree {
+
+/// Where the simulation stands. A frame is simulated in sub-steps; a frame boundary has subStep = 0
+/// and frameTimeDone = 0.
+struct Clock {
+    std::int64_t frame = 0;      ///< frames since time zero: the frame reached or being left
+    std::int64_t subStep = 0;    ///< sub-steps done since that frame
+    double frameTimeDone = 0.0;  ///< time simulated since that frame [s]
+};
+
+/// What it takes to add a body. Pose and velocity are those of the asset: its own origin and axes
+/// place it, and the centre of mass is the solver's own business.
+struct BodyDefinition {
+    std::string name;
+    ShapeId shape = 0;
+    MaterialId material = 0;
+    BodyKind kind = BodyKind::dynamic;
+    Pose worldFromAsset;
+    Vec3 velocity = Vec3::Zero();         ///< of the centre of mass [m/s]
+    Vec3 angularVelocity = Vec3::Zero();  ///< world axes [rad/s]
+    std::optional<double> mass;           ///< [kg]; otherwise density × volume
+};
+
+class World {
+public:
+    ShapeId addShape(std::shared_ptr<const Shape> shape);
+    MaterialId addMaterial(Material material);
+
+    /// Throws Error{badInput} when a dynamic body has no volume (a plane) or a mass that is not >
+    /// 0.
+    BodyId addBody(const BodyDefinition& definition);
+
+    std::size_t bodyCount() const { return motion.size(); }
+    const Shape& shapeOf(BodyId body) const { return *shapes_[info[body].shape]; }
+    const Material& materialOf(BodyId body) const { return materials_[info[body].material]; }
+
+    /// The pose an artist would give the asset to stand where the body stands now.
+    Pose worldFromAsset(BodyId body) const;
+
+    std::vector<BodyMotion> motion;
+    std::vector<BodyMass> mass;
+    std::vector<BodyInfo> info;
+    std::vector<BodyId> order;  ///< a permutation of the bodies: the order of processing  [A21]
+    Clock clock;
+
+private:
+    std::vector<std::shared_ptr<const Shape>> shapes_;
+    std::vector<Material> materials_;
+};
+
+}  // namespace scree

@@ -1,0 +1,42 @@
+// Small worlds for experiments, and what is measured of them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/dynamics/settings.h"
+#include "core/geometry/shape.h"
+#include "core/math/rotation.h"
+#include "core/scene/world.h"
+
+namespace scree::test {
+
+/// Settings of the experiments: g = 9.8 m/s², seed 1.
+StepSettings experimentSettings();
+
+/// A body's friction and restitution are those of its pairs with everything else in these scenes.
+MaterialId addMaterial(World& world, double friction, double restitution, double density = 1.0);
+
+/// The half space under a plane through `point` with normal `normal`.
+BodyId addPlane(World& world, MaterialId material, const Vec3& point = Vec3::Zero(),
+                const Vec3& normal = Vec3::UnitY());
+
+/// A box of the given size with `segments` quads along each edge; built once for equal arguments.
+std::shared_ptr<const Shape> boxShape(const Vec3& size, int segments);
+
+BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
+               const Pose& worldFromAsset, double mass = 1.0, const Vec3& velocity = Vec3::Zero(),
+               const Vec3& angularVelocity = Vec3::Zero());
+
+/// Where a point of the asset is now.
+Vec3 worldPoint(const World& world, BodyId body, const Vec3& assetPoint);
+
+Vec3 angularVelocityOf(const World& world, BodyId body);
+
+/// Largest displacement of any vertex of the body between two worlds [m].
+double largestVertexShift(const World& before, const World& after, BodyId body);
+
+/// Kinetic plus potential energy of all movable bodies [J].
+double totalEnergy(const World& world, const StepSettings& settings);
+
+}  // namespace scree::test
