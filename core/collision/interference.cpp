@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace scree {
 namespace {
@@ -63,36 +62,49 @@ struct EdgeDepth {
     double t, phi;
 };
 
-/// The deepest point between two lattice points, by golden section.
-EdgeDepth deepestBetween(const SignedDistance& field, const EdgeInField& edge, double low,
-                         double high)
+/// Value and slope per lattice step of the field at a point of the edge.
+struct EdgeSlope {
+    double t, phi, slope;
+};
+
+EdgeSlope slopeAt(const SignedDistance& field, const EdgeInField& edge, double t)
 {
-    constexpr double kGolden = 0.61803398874989484820;
-    double t1 = high - kGolden * (high - low), t2 = low + kGolden * (high - low);
-    double phi1 = field.value(edge.at(t1)), phi2 = field.value(edge.at(t2));
-    for (int i = 0; i < 12; ++i) {
-        if (phi1 <= phi2) {
-            high = t2;
-            t2 = t1;
-            phi2 = phi1;
-            t1 = high - kGolden * (high - low);
-            phi1 = field.value(edge.at(t1));
-        } else {
-            low = t1;
-            t1 = t2;
-            phi1 = phi2;
-            t2 = low + kGolden * (high - low);
-            phi2 = field.value(edge.at(t2));
-        }
-    }
-    return phi1 <= phi2 ? EdgeDepth{t1, phi1} : EdgeDepth{t2, phi2};
+    const SignedDistance::Sloped sloped = field.sloped(edge.at(t));
+    return {t, sloped.value, sloped.gradient.dot(edge.alongStep)};
 }
 
-/// Appends the samples of one edge: its deepest point, or, where the depth is flat, the middle and
-/// the ends of the flat part. Nothing when an end point is inside (the vertex speaks for the edge
-/// then).
-void sampleEdge(const SignedDistance& field, const EdgeInField& edge, int first, int last,
-                double tau, std::vector<EdgeDepth>& found)
+/// The deepest point near lattice point k, where the field is taken as convex along the edge: tangents
+/// from both sides meet below the minimum, and where they meet is the next guess. For a crossing of
+/// two edges, whose depth is piecewise linear, two guesses do.
+EdgeDepth deepestNear(const SignedDistance& field, const EdgeInField& edge, int k, double tolerance)
+{
+    EdgeSlope low = slopeAt(field, edge, k);
+    EdgeSlope high = low;
+    if (low.slope < 0.0) {
+        high = slopeAt(field, edge, k + 1.0);
+        if (high.slope <= 0.0) return {high.t, high.phi};
+    } else {
+        low = slopeAt(field, edge, k - 1.0);
+        if (low.slope >= 0.0) return {low.t, low.phi};
+    }
+    EdgeDepth best = low.phi <= high.phi ? EdgeDepth{low.t, low.phi} : EdgeDepth{high.t, high.phi};
+    for (int i = 0; i < 10; ++i) {
+        const double width = high.t - low.t;
+        double t = low.t + (high.phi - low.phi - high.slope * width) / (low.slope - high.slope);
+        const double bound = low.phi + low.slope * (t - low.t);
+        if (best.phi - bound <= tolerance) break;
+        t = std::clamp(t, low.t + 0.01 * width, high.t - 0.01 * width);
+        const EdgeSlope middle = slopeAt(field, edge, t);
+        if (middle.phi < best.phi) best = {middle.t, middle.phi};
+        (middle.slope < 0.0 ? low : high) = middle;
+    }
+    return best;
+}
+
+/// Appends the samples of one edge: its deepest point, or, where the depth is flat, the middle and the
+/// ends of the flat part. Nothing when an end point is inside (the vertex speaks for the edge then).
+void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double tau,
+                std::vector<EdgeDepth>& found)
 {
     // Quick reject: distance is 1-Lipschitz along the edge.
     const double phiStart = field.value(edge.start), phiEnd = field.value(edge.at(edge.steps));
@@ -101,7 +113,7 @@ void sampleEdge(const SignedDistance& field, const EdgeInField& edge, int first,
 
     double bestPhi = tau + edge.stepLength;
     int best = -1;
-    for (int k = first; k <= last;) {
+    for (int k = 1 + stepsToSkip(phiStart - edge.stepLength, bestPhi, edge.stepLength); k < edge.steps;) {
         const double phi = field.value(edge.at(k));
         if (phi < bestPhi) {
             bestPhi = phi;
@@ -110,7 +122,7 @@ void sampleEdge(const SignedDistance& field, const EdgeInField& edge, int first,
         k += stepsToSkip(phi, bestPhi, edge.stepLength);
     }
     if (best < 0) return;
-    const EdgeDepth deepest = deepestBetween(field, edge, best - 1.0, best + 1.0);
+    const EdgeDepth deepest = deepestNear(field, edge, best, 1e-4 * field.spacing());
     if (deepest.phi >= tau) return;
 
     const double flat = kFlatDepth * field.spacing();
@@ -118,7 +130,7 @@ void sampleEdge(const SignedDistance& field, const EdgeInField& edge, int first,
         return k > 0 && k < edge.steps && std::abs(field.value(edge.at(k)) - deepest.phi) < flat;
     };
     int low = best, high = best;
-    if (isAsDeep(best)) {
+    if (std::abs(bestPhi - deepest.phi) < flat) {
         while (isAsDeep(low - 1)) --low;
         while (isAsDeep(high + 1)) ++high;
     }
@@ -132,19 +144,22 @@ void sampleEdge(const SignedDistance& field, const EdgeInField& edge, int first,
     }
 }
 
-/// The lattice points of an edge that are not provably clear of the field by `clearance`.
-std::optional<std::array<int, 2>> nearPart(const SignedDistance& field, const EdgeInField& edge,
-                                           double clearance)
+/// A lower bound of the field along the edge, exact to h/8 or above `enough`: where two points at
+/// distance s have values p and q, nothing between them is below (p + q − s)/2.
+double lowerBoundAlong(const SignedDistance& field, const EdgeInField& edge, double enough)
 {
-    int first = -1, last = -1;
-    for (int k = 1; k < edge.steps; ++k) {
-        // A point stands for the stretch up to its neighbours.
-        if (field.isClearOf(edge.at(k), clearance + edge.stepLength)) continue;
-        if (first < 0) first = k;
-        last = k;
+    const double finest = 0.125 * field.spacing() / edge.stepLength;  // in lattice steps
+    double bound = std::numeric_limits<double>::infinity();
+    double t = 0.0, phi = field.value(edge.start);
+    while (t < edge.steps) {
+        const double step = std::max(finest, (phi - enough) / edge.stepLength);
+        const double next = std::min(t + step, static_cast<double>(edge.steps));
+        const double phiNext = field.value(edge.at(next));
+        bound = std::min(bound, 0.5 * (phi + phiNext - (next - t) * edge.stepLength));
+        t = next;
+        phi = phiNext;
     }
-    if (first < 0) return std::nullopt;
-    return std::array<int, 2>{first, last};
+    return bound;
 }
 
 struct OneWay {
@@ -168,20 +183,18 @@ void touchVertex(const OneWay& way, std::int32_t v, double tau, std::vector<Touc
     if (phi < tau) touches.push_back({phi, v, way.sampleOnA, p});
 }
 
-void touchEdge(const OneWay& way, std::int32_t e, int first, int last, double tau,
-               std::vector<Touch>& touches)
+void touchEdge(const OneWay& way, std::int32_t e, double tau, std::vector<Touch>& touches)
 {
     const SurfaceSamples& samples = way.sampled.samples;
     const EdgeInField edge = placeEdge(samples, e, way.pose, way.field.distance);
     thread_local std::vector<EdgeDepth> found;
     found.clear();
-    sampleEdge(way.field.distance, edge, first, last, tau, found);
+    sampleEdge(way.field.distance, edge, tau, found);
     const auto [a, b] = samples.edges[e];
     const auto firstId = static_cast<std::int32_t>(samples.vertices.cols()) + 3 * e;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const double s = found[i].t / edge.steps;
-        const Vec3 p =
-            samples.vertices.col(a) + s * (samples.vertices.col(b) - samples.vertices.col(a));
+        const Vec3 p = samples.vertices.col(a) + s * (samples.vertices.col(b) - samples.vertices.col(a));
         touches.push_back({found[i].phi, firstId + static_cast<std::int32_t>(i), way.sampleOnA, p});
     }
 }
@@ -214,21 +227,26 @@ void Proximity::reset(double margin)
     isKnown_ = false;
 }
 
-void Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
+bool Proximity::isEmpty() const
+{
+    return ofA_.vertices.empty() && ofA_.edges.empty() && ofB_.vertices.empty() && ofB_.edges.empty();
+}
+
+double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
 {
     const std::array<OneWay, 2> ways = bothWays(pair);
     if (isKnown_) {
-        // No point of either body has moved farther in the other's frame than this.
+        // No point of either body has moved farther in the other's frame than this. A plane has no
+        // points, and a body's points move in its frame as they do in the world.
         const FieldFromSamples& now = ways[0].pose;
-        const auto radius = [](const Shape& shape) {
-            return shape.isPlane ? 0.0 : shape.boundingRadius;
+        const auto reach = [](const Shape& shape, double lever) {
+            return shape.isPlane ? 0.0 : shape.boundingRadius + lever;
         };
         const double turned = (now.rotation - rotation_).norm();
         const double moved = (now.translation - translation_).norm();
-        const double ofA = moved + turned * radius(*pair.shapeA);
-        const double ofB = moved + turned * (radius(*pair.shapeB) + now.translation.norm());
-        const bool planeB = pair.shapeB->isPlane;
-        if (std::max(ofA, planeB ? 0.0 : ofB) <= margin_) return;
+        const double travel = moved + turned * std::max(reach(*pair.shapeA, 0.0),
+                                                        reach(*pair.shapeB, now.translation.norm()));
+        if (travel <= margin_) return travel;
     }
     isKnown_ = true;
     rotation_ = ways[0].pose.rotation;
@@ -239,7 +257,7 @@ void Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
     }
 
     const double clearance = tau + margin_;
-    if (!boundingSpheresMeet(pair, clearance)) return;
+    if (!boundingSpheresMeet(pair, clearance)) return 0.0;
     for (const OneWay& way : ways) {
         NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
         const SignedDistance& field = way.field.distance;
@@ -247,48 +265,59 @@ void Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
             return field.isClearOf(way.pose * centre, radius + clearance);
         };
         way.sampled.samples.vertexTree.visit(isClear, [&](std::uint32_t v) {
-            if (!isClear(way.sampled.samples.vertices.col(v), 0.0)) {
-                near.vertices.push_back(static_cast<std::int32_t>(v));
-            }
+            const double atLeast = field.lowerBound(way.pose * way.sampled.samples.vertices.col(v));
+            if (atLeast < clearance) near.vertices.push_back({atLeast, static_cast<std::int32_t>(v)});
         });
-        if (!samplesEdges(way)) continue;
-        way.sampled.samples.edgeTree.visit(isClear, [&](std::uint32_t e) {
-            const auto id = static_cast<std::int32_t>(e);
-            const EdgeInField edge = placeEdge(way.sampled.samples, id, way.pose, field);
-            if (const auto part = nearPart(field, edge, clearance)) {
-                near.edges.push_back({id, (*part)[0], (*part)[1]});
-            }
-        });
+        if (samplesEdges(way)) {
+            way.sampled.samples.edgeTree.visit(isClear, [&](std::uint32_t e) {
+                const auto id = static_cast<std::int32_t>(e);
+                const EdgeInField edge = placeEdge(way.sampled.samples, id, way.pose, field);
+                const double atLeast = lowerBoundAlong(field, edge, clearance);
+                if (atLeast < clearance) near.edges.push_back({atLeast, id});
+            });
+        }
+        for (std::vector<NearSample>* samples : {&near.vertices, &near.edges}) {
+            std::sort(samples->begin(), samples->end(), [](const NearSample& p, const NearSample& q) {
+                return p.atLeast < q.atLeast || (p.atLeast == q.atLeast && p.index < q.index);
+            });
+        }
     }
+    return 0.0;
 }
 
 void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
 {
-    lookAgainIfMoved(pair, tau);
-    if (ofA_.vertices.empty() && ofA_.edges.empty() && ofB_.vertices.empty() &&
-        ofB_.edges.empty()) {
-        return;
-    }
+    const double reach = tau + lookAgainIfMoved(pair, tau);
+    if (isEmpty()) return;
     for (const OneWay& way : bothWays(pair)) {
         const NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
-        for (std::int32_t v : near.vertices) touchVertex(way, v, tau, touches);
-        for (const NearEdge& e : near.edges) touchEdge(way, e.edge, e.first, e.last, tau, touches);
+        for (const NearSample& v : near.vertices) {
+            if (v.atLeast >= reach) break;
+            touchVertex(way, v.index, tau, touches);
+        }
+        for (const NearSample& e : near.edges) {
+            if (e.atLeast >= reach) break;
+            touchEdge(way, e.index, tau, touches);
+        }
     }
 }
 
 bool Proximity::interferes(const PlacedPair& pair, double tau)
 {
-    lookAgainIfMoved(pair, tau);
+    const double reach = tau + lookAgainIfMoved(pair, tau);
+    if (isEmpty()) return false;
     thread_local std::vector<Touch> touches;
     touches.clear();
     for (const OneWay& way : bothWays(pair)) {
         const NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
-        for (std::int32_t v : near.vertices) {
-            touchVertex(way, v, tau, touches);
+        for (const NearSample& v : near.vertices) {
+            if (v.atLeast >= reach) break;
+            touchVertex(way, v.index, tau, touches);
             if (!touches.empty()) return true;
         }
-        for (const NearEdge& e : near.edges) {
-            touchEdge(way, e.edge, e.first, e.last, tau, touches);
+        for (const NearSample& e : near.edges) {
+            if (e.atLeast >= reach) break;
+            touchEdge(way, e.index, tau, touches);
             if (!touches.empty()) return true;
         }
     }
@@ -303,8 +332,7 @@ void findTouchesPlainly(const PlacedPair& pair, double tau, std::vector<Touch>& 
             touchVertex(way, v, tau, touches);
         if (!samplesEdges(way)) continue;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(samples.edges.size()); ++e) {
-            const EdgeInField edge = placeEdge(samples, e, way.pose, way.field.distance);
-            touchEdge(way, e, 1, edge.steps - 1, tau, touches);
+            touchEdge(way, e, tau, touches);
         }
     }
 }

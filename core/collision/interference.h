@@ -53,16 +53,18 @@ public:
     bool interferes(const PlacedPair& pair, double tau);
 
 private:
-    struct NearEdge {
-        std::int32_t edge;
-        std::int32_t first, last;  // lattice points of the edge that can matter
+    struct NearSample {
+        double atLeast;      // lower bound of its distance when looked at [m]
+        std::int32_t index;  // of the vertex or edge
     };
     struct NearSamples {
-        std::vector<std::int32_t> vertices;
-        std::vector<NearEdge> edges;
+        std::vector<NearSample> vertices, edges;  // closest first
     };
 
-    void lookAgainIfMoved(const PlacedPair& pair, double tau);
+    /// Makes the lists good for the pair as it is placed; answers how far it has moved since they were
+    /// made.
+    double lookAgainIfMoved(const PlacedPair& pair, double tau);
+    bool isEmpty() const;
 
     double margin_ = 0.0;
     bool isKnown_ = false;

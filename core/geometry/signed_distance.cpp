@@ -202,47 +202,66 @@ double SignedDistance::value(const Vec3& point) const
 {
     const double phi = gridValue(point);
     if (isPlane_ || std::abs(phi) >= band_) return phi;
-    return exact(point).value;
+    return exact(point);
+}
+
+double SignedDistance::lowerBound(const Vec3& point) const
+{
+    if (isPlane_) return point.y();
+    if (domain_.distanceTo(point) > 0.0) return surfaceBox_.distanceTo(point);
+    const double phi = gridValue(point);
+    return std::abs(phi) < band_ ? exact(point) : phi - kHalfDiagonal * nodes_.spacing;
 }
 
 bool SignedDistance::isClearOf(const Vec3& point, double radius) const
 {
     if (isPlane_) return point.y() > radius;
-    if (surfaceBox_.distanceTo(point) > radius) return true;
-    if (domain_.distanceTo(point) > 0.0) return false;  // there gridValue is no lower bound
-    const double phi = gridValue(point);
-    if (phi - kHalfDiagonal * nodes_.spacing > radius) return true;
-    return std::abs(phi) < band_ && exact(point).value > radius;
+    return surfaceBox_.distanceTo(point) > radius || lowerBound(point) > radius;
 }
 
-SignedDistance::Exact SignedDistance::exact(const Vec3& point) const
+SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point) const
 {
     const std::size_t cell = cellIndex(point);
-    double bestSquared = 1e300;
-    ClosestOnTriangle best{};
-    const Face* bestFace = nullptr;
+    Closest best{nullptr, TriangleFeature::face, Vec3::Zero(), 1e300};
     for (std::uint32_t i = candidateStart_[cell]; i < candidateStart_[cell + 1]; ++i) {
         const Face& face = faces_[candidates_[i]];
         // Nothing of a triangle is closer than its plane.
         const double height = face.normal[6].dot(point - face.corner[0]);
-        if (height * height >= bestSquared) continue;
+        if (height * height >= best.squaredDistance) continue;
         const ClosestOnTriangle closest =
             closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]);
         const double squared = (point - closest.point).squaredNorm();
-        if (squared < bestSquared) {
-            bestSquared = squared;
-            best = closest;
-            bestFace = &face;
-        }
+        if (squared < best.squaredDistance) best = {&face, closest.feature, closest.point, squared};
     }
-    SCREE_CHECK(bestFace != nullptr, "a cell near the surface has no triangles");
-    const Vec3& normal = bestFace->normal[static_cast<int>(best.feature)];
-    if (best.feature == TriangleFeature::face) {
-        // The plane's distance keeps its last bits where the square root of a square would not.
-        return {normal.dot(point - bestFace->corner[0]), best.point};
-    }
-    const double side = normal.dot(point - best.point);
-    return {std::copysign(std::sqrt(bestSquared), side), best.point};
+    SCREE_CHECK(best.face != nullptr, "a cell near the surface has no triangles");
+    return best;
+}
+
+double SignedDistance::signedValue(const Closest& closest, const Vec3& point)
+{
+    const Vec3& normal = closest.face->normal[static_cast<int>(closest.feature)];
+    // The plane's distance keeps its last bits where the square root of a square would not.
+    if (closest.feature == TriangleFeature::face) return normal.dot(point - closest.face->corner[0]);
+    return std::copysign(std::sqrt(closest.squaredDistance), normal.dot(point - closest.point));
+}
+
+double SignedDistance::exact(const Vec3& point) const
+{
+    return signedValue(closestInCell(point), point);
+}
+
+SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
+{
+    if (isPlane_) return {point.y(), Vec3::UnitY()};
+    const double grid = gridValue(point);
+    if (std::abs(grid) >= band_) return {grid, gridGradient(point)};
+    const Closest closest = closestInCell(point);
+    const double phi = signedValue(closest, point);
+    const Vec3& normal = closest.face->normal[static_cast<int>(closest.feature)];
+    const bool onSurface = std::abs(phi) < 1e-9 * nodes_.spacing;
+    if (closest.feature == TriangleFeature::face) return {phi, normal};
+    if (onSurface) return {phi, normal.normalized()};
+    return {phi, (point - closest.point) / phi};
 }
 
 void SignedDistance::facesNear(const Vec3& point, double tolerance,

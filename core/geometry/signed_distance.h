@@ -41,7 +41,10 @@ public:
     /// Trilinear value; outside the domain the clamped value plus the way there, an upper bound.
     double gridValue(const Vec3& point) const;
 
-    /// True when nothing of the solid can lie within `radius` of the point: a filter that may say
+    /// Never more than the true signed distance, and equal to it within the refinement band.
+    double lowerBound(const Vec3& point) const;
+
+    /// True when nothing of the solid can lie within `radius` of the point: a quick filter that may say
     /// no too often but never yes wrongly.
     bool isClearOf(const Vec3& point, double radius) const;
 
@@ -49,13 +52,17 @@ public:
     /// the clamped point when outside the domain. Short (< 0.1) near the medial axis.  [A5]
     Vec3 gridGradient(const Vec3& point) const;
 
-    /// The exact signed distance and where it is reached, from the triangles of the cell; only for
-    /// points where |gridValue| < refinementBand().
-    struct Exact {
+    /// Signed distance with its slope: the exact gradient (unit) near the surface, that of the trilinear
+    /// cell elsewhere.
+    struct Sloped {
         double value;
-        Vec3 closest;
+        Vec3 gradient;
     };
-    Exact exact(const Vec3& point) const;
+    Sloped sloped(const Vec3& point) const;
+
+    /// The exact signed distance, from the triangles of the cell; only for points where |gridValue| <
+    /// refinementBand().
+    double exact(const Vec3& point) const;
     double refinementBand() const { return band_; }
 
     /// A face that passes within `tolerance` of a point, with the angle it spans there: half
@@ -74,9 +81,18 @@ private:
         Vec3 normal[7];  // by TriangleFeature: angle-weighted at corners, summed at edges, face
     };
 
+    struct Closest {
+        const Face* face;
+        TriangleFeature feature;
+        Vec3 point;
+        double squaredDistance;
+    };
+
     void buildFaces(const TriMesh& mesh);
     void buildCandidates();
     std::size_t cellIndex(const Vec3& pointInDomain) const;
+    Closest closestInCell(const Vec3& point) const;
+    static double signedValue(const Closest& closest, const Vec3& point);
 
     bool isPlane_ = false;
     GridNodes nodes_;
