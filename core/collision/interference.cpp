@@ -73,9 +73,9 @@ EdgeSlope slopeAt(const SignedDistance& field, const EdgeInField& edge, double t
     return {t, sloped.value, sloped.gradient.dot(edge.alongStep)};
 }
 
-/// The deepest point near lattice point k, where the field is taken as convex along the edge: tangents
-/// from both sides meet below the minimum, and where they meet is the next guess. For a crossing of
-/// two edges, whose depth is piecewise linear, two guesses do.
+/// The deepest point near lattice point k, where the field is taken as convex along the edge:
+/// tangents from both sides meet below the minimum, and where they meet is the next guess. For a
+/// crossing of two edges, whose depth is piecewise linear, two guesses do.
 EdgeDepth deepestNear(const SignedDistance& field, const EdgeInField& edge, int k, double tolerance)
 {
     EdgeSlope low = slopeAt(field, edge, k);
@@ -101,8 +101,9 @@ EdgeDepth deepestNear(const SignedDistance& field, const EdgeInField& edge, int 
     return best;
 }
 
-/// Appends the samples of one edge: its deepest point, or, where the depth is flat, the middle and the
-/// ends of the flat part. Nothing when an end point is inside (the vertex speaks for the edge then).
+/// Appends the samples of one edge: its deepest point, or, where the depth is flat, the middle and
+/// the ends of the flat part. Nothing when an end point is inside (the vertex speaks for the edge
+/// then).
 void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double tau,
                 std::vector<EdgeDepth>& found)
 {
@@ -113,7 +114,8 @@ void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double tau
 
     double bestPhi = tau + edge.stepLength;
     int best = -1;
-    for (int k = 1 + stepsToSkip(phiStart - edge.stepLength, bestPhi, edge.stepLength); k < edge.steps;) {
+    for (int k = 1 + stepsToSkip(phiStart - edge.stepLength, bestPhi, edge.stepLength);
+         k < edge.steps;) {
         const double phi = field.value(edge.at(k));
         if (phi < bestPhi) {
             bestPhi = phi;
@@ -194,7 +196,8 @@ void touchEdge(const OneWay& way, std::int32_t e, double tau, std::vector<Touch>
     const auto firstId = static_cast<std::int32_t>(samples.vertices.cols()) + 3 * e;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const double s = found[i].t / edge.steps;
-        const Vec3 p = samples.vertices.col(a) + s * (samples.vertices.col(b) - samples.vertices.col(a));
+        const Vec3 p =
+            samples.vertices.col(a) + s * (samples.vertices.col(b) - samples.vertices.col(a));
         touches.push_back({found[i].phi, firstId + static_cast<std::int32_t>(i), way.sampleOnA, p});
     }
 }
@@ -229,7 +232,8 @@ void Proximity::reset(double margin)
 
 bool Proximity::isEmpty() const
 {
-    return ofA_.vertices.empty() && ofA_.edges.empty() && ofB_.vertices.empty() && ofB_.edges.empty();
+    return ofA_.vertices.empty() && ofA_.edges.empty() && ofB_.vertices.empty() &&
+           ofB_.edges.empty();
 }
 
 double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
@@ -244,8 +248,9 @@ double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
         };
         const double turned = (now.rotation - rotation_).norm();
         const double moved = (now.translation - translation_).norm();
-        const double travel = moved + turned * std::max(reach(*pair.shapeA, 0.0),
-                                                        reach(*pair.shapeB, now.translation.norm()));
+        const double travel =
+            moved + turned * std::max(reach(*pair.shapeA, 0.0),
+                                      reach(*pair.shapeB, now.translation.norm()));
         if (travel <= margin_) return travel;
     }
     isKnown_ = true;
@@ -266,7 +271,8 @@ double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
         };
         way.sampled.samples.vertexTree.visit(isClear, [&](std::uint32_t v) {
             const double atLeast = field.lowerBound(way.pose * way.sampled.samples.vertices.col(v));
-            if (atLeast < clearance) near.vertices.push_back({atLeast, static_cast<std::int32_t>(v)});
+            if (atLeast < clearance)
+                near.vertices.push_back({atLeast, static_cast<std::int32_t>(v)});
         });
         if (samplesEdges(way)) {
             way.sampled.samples.edgeTree.visit(isClear, [&](std::uint32_t e) {
@@ -277,9 +283,10 @@ double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
             });
         }
         for (std::vector<NearSample>* samples : {&near.vertices, &near.edges}) {
-            std::sort(samples->begin(), samples->end(), [](const NearSample& p, const NearSample& q) {
-                return p.atLeast < q.atLeast || (p.atLeast == q.atLeast && p.index < q.index);
-            });
+            std::sort(
+                samples->begin(), samples->end(), [](const NearSample& p, const NearSample& q) {
+                    return p.atLeast < q.atLeast || (p.atLeast == q.atLeast && p.index < q.index);
+                });
         }
     }
     return 0.0;

@@ -61,8 +61,8 @@ private:
         std::vector<NearSample> vertices, edges;  // closest first
     };
 
-    /// Makes the lists good for the pair as it is placed; answers how far it has moved since they were
-    /// made.
+    /// Makes the lists good for the pair as it is placed; answers how far it has moved since they
+    /// were made.
     double lookAgainIfMoved(const PlacedPair& pair, double tau);
     bool isEmpty() const;
 

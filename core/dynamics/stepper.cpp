@@ -211,7 +211,8 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
 }
 
 FrameReport Stepper::advanceFrame(World& world, double frameDuration,
-                                  const std::function<bool()>& stopRequested)
+                                  const std::function<bool()>& stopRequested,
+                                  const std::function<void(const World&, double)>& afterStep)
 {
     FrameReport frame;
     while (true) {
@@ -232,8 +233,9 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         addStep(world, report, frame);
         world.clock.frameTimeDone += length.dt;
         if (!report.nonFinite.empty()) break;
-
-        if (length.dt == remaining) {
+        const bool isLast = length.dt == remaining;
+        if (afterStep) afterStep(world, isLast ? frameDuration : world.clock.frameTimeDone);
+        if (isLast) {
             world.clock = {world.clock.frame + 1, 0, 0.0};
             break;
         }

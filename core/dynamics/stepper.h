@@ -24,8 +24,11 @@ public:
     /// limiter asks for [A16], and moves the clock on. `stopRequested` is asked between steps; when
     /// it answers true the world stays between two sub-steps and a later call goes on from there
     /// to the same bits.
+    /// `afterStep` is called after every step with the world and the time reached since the frame
+    /// began [s]; it may look, for poses between frames, but change nothing.
     FrameReport advanceFrame(World& world, double frameDuration,
-                             const std::function<bool()>& stopRequested = {});
+                             const std::function<bool()>& stopRequested = {},
+                             const std::function<void(const World&, double)>& afterStep = {});
 
     const StepSettings& settings() const { return settings_; }
 

@@ -241,7 +241,8 @@ double SignedDistance::signedValue(const Closest& closest, const Vec3& point)
 {
     const Vec3& normal = closest.face->normal[static_cast<int>(closest.feature)];
     // The plane's distance keeps its last bits where the square root of a square would not.
-    if (closest.feature == TriangleFeature::face) return normal.dot(point - closest.face->corner[0]);
+    if (closest.feature == TriangleFeature::face)
+        return normal.dot(point - closest.face->corner[0]);
     return std::copysign(std::sqrt(closest.squaredDistance), normal.dot(point - closest.point));
 }
 

@@ -44,24 +44,24 @@ public:
     /// Never more than the true signed distance, and equal to it within the refinement band.
     double lowerBound(const Vec3& point) const;
 
-    /// True when nothing of the solid can lie within `radius` of the point: a quick filter that may say
-    /// no too often but never yes wrongly.
+    /// True when nothing of the solid can lie within `radius` of the point: a quick filter that may
+    /// say no too often but never yes wrongly.
     bool isClearOf(const Vec3& point, double radius) const;
 
     /// Gradient of the trilinear field by central differences over one spacing, not normalised; at
     /// the clamped point when outside the domain. Short (< 0.1) near the medial axis.  [A5]
     Vec3 gridGradient(const Vec3& point) const;
 
-    /// Signed distance with its slope: the exact gradient (unit) near the surface, that of the trilinear
-    /// cell elsewhere.
+    /// Signed distance with its slope: the exact gradient (unit) near the surface, that of the
+    /// trilinear cell elsewhere.
     struct Sloped {
         double value;
         Vec3 gradient;
     };
     Sloped sloped(const Vec3& point) const;
 
-    /// The exact signed distance, from the triangles of the cell; only for points where |gridValue| <
-    /// refinementBand().
+    /// The exact signed distance, from the triangles of the cell; only for points where |gridValue|
+    /// < refinementBand().
     double exact(const Vec3& point) const;
     double refinementBand() const { return band_; }
 

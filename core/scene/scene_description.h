@@ -28,6 +28,21 @@ struct SceneBody {
     bool moves = true;     ///< false: the pose of the first frame holds for all
 };
 
+/// How a material behaves and looks, for formats that can hold it.
+struct SceneMaterial {
+    std::string name;
+    Vec3 color = {0.6, 0.6, 0.6};  ///< linear
+    double roughness = 0.5;
+    double density = 0.0;  ///< [kg/m³]
+    double friction = 0.0, restitution = 0.0;
+};
+
+struct SceneCamera {
+    std::string name;
+    Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
+    double fovDegrees = 35.0;  ///< vertical
+};
+
 struct SceneDescription {
     std::string name;  ///< identifier; top-level object of every export
     double framesPerSecond = 24.0;
@@ -35,6 +50,9 @@ struct SceneDescription {
     bool zUp = false;            ///< the shot's up axis is z instead of y
     std::vector<SceneMesh> meshes;
     std::vector<SceneBody> bodies;
+    std::vector<SceneMaterial> materials;  ///< those that bodies name, if known
+    std::vector<SceneCamera> cameras;
+    double aspect = 16.0 / 9.0;  ///< width over height of the picture
 };
 
 /// One sample of the motion: everything parallel to SceneDescription::bodies.
