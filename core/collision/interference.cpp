@@ -14,6 +14,9 @@ namespace {
 /// cut between two lattice points is found by the golden section that follows.
 constexpr double kStep = 2.0;
 
+/// An end point nearer than this fraction of h speaks for its edge.
+constexpr double kSpeaksFor = 0.05;
+
 /// Depth that varies less than this fraction of h along an edge is "flat on flat".  [A8]
 constexpr double kFlatDepth = 1e-3;
 
@@ -109,7 +112,7 @@ void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double tau
 {
     // Quick reject: distance is 1-Lipschitz along the edge.
     const double phiStart = field.value(edge.start), phiEnd = field.value(edge.at(edge.steps));
-    if (phiStart < tau || phiEnd < tau) return;
+    if (std::min(phiStart, phiEnd) < tau + kSpeaksFor * field.spacing()) return;
     if (phiStart + phiEnd > edge.stepLength * edge.steps + 2.0 * tau) return;
 
     double bestPhi = tau + edge.stepLength;

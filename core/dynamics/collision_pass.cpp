@@ -42,10 +42,11 @@ bool applyDeepest(World& world, const StepSettings& settings, double dt, const P
     const double slowest = 1e-10 * settings.gravity.norm() * dt + 1e-15;  // [A29]
     const PassInertia inertiaA = passInertia(world.mass[a], placed.worldFromA.orientation);
     const PassInertia inertiaB = passInertia(world.mass[b], placed.worldFromB.orientation);
+    const PlacedPair now =
+        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
     for (const Touch& touch : deepestFirst) {
-        const ContactPoint contact =
-            placeContact(world, pair, touch, placed.worldFromA, placed.worldFromB,
-                         inertiaA.inverseInertia, inertiaB.inverseInertia);
+        const ContactPoint contact = placeContact(world, pair, touch, {placed, now, placed},
+                                                  inertiaA.inverseInertia, inertiaB.inverseInertia);
         if (contact.u.dot(contact.normal) >= -slowest) continue;
         const PassInertia& inertiaS = touch.sampleOnA ? inertiaA : inertiaB;
         const PassInertia& inertiaF = touch.sampleOnA ? inertiaB : inertiaA;

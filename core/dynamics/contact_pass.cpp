@@ -29,7 +29,7 @@ struct Tally {
 
 /// Applies an impulse at the deepest touch that approaches. False when there is none.
 bool applyDeepest(World& world, const StepSettings& settings, double dt, const PairRecord& pair,
-                  const StepScratch& scratch, const Sweep& sweep,
+                  const PlacedPair& predicted, const StepScratch& scratch, const Sweep& sweep,
                   const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
 {
     const double slowest = 1e-10 * settings.gravity.norm() * dt + 1e-15;  // [A29]
@@ -37,10 +37,12 @@ bool applyDeepest(World& world, const StepSettings& settings, double dt, const P
         return sweep.isFrozen && (*sweep.isFrozen)[body] ? PassInertia{} : scratch.inertia[body];
     };
     const auto [a, b] = pair.bodies;
+    const PlacedPair now =
+        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
     for (const Touch& touch : deepestFirst) {
-        const ContactPoint contact = placeContact(
-            world, pair, touch, world.motion[a].worldFromBody(), world.motion[b].worldFromBody(),
-            scratch.inertia[a].inverseInertia, scratch.inertia[b].inverseInertia);
+        const ContactPoint contact =
+            placeContact(world, pair, touch, {now, now, predicted},
+                         scratch.inertia[a].inverseInertia, scratch.inertia[b].inverseInertia);
         if (contact.u.dot(contact.normal) >= -slowest) continue;
         const PassInertia inertiaS = inertiaOf(contact.sampleBody);
         const PassInertia inertiaF = inertiaOf(contact.fieldBody);
@@ -67,11 +69,14 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
     thread_local std::vector<Touch> touches;
     for (int n = 0; n < sweep.pairImpulses; ++n) {
         touches.clear();
-        pair.proximity.findTouches(
-            placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]), pair.tau, touches);
+        const PlacedPair predicted =
+            placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
+        pair.proximity.findTouches(predicted, pair.tau, touches);
         std::sort(touches.begin(), touches.end(), isDeeper);
-        if (!applyDeepest(world, settings, dt, pair, scratch, sweep, touches, tally.impulses))
+        if (!applyDeepest(world, settings, dt, pair, predicted, scratch, sweep, touches,
+                          tally.impulses)) {
             return;
+        }
         predictBody(world, settings, dt, a, scratch);
         predictBody(world, settings, dt, b, scratch);
     }

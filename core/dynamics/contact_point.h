@@ -15,10 +15,16 @@ struct ContactPoint {
     Vec3 u;  ///< relative velocity [m/s]
 };
 
-/// Places the touch with the bodies at the given poses, whose world inertias the caller supplies,
-/// and with their present velocities.
+/// Which of two configurations of a pair gives a contact its geometry.
+struct ContactFrames {
+    const PlacedPair& geometry;   ///< points, levers and normal are taken here
+    const PlacedPair& now;        ///< where the bodies are
+    const PlacedPair& predicted;  ///< where the touch was found
+};
+
+/// Places the touch, with the bodies' present velocities; world inertias belong to frames.geometry.
 ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
-                          const Pose& poseA, const Pose& poseB, const Mat3& inverseInertiaA,
+                          const ContactFrames& frames, const Mat3& inverseInertiaA,
                           const Mat3& inverseInertiaB);
 
 }  // namespace scree

@@ -57,11 +57,12 @@ bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen,
     thread_local std::vector<Touch> touches;
     touches.clear();
     const Pose poseA = world.motion[a].worldFromBody(), poseB = world.motion[b].worldFromBody();
-    pair.proximity.findTouches(placePair(world, pair, poseA, poseB), pair.tau, touches);
+    const PlacedPair now = placePair(world, pair, poseA, poseB);
+    pair.proximity.findTouches(now, pair.tau, touches);
     const auto deepest = std::min_element(touches.begin(), touches.end(), isDeeper);
     if (deepest == touches.end() || deepest->phi >= 0.0) return false;
 
-    const ContactPoint contact = placeContact(world, pair, *deepest, poseA, poseB,
+    const ContactPoint contact = placeContact(world, pair, *deepest, {now, now, now},
                                               inertiaA.inverseInertia, inertiaB.inverseInertia);
     const PassInertia& inertiaS = deepest->sampleOnA ? inertiaA : inertiaB;
     const PassInertia& inertiaF = deepest->sampleOnA ? inertiaB : inertiaA;

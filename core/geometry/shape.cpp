@@ -119,7 +119,7 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
         settings.normals == NormalMode::trueNormals ||
         (settings.normals == NormalMode::automatic && sharpestEdge(shape->mesh) > kSharpEdge);
     const bool withEdges =
-        settings.edgeSamples.value_or(longestBentEdge(shape->mesh) > 0.5 * shape->innerThickness);
+        settings.edgeSamples.value_or(longestEdge(shape->mesh) > 0.5 * shape->innerThickness);
     shape->samples = makeSurfaceSamples(shape->mesh, withEdges);
 
     const double spacing = chooseSpacing(name, settings, shape->box, shape->innerThickness);

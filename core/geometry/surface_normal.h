@@ -5,12 +5,18 @@
 
 namespace scree {
 
-/// Unit outward normal of `shape` for a contact at `point`, object frame. `approach` is the
-/// velocity of the other body's point relative to this shape, object frame [m/s]: at an edge it
-/// tells which of the faces is being run into.
+/// How a point of another body comes to touch a shape, all in the shape's object frame.
+struct Approach {
+    Vec3 point;     ///< where the normal is wanted [m]
+    Vec3 velocity;  ///< of the point relative to the shape [m/s]
+    Vec3 from, to;  ///< where the point is before the step and where it is predicted to be [m]
+};
+
+/// Unit outward normal of `shape`, object frame.
 ///
-/// Smooth shapes answer with the gradient of the field. Sharp ones cast a ray along that gradient
-/// and answer with the mesh's own normal where it leaves (or, from outside, meets) the surface.
-Vec3 surfaceNormal(const Shape& shape, const Vec3& point, const Vec3& approach);
+/// Smooth shapes answer with the gradient of the field. Sharp ones answer with the mesh: the face
+/// that the point crosses on its way, or, if it crosses none (it is inside already, or will stop
+/// short), the face that a ray along the gradient meets.
+Vec3 surfaceNormal(const Shape& shape, const Approach& approach);
 
 }  // namespace scree

@@ -65,13 +65,15 @@ double sharpestEdge(const TriMesh& mesh)
     return sharpest;
 }
 
-double longestBentEdge(const TriMesh& mesh)
+double longestEdge(const TriMesh& mesh)
 {
     double longest = 0.0;
-    for (const auto& [ends, angle] : dihedralAngles(mesh)) {
-        if (angle < kFlat) continue;
-        longest =
-            std::max(longest, (mesh.points.col(ends.first) - mesh.points.col(ends.second)).norm());
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 a = mesh.points.col(mesh.triangles(k, f));
+            const Vec3 b = mesh.points.col(mesh.triangles((k + 1) % 3, f));
+            longest = std::max(longest, (b - a).norm());
+        }
     }
     return longest;
 }

@@ -29,7 +29,6 @@ SurfaceSamples makeSurfaceSamples(const TriMesh& mesh, bool withEdges);
 /// The sharpest dihedral angle of the mesh, as the angle between the two normals [rad].
 double sharpestEdge(const TriMesh& mesh);
 
-/// Of the edges that would be sampled: those between faces that do not lie in one plane [m].
-double longestBentEdge(const TriMesh& mesh);
+double longestEdge(const TriMesh& mesh);
 
 }  // namespace scree

@@ -26,6 +26,7 @@ struct SceneBody {
     std::string material;  ///< name of its material
     double mass = 0.0;     ///< [kg], 0 for bodies that cannot be moved
     bool moves = true;     ///< false: the pose of the first frame holds for all
+    int birthFrame = 1001;  ///< the first frame in which it exists
 };
 
 /// How a material behaves and looks, for formats that can hold it.
@@ -58,6 +59,7 @@ struct SceneDescription {
 /// One sample of the motion: everything parallel to SceneDescription::bodies.
 struct SceneFrame {
     int frame = 1001;
+    double offset = 0.0;  ///< [frames] after `frame`; 0 is the frame itself
     std::vector<Pose> worldFromAsset;
     std::vector<Vec3> velocity;         ///< of the asset's origin, units per second
     std::vector<Vec3> angularVelocity;  ///< world axes [rad/s]

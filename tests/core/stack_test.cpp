@@ -75,7 +75,7 @@ TEST(E4Stack, WithoutShockPropagationTheStackFalls)
 {
     StepSettings settings = experimentSettings();
     settings.shockPropagation = false;
-    const StackResult result = run(makeStack(10, 0.0), settings, 5.0);
+    const StackResult result = run(makeStack(20, 0.05), settings, 4.0);
     EXPECT_GT(std::max(result.drift, std::abs(result.sink)), 0.5);
 }
 

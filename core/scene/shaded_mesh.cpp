@@ -1,0 +1,165 @@
+// Groups the faces around every point by the creases between them, then sums normals by group.
+// Corner c of triangle f has the index 3 f + c; its edge runs to the next corner of f.
+#include "core/scene/shaded_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/geometry/tri_mesh.h"
+
+namespace scree {
+namespace {
+
+int nextCorner(int corner)
+{
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+int pointAt(const Triangles& triangles, int corner)
+{
+    return triangles(corner % 3, corner / 3);
+}
+
+/// Unit normals as columns, zero for a triangle without area.
+Points faceNormals(const TriMesh& mesh)
+{
+    Points normals(3, mesh.triangles.cols());
+    for (Eigen::Index f = 0; f < normals.cols(); ++f) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        const Vec3 normal = (b - a).cross(c - a);
+        const double length = normal.norm();
+        normals.col(f) = length > 0.0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
+    }
+    return normals;
+}
+
+/// Angle of the triangle at a corner [rad].
+double cornerAngle(const TriMesh& mesh, int corner)
+{
+    const int b = nextCorner(corner), c = nextCorner(b);
+    const Vec3 apex = mesh.points.col(pointAt(mesh.triangles, corner));
+    const Vec3 toB = mesh.points.col(pointAt(mesh.triangles, b)) - apex;
+    const Vec3 toC = mesh.points.col(pointAt(mesh.triangles, c)) - apex;
+    return std::atan2(toB.cross(toC).norm(), toB.dot(toC));
+}
+
+/// An edge of a triangle: the pair of its points, and the corner where it starts.
+struct HalfEdge {
+    int from, to;
+    int corner;
+
+    std::pair<int, int> undirected() const { return {std::min(from, to), std::max(from, to)}; }
+};
+
+/// Sorted so that the half edges of one edge are neighbours, in the order of their corners.
+std::vector<HalfEdge> sortedHalfEdges(const Triangles& triangles)
+{
+    std::vector<HalfEdge> edges(3 * triangles.cols());
+    for (int corner = 0; corner < static_cast<int>(edges.size()); ++corner)
+        edges[corner] = {pointAt(triangles, corner), pointAt(triangles, nextCorner(corner)),
+                         corner};
+    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return std::make_pair(a.undirected(), a.corner) < std::make_pair(b.undirected(), b.corner);
+    });
+    return edges;
+}
+
+/// Sets of corners, by union and find; a set is named after its smallest member.
+class CornerGroups {
+public:
+    explicit CornerGroups(std::size_t count) : parent_(count)
+    {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+
+    int find(int corner)
+    {
+        while (parent_[corner] != corner) {
+            parent_[corner] = parent_[parent_[corner]];
+            corner = parent_[corner];
+        }
+        return corner;
+    }
+
+    void join(int a, int b)
+    {
+        const int rootA = find(a), rootB = find(b);
+        parent_[std::max(rootA, rootB)] = std::min(rootA, rootB);
+    }
+
+private:
+    std::vector<int> parent_;
+};
+
+/// Joins corners across every smooth edge, at both of its ends. True when all edges are shared by
+/// two triangles of opposite sense, which makes the surface closed.
+bool joinAcrossSmoothEdges(const TriMesh& mesh, const Points& normals, double creaseDegrees,
+                           CornerGroups& groups)
+{
+    const double smoothest = std::cos(creaseDegrees * std::numbers::pi / 180.0);
+    const std::vector<HalfEdge> edges = sortedHalfEdges(mesh.triangles);
+    bool isClosed = true;
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end].undirected() == edges[begin].undirected()) ++end;
+        const bool isShared = end - begin == 2 && edges[begin].from == edges[begin + 1].to;
+        isClosed = isClosed && isShared;
+        if (!isShared) continue;
+        const int cornerA = edges[begin].corner, cornerB = edges[begin + 1].corner;
+        if (normals.col(cornerA / 3).dot(normals.col(cornerB / 3)) < smoothest) continue;
+        groups.join(cornerA, nextCorner(cornerB));
+        groups.join(nextCorner(cornerA), cornerB);
+    }
+    return isClosed;
+}
+
+/// Half the diagonal of the bounding box around its centre: at most √3 times the smallest ball.
+void setBall(ShadedMesh& mesh, const Points& points)
+{
+    if (points.cols() == 0) return;
+    mesh.centre = 0.5 * (points.rowwise().minCoeff() + points.rowwise().maxCoeff());
+    mesh.radius = std::sqrt((points.colwise() - mesh.centre).colwise().squaredNorm().maxCoeff());
+}
+
+}  // namespace
+
+ShadedMesh shadeMesh(const SceneMesh& sceneMesh, double creaseDegrees)
+{
+    const TriMesh mesh = mergeEqualPoints({sceneMesh.points, sceneMesh.triangles});
+    const Points normals = faceNormals(mesh);
+    const int cornerCount = static_cast<int>(3 * mesh.triangles.cols());
+
+    // Find which corners look like one smooth piece of surface.
+    ShadedMesh result;
+    CornerGroups groups(cornerCount);
+    result.isClosed = joinAcrossSmoothEdges(mesh, normals, creaseDegrees, groups);
+
+    // Give each group one point, and sum its normals.
+    Points groupNormals = Points::Zero(3, cornerCount);
+    for (int corner = 0; corner < cornerCount; ++corner)
+        groupNormals.col(groups.find(corner)) +=
+            cornerAngle(mesh, corner) * normals.col(corner / 3);
+
+    result.indices.resize(cornerCount);
+    for (int corner = 0; corner < cornerCount; ++corner) {
+        const int group = groups.find(corner);
+        if (group == corner) {
+            result.indices[corner] = static_cast<std::uint32_t>(result.points.size());
+            result.points.push_back(mesh.points.col(pointAt(mesh.triangles, corner)).cast<float>());
+            result.normals.push_back(groupNormals.col(corner).normalized().cast<float>());
+        }
+        result.indices[corner] = result.indices[group];
+    }
+    setBall(result, mesh.points);
+    return result;
+}
+
+bool isPlane(const SceneMesh& mesh)
+{
+    return mesh.triangles.cols() == 2 && mesh.points.cols() == 4;
+}
+
+}  // namespace scree

@@ -1,0 +1,35 @@
+// A mesh made ready for drawing: normals are smooth where the surface is, and sharp at its creases.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene_description.h"
+
+namespace scree {
+
+/// Sides that meet at a larger angle than this form an edge one should see [degrees]. A ring of ten
+/// sides (36°) is meant to be round, an octagonal post (45°) is meant to have edges.
+inline constexpr double kCreaseDegrees = 40.0;
+
+/// Points are written once for every group of faces they look smooth in, so that a cube has 24 of
+/// them.
+struct ShadedMesh {
+    std::vector<Eigen::Vector3f> points;
+    std::vector<Eigen::Vector3f> normals;  // parallel to points
+    std::vector<std::uint32_t> indices;    // three for each triangle
+    bool isClosed = false;       ///< every edge has its opposite: back faces can never be seen
+    Vec3 centre = Vec3::Zero();  ///< of a ball that holds all points
+    double radius = 0.0;
+};
+
+/// Points equal bit for bit count as one point, whatever normals or texture coordinates had split
+/// them. A normal is the sum of the unit normals of its faces, weighted by their angles at the
+/// point, so that it does not depend on how flat regions are cut into triangles.
+ShadedMesh shadeMesh(const SceneMesh& mesh, double creaseDegrees = kCreaseDegrees);
+
+/// True for the flat square that stands for an infinite half space: two triangles and nothing else.
+/// A solid has at least four.
+bool isPlane(const SceneMesh& mesh);
+
+}  // namespace scree
