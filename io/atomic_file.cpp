@@ -1,0 +1,160 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+
+namespace scree {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+
+fs::path folderOf(const fs::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+[[noreturn]] void refuse(const fs::path& target, const std::string& reason)
+{
+    throw Error(ErrorKind::cannotCreate, "cannot create \"" + target.string() + "\": " + reason);
+}
+
+/// The file that a write to `target` would change; refuses what a rename must not replace.
+fs::path resolveTarget(const fs::path& target)
+{
+    std::error_code code;
+    fs::path resolved = target;
+    if (fs::is_symlink(target, code)) {
+        resolved = fs::weakly_canonical(target, code);
+        if (code) refuse(target, code.message());
+    }
+
+    const fs::file_status status = fs::status(resolved, code);
+    if (fs::is_directory(status)) refuse(target, "it is a folder");
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        refuse(target, "it is not a plain file");
+    }
+    return resolved;
+}
+
+/// Makes a finished rename survive a power cut. A file system that cannot sync a folder has no
+/// better promise to give, so its refusal is not an error.
+void syncFolder(const fs::path& folder)
+{
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(resolveTarget(target))
+{
+    if (!target_.has_filename()) refuse(target_, "the path names a folder, not a file");
+    open();
+    pending_.reserve(kPieceBytes);
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    ::unlink(temporary_.c_str());
+}
+
+// The count makes names differ inside a process, O_EXCL steps over what an earlier process with our
+// number left behind.
+void AtomicFile::open()
+{
+    static std::atomic<unsigned> counter{0};
+    const fs::path folder = folderOf(target_);
+    do {
+        temporary_ =
+            folder / ("." + target_.filename().string() + "." + std::to_string(::getpid()) + "-" +
+                      std::to_string(counter++) + ".tmp");
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ >= 0) return;
+
+    const int reason = errno;
+    std::error_code code;
+    if (reason == ENOSPC || reason == EDQUOT) fail("writing", reason);
+    if (reason == ENOENT && !fs::exists(folder, code)) {
+        refuse(target_, "the folder \"" + folder.string() + "\" does not exist");
+    }
+    refuse(target_, std::strerror(reason));
+}
+
+void AtomicFile::write(const void* bytes, std::size_t byteCount)
+{
+    const char* cursor = static_cast<const char*>(bytes);
+    if (pending_.size() + byteCount > kPieceBytes) flush();
+    if (byteCount >= kPieceBytes) {
+        writeAt(size_, cursor, byteCount);
+    } else {
+        pending_.append(cursor, byteCount);
+    }
+    size_ += byteCount;
+}
+
+void AtomicFile::overwrite(std::uint64_t offset, const void* bytes, std::size_t byteCount)
+{
+    SCREE_CHECK(offset + byteCount <= size_, target_.string() + ": overwriting past the end");
+    flush();
+    writeAt(offset, static_cast<const char*>(bytes), byteCount);
+}
+
+void AtomicFile::commit()
+{
+    SCREE_CHECK(descriptor_ >= 0, target_.string() + ": committed twice");
+    flush();
+    if (::fsync(descriptor_) != 0) fail("writing", errno);
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    const bool closed = ::close(descriptor) == 0;
+    if (!closed || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+        const int reason = errno;
+        ::unlink(temporary_.c_str());
+        fail(closed ? "renaming the finished file to" : "writing", reason);
+    }
+    syncFolder(folderOf(target_));
+}
+
+void AtomicFile::flush()
+{
+    if (pending_.empty()) return;
+    writeAt(size_ - pending_.size(), pending_.data(), pending_.size());
+    pending_.clear();
+}
+
+void AtomicFile::writeAt(std::uint64_t offset, const char* bytes, std::size_t byteCount)
+{
+    SCREE_CHECK(descriptor_ >= 0, target_.string() + ": written after commit");
+    while (byteCount > 0) {
+        const ssize_t written = ::pwrite(descriptor_, bytes, byteCount, static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) fail("writing", written < 0 ? errno : ENOSPC);
+        bytes += written;
+        offset += static_cast<std::uint64_t>(written);
+        byteCount -= static_cast<std::size_t>(written);
+    }
+}
+
+void AtomicFile::fail(const char* what, int errorNumber) const
+{
+    throw Error(ErrorKind::inputOutput, std::string(what) + " \"" + target_.string() +
+                                            "\" failed: " + std::strerror(errorNumber));
+}
+
+}  // namespace scree

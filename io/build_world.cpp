@@ -1,0 +1,198 @@
+#include "io/build_world.h"
+
+#include <memory>
+#include <unordered_map>
+
+#include "core/geometry/primitives.h"
+#include "core/math/rotation.h"
+#include "io/mesh_import.h"
+#include "io/problem_list.h"
+
+namespace scree {
+namespace {
+
+/// The mesh of a shape in the artist's frame [m], without its scale.
+struct MeshMaker {
+    double metresPerUnit = 1.0;
+
+    TriMesh operator()(const TorusSpec& s) const { return makeTorus(s.major, s.minor, s.segments); }
+    TriMesh operator()(const BoxSpec& s) const { return makeBox(s.size, s.segments); }
+    TriMesh operator()(const SphereSpec& s) const { return makeSphere(s.radius, s.subdivisions); }
+    TriMesh operator()(const CylinderSpec& s) const
+    {
+        return makeCylinder(s.radius, s.height, s.sectors, s.bands);
+    }
+    TriMesh operator()(const CapsuleSpec& s) const
+    {
+        return makeCapsule(s.radius, s.height, s.sectors, s.rings);
+    }
+    TriMesh operator()(const FileSpec& s) const
+    {
+        return transformed(importMesh(s.path), Pose(), Vec3::Constant(metresPerUnit));
+    }
+};
+
+/// Shapes and materials of a shot by name, each added to the world when the first body needs it.
+class WorldBuilder {
+public:
+    explicit WorldBuilder(const Shot& shot) : shot_(shot), problems_(fileOf(shot))
+    {
+        for (const ShotShape& shape : shot.shapes) shapeNamed_.emplace(shape.name, &shape);
+    }
+
+    World build()
+    {
+        for (const ShotMaterial& material : shot_.materials) {
+            materialOfName_.emplace(material.material.name, world_.addMaterial(material.material));
+        }
+        for (const ShotBody& body : shot_.bodies) add(body);
+        problems_.throwIfAny();
+        return std::move(world_);
+    }
+
+private:
+    static std::string fileOf(const Shot& shot)
+    {
+        return shot.bodies.empty() ? "" : shot.bodies.front().location.file;
+    }
+
+    void add(const ShotBody& body)
+    {
+        const std::optional<ShapeId> shape = body.plane ? planeShape() : meshShape(*body.shape);
+        if (!shape) return;
+        BodyDefinition definition;
+        definition.name = body.name;
+        definition.shape = *shape;
+        definition.material = materialOfName_.at(body.material);
+        definition.kind = body.kind;
+        definition.worldFromAsset = body.plane
+                                        ? worldFromPlane(body.plane->point, body.plane->normal)
+                                        : body.worldFromAsset;
+        definition.velocity = body.velocity;
+        definition.angularVelocity = body.angularVelocity;
+        definition.mass = body.mass;
+        try {
+            world_.addBody(definition);
+        } catch (const Error& error) {
+            problems_.add(body.location, error.what(), error.kind());
+        }
+    }
+
+    ShapeId planeShape()
+    {
+        if (!plane_) plane_ = world_.addShape(buildPlaneShape(planeName()));
+        return *plane_;
+    }
+
+    /// "plane", unless the shot has a shape of that name.
+    std::string planeName() const
+    {
+        std::string name = "plane";
+        while (shapeNamed_.count(name)) name += "_";
+        return name;
+    }
+
+    /// Nothing when the shape cannot be built; that is reported once, not for every body.
+    std::optional<ShapeId> meshShape(const std::string& name)
+    {
+        const auto [known, isNew] = shapeOfName_.try_emplace(name);
+        if (isNew) {
+            const ShotShape& shape = *shapeNamed_.at(name);
+            try {
+                const TriMesh unscaled = std::visit(MeshMaker{shot_.metresPerUnit}, shape.source);
+                const TriMesh mesh = transformed(unscaled, Pose(), shape.scale);
+                known->second = world_.addShape(buildMeshShape(name, mesh, shape.settings));
+            } catch (const Error& error) {
+                problems_.add(shape.location, error.what(), error.kind());
+            }
+        }
+        return known->second;
+    }
+
+    const Shot& shot_;
+    ProblemList problems_;
+    World world_;
+    // Asked by name, never walked.
+    std::unordered_map<std::string, const ShotShape*> shapeNamed_;
+    std::unordered_map<std::string, std::optional<ShapeId>> shapeOfName_;
+    std::unordered_map<std::string, MaterialId> materialOfName_;
+    std::optional<ShapeId> plane_;
+};
+
+/// A square in the plane y = 0 of its own frame, seen from +y.
+SceneMesh makeQuad(const std::string& name, double halfWidth)
+{
+    SceneMesh quad{name, Points(3, 4), Triangles(3, 2)};
+    const double h = halfWidth;
+    quad.points << -h, -h, h, h,  //
+        0, 0, 0, 0,               //
+        -h, h, h, -h;
+    quad.triangles << 0, 0,  //
+        1, 2,                //
+        2, 3;
+    return quad;
+}
+
+SceneMesh toSceneMesh(const Shape& shape, double metresPerUnit, double planeHalfWidth)
+{
+    if (shape.isPlane) return makeQuad(shape.name, planeHalfWidth);
+    return {shape.name, shape.assetMesh.points / metresPerUnit, shape.assetMesh.triangles};
+}
+
+}  // namespace
+
+World buildWorld(const Shot& shot)
+{
+    return WorldBuilder(shot).build();
+}
+
+SceneDescription describeScene(const Shot& shot, const World& world, double planeHalfWidth)
+{
+    SceneDescription scene;
+    scene.name = shot.name;
+    scene.framesPerSecond = shot.framesPerSecond;
+    scene.metresPerUnit = shot.metresPerUnit;
+    scene.zUp = shot.zUp;
+
+    // Meshes in the order in which bodies first use them.
+    std::unordered_map<const Shape*, std::size_t> meshOf;
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        const Shape& shape = world.shapeOf(body);
+        const auto [entry, isNew] = meshOf.try_emplace(&shape, scene.meshes.size());
+        if (isNew) {
+            scene.meshes.push_back(toSceneMesh(shape, shot.metresPerUnit, planeHalfWidth));
+        }
+        SceneBody described;
+        described.name = world.info[i].name;
+        described.mesh = entry->second;
+        described.material = world.materialOf(body).name;
+        described.moves = world.info[i].kind == BodyKind::dynamic;
+        described.mass = world.mass[i].isMovable() ? 1.0 / world.mass[i].inverseMass : 0.0;
+        scene.bodies.push_back(described);
+    }
+    return scene;
+}
+
+// Symbols: x centre of mass, v its velocity, w angular velocity.
+SceneFrame captureFrame(const Shot& shot, const World& world)
+{
+    SceneFrame frame;
+    frame.frame = shot.firstFrame + static_cast<int>(world.clock.frame);
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const BodyMotion& motion = world.motion[i];
+        const Mat3 rotation = motion.orientation.toRotationMatrix();
+        const Mat3 inverseInertia = inverseInertiaWorld(rotation, world.mass[i].inverseInertia);
+        const Vec3 w = inverseInertia * motion.angularMomentum;
+
+        Pose pose = world.worldFromAsset(static_cast<BodyId>(i));
+        const Vec3 v = motion.velocity + w.cross(pose.position - motion.position);
+        pose.position /= shot.metresPerUnit;
+        frame.worldFromAsset.push_back(pose);
+        frame.velocity.push_back(v / shot.metresPerUnit);
+        frame.angularVelocity.push_back(w);
+    }
+    return frame;
+}
+
+}  // namespace scree

@@ -1,0 +1,21 @@
+// Shot → World: builds every shape once and places the bodies. What a shot says of looks and
+// cameras is not the world's business; tools hand that to render.
+#pragma once
+
+#include "core/scene/scene_description.h"
+#include "core/scene/world.h"
+#include "io/shot.h"
+
+namespace scree {
+
+/// Throws Error, located in the shot file, when an asset cannot be read or is not a solid.
+World buildWorld(const Shot& shot);
+
+/// Names, meshes and masses of everything that is exported, in the shot's units. Planes become
+/// quads of half width `planeHalfWidth` [shot units].
+SceneDescription describeScene(const Shot& shot, const World& world, double planeHalfWidth);
+
+/// Where everything stands now, in the shot's units; bodies as in describeScene.
+SceneFrame captureFrame(const Shot& shot, const World& world);
+
+}  // namespace scree

@@ -1,0 +1,32 @@
+#include "io/file_bytes.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "core/base/error.h"
+#include "io/atomic_file.h"
+
+namespace scree {
+
+std::string readFileBytes(const std::filesystem::path& path)
+{
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path))
+        throw Error(ErrorKind::missingInput, {path.string(), 0, 0},
+                    std::string("cannot be read: ") + std::strerror(file ? EISDIR : errno));
+    std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    if (file.bad()) throw Error(ErrorKind::inputOutput, {path.string(), 0, 0}, "reading failed");
+    return bytes;
+}
+
+void writeFileBytes(const std::filesystem::path& path, std::string_view bytes)
+{
+    AtomicFile file(path);
+    file.write(bytes);
+    file.commit();
+}
+
+}  // namespace scree

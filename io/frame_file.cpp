@@ -1,0 +1,346 @@
+// Layout, little endian (io/TAKE_FORMAT.md):
+//   header   64 bytes: magic, version, block count, frame, body count, shot hash, byte count
+//   table    64 bytes per block: name, NumPy type, rows, columns, offset
+//   blocks   each starting at a multiple of 8
+//   checksum  8 bytes: hashBytes of all before it
+#include "io/frame_file.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <span>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "io/file_bytes.h"
+
+namespace scree {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "frame files are written as memory is");
+
+constexpr std::array<char, 8> kMagic = {'S', 'C', 'R', 'E', 'E', 'F', 'R', 'M'};
+
+struct Header {
+    std::array<char, 8> magic = kMagic;
+    std::uint32_t version = kFrameFileVersion;
+    std::uint32_t blockCount = 0;
+    std::int64_t frame = 0;  ///< the shot's number; in a checkpoint that of the frame being left
+    std::uint64_t bodyCount = 0;
+    std::uint64_t shotHash = 0;
+    std::uint64_t byteCount = 0;  ///< of the whole file, checksum included
+    std::array<std::uint64_t, 2> unused = {};
+};
+static_assert(sizeof(Header) == 64);
+
+struct BlockEntry {
+    std::array<char, 24> name = {};
+    std::array<char, 8> type = {};  ///< as NumPy spells it: "<f8", "<i8", "<i4"
+    std::uint64_t rows = 0;
+    std::uint64_t columns = 0;
+    std::uint64_t offset = 0;  ///< from the start of the file
+    std::uint64_t unused = 0;
+};
+static_assert(sizeof(BlockEntry) == 64);
+
+template <class T>
+constexpr const char* kTypeName = nullptr;
+template <>
+constexpr const char* kTypeName<double> = "<f8";
+template <>
+constexpr const char* kTypeName<std::int64_t> = "<i8";
+template <>
+constexpr const char* kTypeName<std::int32_t> = "<i4";
+
+template <std::size_t N>
+void copyText(std::array<char, N>& target, const std::string& text)
+{
+    SCREE_CHECK(text.size() < N, text);
+    std::memcpy(target.data(), text.data(), text.size());
+}
+
+/// Gathers blocks, then lays them out.
+class FrameEncoder {
+public:
+    template <class T>
+    void add(const std::string& name, std::uint64_t columns, const std::vector<T>& values)
+    {
+        BlockEntry entry;
+        copyText(entry.name, name);
+        copyText(entry.type, kTypeName<T>);
+        entry.rows = values.size() / columns;
+        entry.columns = columns;
+        entries_.push_back(entry);
+        contents_.emplace_back(reinterpret_cast<const char*>(values.data()),
+                               values.size() * sizeof(T));
+        contents_.back().resize((contents_.back().size() + 7) / 8 * 8, '\0');
+    }
+
+    std::string finish(Header header)
+    {
+        // Place the blocks behind header and table.
+        std::uint64_t offset = sizeof(Header) + entries_.size() * sizeof(BlockEntry);
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            entries_[i].offset = offset;
+            offset += contents_[i].size();
+        }
+        header.blockCount = static_cast<std::uint32_t>(entries_.size());
+        header.byteCount = offset + sizeof(std::uint64_t);
+
+        // Write everything in file order, the checksum last.
+        std::string bytes;
+        bytes.reserve(header.byteCount);
+        bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
+        bytes.append(reinterpret_cast<const char*>(entries_.data()),
+                     entries_.size() * sizeof(BlockEntry));
+        for (const std::string& content : contents_) bytes += content;
+        const std::uint64_t checksum = hashBytes(bytes.data(), bytes.size());
+        bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+        return bytes;
+    }
+
+private:
+    std::vector<BlockEntry> entries_;
+    std::vector<std::string> contents_;
+};
+
+/// Finds blocks by name; every access is checked against the size of the file.
+class FrameDecoder {
+public:
+    FrameDecoder(std::string_view bytes, const std::filesystem::path& path)
+        : bytes_(bytes), path_(path)
+    {
+        readHeader();
+        readTable();
+    }
+
+    const Header& header() const { return header_; }
+
+    /// Rows of a block, 0 when the file has no such block.
+    std::uint64_t rowsOf(const std::string& name) const
+    {
+        const auto found = blocks_.find(name);
+        return found == blocks_.end() ? 0 : found->second.rows;
+    }
+
+    template <class T>
+    std::vector<T> read(const std::string& name, std::uint64_t rows, std::uint64_t columns) const
+    {
+        const auto found = blocks_.find(name);
+        if (found == blocks_.end()) fail("the block \"" + name + "\" is missing");
+        const BlockEntry& entry = found->second;
+        if (std::string(entry.type.data()) != kTypeName<T> || entry.rows != rows ||
+            entry.columns != columns)
+            fail("the block \"" + name + "\" has another type or size than expected");
+        const std::uint64_t most = bytes_.size() / (columns * sizeof(T));
+        const std::uint64_t count = rows * columns;
+        if (entry.offset > bytes_.size() || rows > most ||
+            count * sizeof(T) > bytes_.size() - entry.offset)
+            fail("the block \"" + name + "\" lies outside the file");
+        std::vector<T> values(count);
+        if (count > 0) std::memcpy(values.data(), bytes_.data() + entry.offset, count * sizeof(T));
+        return values;
+    }
+
+    [[noreturn]] void fail(const std::string& why) const
+    {
+        throw Error(ErrorKind::inputOutput, {path_.string(), 0, 0}, why);
+    }
+
+private:
+    void readHeader()
+    {
+        if (bytes_.size() < sizeof(Header) + sizeof(std::uint64_t))
+            fail("cut short: " + std::to_string(bytes_.size()) + " bytes are less than a header");
+        std::memcpy(&header_, bytes_.data(), sizeof(Header));
+        if (header_.magic != kMagic) fail("not a frame file of a Scree take");
+        if (header_.version != kFrameFileVersion)
+            fail("frame file version " + std::to_string(header_.version) +
+                 "; this program reads version " + std::to_string(kFrameFileVersion));
+        if (header_.byteCount != bytes_.size())
+            fail("cut short or grown: " + std::to_string(bytes_.size()) + " bytes, written with " +
+                 std::to_string(header_.byteCount));
+        const std::size_t contentSize = bytes_.size() - sizeof(std::uint64_t);
+        std::uint64_t checksum = 0;
+        std::memcpy(&checksum, bytes_.data() + contentSize, sizeof checksum);
+        if (checksum != hashBytes(bytes_.data(), contentSize))
+            fail("damaged: the checksum does not fit the contents");
+    }
+
+    void readTable()
+    {
+        if (header_.blockCount > (bytes_.size() - sizeof(Header)) / sizeof(BlockEntry))
+            fail("the block table lies outside the file");
+        for (std::uint32_t i = 0; i < header_.blockCount; ++i) {
+            BlockEntry entry;
+            std::memcpy(&entry, bytes_.data() + sizeof(Header) + i * sizeof(BlockEntry),
+                        sizeof entry);
+            entry.name.back() = entry.type.back() = '\0';
+            blocks_[entry.name.data()] = entry;
+        }
+    }
+
+    std::string_view bytes_;
+    std::filesystem::path path_;
+    Header header_;
+    std::map<std::string, BlockEntry> blocks_;
+};
+
+void append(std::vector<double>& values, const Vec3& vector)
+{
+    values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
+}
+
+void append(std::vector<double>& values, const Quat& q)
+{
+    values.insert(values.end(), {q.w(), q.x(), q.y(), q.z()});
+}
+
+Vec3 vectorAt(const std::vector<double>& values, std::size_t row)
+{
+    return {values[3 * row], values[3 * row + 1], values[3 * row + 2]};
+}
+
+Quat quaternionAt(const std::vector<double>& values, std::size_t row)
+{
+    return {values[4 * row], values[4 * row + 1], values[4 * row + 2], values[4 * row + 3]};
+}
+
+void addState(FrameEncoder& encoder, const FrameState& state)
+{
+    std::vector<double> position, orientation, velocity, angularMomentum;
+    for (const BodyMotion& motion : state.motion) {
+        append(position, motion.position);
+        append(orientation, motion.orientation);
+        append(velocity, motion.velocity);
+        append(angularMomentum, motion.angularMomentum);
+    }
+    encoder.add<std::int64_t>("clock.steps", 2, {state.clock.frame, state.clock.subStep});
+    encoder.add<double>("clock.frame_time_done", 1, {state.clock.frameTimeDone});
+    encoder.add("body.position", 3, position);
+    encoder.add("body.orientation", 4, orientation);
+    encoder.add("body.velocity", 3, velocity);
+    encoder.add("body.angular_momentum", 3, angularMomentum);
+    encoder.add("body.order", 1, state.order);
+}
+
+/// Poses and velocities of one or more samples, sample after sample.
+void addPoses(FrameEncoder& encoder, const std::string& prefix, std::span<const SceneFrame> samples)
+{
+    std::vector<double> position, orientation, velocity, angularVelocity;
+    for (const SceneFrame& sample : samples) {
+        for (std::size_t i = 0; i < sample.worldFromAsset.size(); ++i) {
+            append(position, sample.worldFromAsset[i].position);
+            append(orientation, sample.worldFromAsset[i].orientation);
+            append(velocity, sample.velocity[i]);
+            append(angularVelocity, sample.angularVelocity[i]);
+        }
+    }
+    encoder.add(prefix + ".position", 3, position);
+    encoder.add(prefix + ".orientation", 4, orientation);
+    encoder.add(prefix + ".velocity", 3, velocity);
+    encoder.add(prefix + ".angular_velocity", 3, angularVelocity);
+}
+
+/// Nothing at all when there are none, so that only takes with sub-frames pay for them.
+void addBetween(FrameEncoder& encoder, std::span<const SceneFrame> between)
+{
+    if (between.empty()) return;
+    std::vector<double> offsets;
+    for (const SceneFrame& sample : between) offsets.push_back(sample.offset);
+    encoder.add("between.offset", 1, offsets);
+    addPoses(encoder, "between", between);
+}
+
+void readState(const FrameDecoder& decoder, std::uint64_t bodyCount, FrameState& state)
+{
+    const auto steps = decoder.read<std::int64_t>("clock.steps", 1, 2);
+    state.clock.frame = steps[0];
+    state.clock.subStep = steps[1];
+    state.clock.frameTimeDone = decoder.read<double>("clock.frame_time_done", 1, 1)[0];
+    const auto position = decoder.read<double>("body.position", bodyCount, 3);
+    const auto orientation = decoder.read<double>("body.orientation", bodyCount, 4);
+    const auto velocity = decoder.read<double>("body.velocity", bodyCount, 3);
+    const auto angularMomentum = decoder.read<double>("body.angular_momentum", bodyCount, 3);
+    state.order = decoder.read<std::int32_t>("body.order", bodyCount, 1);
+    state.motion.resize(bodyCount);
+    for (std::size_t i = 0; i < bodyCount; ++i)
+        state.motion[i] = {vectorAt(position, i), quaternionAt(orientation, i),
+                           vectorAt(velocity, i), vectorAt(angularMomentum, i)};
+}
+
+void readPoses(const FrameDecoder& decoder, const std::string& prefix, std::uint64_t bodyCount,
+               std::span<SceneFrame> samples)
+{
+    const std::uint64_t rows = bodyCount * samples.size();
+    const auto position = decoder.read<double>(prefix + ".position", rows, 3);
+    const auto orientation = decoder.read<double>(prefix + ".orientation", rows, 4);
+    const auto velocity = decoder.read<double>(prefix + ".velocity", rows, 3);
+    const auto angularVelocity = decoder.read<double>(prefix + ".angular_velocity", rows, 3);
+    for (std::size_t row = 0; row < rows; ++row) {
+        SceneFrame& sample = samples[row / bodyCount];
+        sample.worldFromAsset.push_back({vectorAt(position, row), quaternionAt(orientation, row)});
+        sample.velocity.push_back(vectorAt(velocity, row));
+        sample.angularVelocity.push_back(vectorAt(angularVelocity, row));
+    }
+}
+
+/// `frame` is the number of the frame before the samples.
+std::vector<SceneFrame> readBetween(const FrameDecoder& decoder, std::uint64_t bodyCount, int frame)
+{
+    const std::uint64_t count = decoder.rowsOf("between.offset");
+    if (count == 0) return {};
+    const auto offsets = decoder.read<double>("between.offset", count, 1);
+    std::vector<SceneFrame> between(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        between[i].frame = frame;
+        between[i].offset = offsets[i];
+    }
+    readPoses(decoder, "between", bodyCount, between);
+    return between;
+}
+
+}  // namespace
+
+std::string encodeFrame(const FrameState& state)
+{
+    const std::size_t bodyCount = state.motion.size();
+    SCREE_CHECK(state.order.size() == bodyCount, "order and state differ in size");
+    SCREE_CHECK(state.scene.worldFromAsset.size() == bodyCount, "scene and state differ in size");
+    for (const SceneFrame& sample : state.between)
+        SCREE_CHECK(sample.worldFromAsset.size() == bodyCount, "a sample lacks bodies");
+
+    FrameEncoder encoder;
+    addState(encoder, state);
+    addPoses(encoder, "asset", {&state.scene, 1});
+    addBetween(encoder, state.between);
+    Header header;
+    header.frame = state.scene.frame;
+    header.bodyCount = bodyCount;
+    header.shotHash = state.shotHash;
+    return encoder.finish(header);
+}
+
+FrameState decodeFrame(std::string_view bytes, const std::filesystem::path& path)
+{
+    const FrameDecoder decoder(bytes, path);
+    FrameState state;
+    state.shotHash = decoder.header().shotHash;
+    state.scene.frame = static_cast<int>(decoder.header().frame);
+    readState(decoder, decoder.header().bodyCount, state);
+    const std::uint64_t bodyCount = decoder.header().bodyCount;
+    readPoses(decoder, "asset", bodyCount, {&state.scene, 1});
+    // A frame was reached from the one before; a checkpoint stands behind the frame it left.
+    const bool isInside = state.clock.subStep > 0;
+    state.between = readBetween(decoder, bodyCount, state.scene.frame - (isInside ? 0 : 1));
+    return state;
+}
+
+FrameState readFrameFile(const std::filesystem::path& path)
+{
+    return decodeFrame(readFileBytes(path), path);
+}
+
+}  // namespace scree

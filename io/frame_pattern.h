@@ -1,0 +1,17 @@
+// File names with a place for the frame number: "x.####.png", "x.%04d.png" or "x.$F4.png".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace scree {
+
+/// Whether the file name (folders do not count) has a place for the frame number.
+bool hasFramePattern(std::string_view path);
+
+/// The path with the frame number in its place, filled up with zeros to the width the pattern asks
+/// for; a longer number is written in full. A minus sign counts as one of the digits. Throws
+/// Error{usage} when the file name has no such place or several.
+std::string expandFramePattern(std::string_view path, int frame);
+
+}  // namespace scree

@@ -1,0 +1,127 @@
+#include "io/frame_stats.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "io/take_info.h"
+
+namespace scree {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* nameOf(StepLimit limit)
+{
+    switch (limit) {
+        case StepLimit::frame:
+            return "frame";
+        case StepLimit::relativeSpeed:
+            return "relative_speed";
+        case StepLimit::spin:
+            return "spin";
+        case StepLimit::hover:
+            return "hover";
+        case StepLimit::substepCap:
+            return "substep_cap";
+    }
+    return "unknown";
+}
+
+std::string bodyName(const World& world, BodyId body)
+{
+    const bool known = body >= 0 && static_cast<std::size_t>(body) < world.info.size();
+    return known ? world.info[body].name : "";
+}
+
+Json toJson(const ImpulseCounts& counts)
+{
+    return {
+        {"sticking", counts.sticking}, {"sliding", counts.sliding}, {"fallback", counts.fallback}};
+}
+
+Json phaseTimes(const StepReport& report)
+{
+    Json times = Json::object();
+    for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase)
+        times[scree::nameOf(static_cast<Phase>(phase))] = 1e3 * report.seconds[phase];
+    return times;
+}
+
+FrameSummary summaryFromLine(const std::string& line)
+{
+    const Json json = Json::parse(line);
+    FrameSummary summary;
+    summary.frame = json.at("frame");
+    summary.wallSeconds = json.at("wall_s");
+    summary.cpuSeconds = json.at("cpu_s");
+    summary.steps = json.at("substeps");
+    summary.contactPairs = json.at("contact_pairs");
+    summary.bodiesAwake = json.at("bodies_awake");
+    summary.overlapRatio = json.at("overlap").at("worst_ratio");
+    summary.deepestA = json.at("overlap").at("bodies").at(0);
+    summary.deepestB = json.at("overlap").at("bodies").at(1);
+    summary.kineticEnergy = json.at("kinetic_energy_J");
+    summary.stateHash = json.at("state_hash");
+    summary.line = line;
+    return summary;
+}
+
+}  // namespace
+
+std::string encodeStats(const FrameStats& stats, const World& world)
+{
+    const FrameReport& frame = stats.report;
+    const StepReport& sum = frame.sum;
+    const Json json = {
+        {"frame", stats.frame},
+        {"wall_s", stats.wallSeconds},
+        {"cpu_s", stats.cpuSeconds},
+        {"substeps", frame.steps},
+        {"resumed_at_substep", stats.resumedAtSubStep},
+        {"step_s", {frame.shortestStep, frame.longestStep}},
+        {"limited_by", nameOf(sum.limitedBy)},
+        {"fastest_body", bodyName(world, frame.fastestBody)},
+        {"substep_cap_reached", frame.substepCapReached},
+        {"broad_pairs", sum.broadPairs},
+        {"touching_pairs", sum.touchingPairs},
+        {"contact_pairs", sum.contactPairs},
+        {"levels", sum.levels},
+        {"largest_level", sum.largestLevel},
+        {"impulses",
+         {{"collision", toJson(sum.collisionImpulses)},
+          {"contact", toJson(sum.contactImpulses)},
+          {"shock", toJson(sum.shockImpulses)}}},
+        {"pushes", sum.pushes},
+        {"pushes_cut", sum.pushesCut},
+        {"loops_at_cap", sum.loopsAtTheirCap},
+        {"overlap",
+         {{"before_push_out_m", sum.deepestBeforePushOut},
+          {"after_push_out_m", sum.deepestAfterPushOut},
+          {"worst_ratio", frame.worstOverlapRatio},
+          {"bodies", {bodyName(world, sum.deepestA), bodyName(world, sum.deepestB)}}}},
+        {"push_out_work_J", sum.pushOutWork},
+        {"kinetic_energy_J", frame.kineticEnergy},
+        {"potential_energy_J", frame.potentialEnergy},
+        {"momentum", {frame.momentum.x(), frame.momentum.y(), frame.momentum.z()}},
+        {"bodies_awake", frame.bodiesAwake},
+        {"phase_ms", phaseTimes(sum)},
+        {"state_hash", toHex(frame.stateHash)},
+    };
+    return json.dump();
+}
+
+std::vector<FrameSummary> readStats(const std::filesystem::path& path)
+{
+    std::vector<FrameSummary> summaries;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        try {
+            summaries.push_back(summaryFromLine(line));
+        } catch (const Json::exception&) {
+            // Cut by a crash: the frame file decides what exists, the line is only told about it.
+        }
+    }
+    return summaries;
+}
+
+}  // namespace scree

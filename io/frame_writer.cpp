@@ -1,0 +1,168 @@
+#include "io/frame_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "io/alembic_writer.h"
+#include "io/frame_pattern.h"
+#include "io/mesh_sequence_writer.h"
+
+namespace scree {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// One row per format; a new format is a new row.
+struct Format {
+    std::string_view ending;
+    bool isSequence;  ///< one file per frame
+    std::unique_ptr<FrameWriter> (*make)(const fs::path& output);
+};
+
+constexpr Format kFormats[] = {
+    {".abc", false, makeAlembicWriter},
+    {".obj", true, makeObjSequenceWriter},
+    {".ply", true, makePlySequenceWriter},
+};
+
+std::string knownEndings()
+{
+    std::string list;
+    for (const Format& format : kFormats) {
+        if (!list.empty()) list += ", ";
+        list += (format.isSequence ? ".####" : "") + std::string(format.ending);
+    }
+    return list;
+}
+
+bool isIdentifier(std::string_view name)
+{
+    const auto fits = [](unsigned char letter) {
+        return letter < 128 && (std::isalnum(letter) || letter == '_');
+    };
+    return !name.empty() && std::all_of(name.begin(), name.end(), fits);
+}
+
+/// Names become object names and paths in the cache. They are refused, not changed, so that an
+/// artist finds a body under the name the shot gives it.
+void requireIdentifier(std::string_view what, const std::string& name)
+{
+    if (isIdentifier(name)) return;
+    throw Error(ErrorKind::badInput, "cannot export the " + std::string(what) + " \"" + name +
+                                         "\": names may hold letters, digits and _ only");
+}
+
+void requireMesh(const SceneMesh& mesh)
+{
+    const bool cornersExist = mesh.triangles.size() == 0 ||
+                              (mesh.triangles.minCoeff() >= 0 &&
+                               mesh.triangles.maxCoeff() < static_cast<int>(mesh.points.cols()));
+    SCREE_CHECK(cornersExist, "mesh " + mesh.name + ": a triangle names a point it does not have");
+    if (mesh.points.allFinite()) return;
+    throw Error(ErrorKind::badInput,
+                "cannot export the mesh \"" + mesh.name + "\": a point of it is not finite");
+}
+
+void requireExportable(const SceneDescription& scene)
+{
+    requireIdentifier("shot", scene.name);
+    for (const SceneMesh& mesh : scene.meshes) requireMesh(mesh);
+
+    std::unordered_set<std::string_view> names;
+    for (const SceneBody& body : scene.bodies) {
+        requireIdentifier("body", body.name);
+        SCREE_CHECK(body.mesh < scene.meshes.size(), "body " + body.name + " names no mesh");
+        if (names.insert(body.name).second) continue;
+        throw Error(ErrorKind::badInput,
+                    "cannot export: two bodies are called \"" + body.name + "\"");
+    }
+}
+
+bool isFinite(const SceneFrame& frame, std::size_t body)
+{
+    const Pose& pose = frame.worldFromAsset[body];
+    return pose.position.allFinite() && pose.orientation.coeffs().allFinite() &&
+           frame.velocity[body].allFinite() && frame.angularVelocity[body].allFinite();
+}
+
+}  // namespace
+
+void FrameWriter::begin(const SceneDescription& scene, int firstFrame, int frameCount,
+                        const std::vector<double>& offsets)
+{
+    SCREE_CHECK(scene_ == nullptr, "begin() called twice");
+    SCREE_CHECK(frameCount > 0, "an export needs at least one frame");
+    SCREE_CHECK(scene.framesPerSecond > 0.0, "frames per second must be positive");
+    SCREE_CHECK(std::find(offsets.begin(), offsets.end(), 0.0) != offsets.end() &&
+                    std::is_sorted(offsets.begin(), offsets.end()) &&
+                    offsets.back() - offsets.front() < 1.0,
+                "sub-frame offsets must ascend within a frame and hold 0");
+    SCREE_CHECK(offsets.size() == 1 || holdsSubframes(), "the format holds whole frames only");
+    requireExportable(scene);
+    offsets_ = offsets;
+    nextSample_ = 0;
+    scene_ = &scene;
+    nextFrame_ = firstFrame;
+    framesLeft_ = frameCount;
+    beginScene(scene, firstFrame, frameCount);
+}
+
+void FrameWriter::write(const SceneFrame& frame)
+{
+    SCREE_CHECK(scene_ != nullptr && framesLeft_ > 0, "a frame that begin() did not announce");
+    SCREE_CHECK(frame.frame == nextFrame_, "expected frame " + std::to_string(nextFrame_) +
+                                               ", got " + std::to_string(frame.frame));
+    SCREE_CHECK(frame.offset == offsets_[nextSample_],
+                "expected the sample at " + std::to_string(offsets_[nextSample_]) + ", got " +
+                    std::to_string(frame.offset));
+    const std::size_t bodyCount = scene_->bodies.size();
+    SCREE_CHECK(frame.worldFromAsset.size() == bodyCount && frame.velocity.size() == bodyCount &&
+                    frame.angularVelocity.size() == bodyCount,
+                "a frame must hold every body");
+    for (std::size_t body = 0; body < bodyCount; ++body) {
+        if (isFinite(frame, body)) continue;
+        throw Error(ErrorKind::qualityLimit, "cannot export frame " + std::to_string(frame.frame) +
+                                                 ": pose or velocity of \"" +
+                                                 scene_->bodies[body].name + "\" is not finite");
+    }
+    writeFrame(frame);
+    if (++nextSample_ < offsets_.size()) return;
+    nextSample_ = 0;
+    ++nextFrame_;
+    --framesLeft_;
+}
+
+void FrameWriter::finish()
+{
+    SCREE_CHECK(scene_ != nullptr && framesLeft_ == 0,
+                std::to_string(framesLeft_) + " announced frames were not written");
+    finishScene();
+    scene_ = nullptr;
+}
+
+std::unique_ptr<FrameWriter> makeFrameWriter(const fs::path& output)
+{
+    std::string ending = output.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    for (const Format& format : kFormats) {
+        if (format.ending != ending) continue;
+        if (format.isSequence) {
+            expandFramePattern(output.string(), 0);  // explains itself if there is no place
+        } else if (hasFramePattern(output.string())) {
+            throw Error(ErrorKind::usage, "\"" + output.string() + "\": one " + ending +
+                                              " file holds all frames; leave out the frame number");
+        }
+        return format.make(output);
+    }
+    throw Error(ErrorKind::usage, "cannot export to \"" + output.string() +
+                                      "\": expected a name ending in " + knownEndings());
+}
+
+}  // namespace scree

@@ -1,0 +1,60 @@
+// A cache for another program, written frame by frame. One file per format implements this
+// interface; the calls are begin, write for every frame in order, finish.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/scene/scene_description.h"
+
+namespace scree {
+
+/// The public calls check what every format needs (names, order and completeness of frames, finite
+/// poses), so that a format only writes. Nothing is visible under the output's name before
+/// finish(), except in sequences, where each frame's file appears complete; a writer that is
+/// destroyed earlier leaves no half cache behind.
+class FrameWriter {
+public:
+    virtual ~FrameWriter() = default;
+
+    /// Whether the format can hold samples between frames.
+    virtual bool holdsSubframes() const { return false; }
+
+    /// `frameCount` frames will follow, the first is `firstFrame`; each has one sample for every
+    /// one of `offsets` [frames], which ascend within less than a frame and hold 0. A writer that
+    /// holds no sub-frames takes {0} only. The scene must outlive finish().
+    /// Throws Error{badInput} for a scene, body or mesh that no format could name or hold,
+    /// Error{cannotCreate} when the output cannot be created.
+    void begin(const SceneDescription& scene, int firstFrame, int frameCount,
+               const std::vector<double>& offsets = {0.0});
+
+    /// Frames come one after the other without gaps, samples of a frame in the order of the
+    /// offsets.
+    /// Throws Error{qualityLimit} naming the first body whose pose or velocity is not finite.
+    void write(const SceneFrame& frame);
+
+    /// Throws Error{inputOutput} when the disk refuses, as write() may.
+    void finish();
+
+protected:
+    const std::vector<double>& offsets() const { return offsets_; }
+
+private:
+    virtual void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) = 0;
+    virtual void writeFrame(const SceneFrame& frame) = 0;
+    virtual void finishScene() = 0;
+
+    const SceneDescription* scene_ = nullptr;
+    std::vector<double> offsets_;
+    std::size_t nextSample_ = 0;  // index into offsets_
+    int nextFrame_ = 0;
+    int framesLeft_ = 0;
+};
+
+/// The writer for the ending of `output`: "out.abc", "out.####.obj", "out.####.ply".
+/// Throws Error{usage} for an unknown ending (the message lists the known ones), for a sequence
+/// without a place for the frame number, and for a single file with one.
+std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& output);
+
+}  // namespace scree

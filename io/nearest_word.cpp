@@ -1,0 +1,73 @@
+#include "io/nearest_word.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace scree {
+namespace {
+
+std::string lowerCase(std::string_view word)
+{
+    std::string result(word);
+    for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+/// Edit distance with swaps of neighbours, by rows of the usual table.
+std::size_t slipsBetween(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> beforeLast(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t wrongLetter = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, wrongLetter});
+            const bool isSwap = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (isSwap) row[j] = std::min(row[j], beforeLast[j - 2] + 1);
+        }
+        std::swap(beforeLast, last);
+        std::swap(last, row);
+    }
+    return last[b.size()];
+}
+
+}  // namespace
+
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates)
+{
+    // Names longer than any of ours are not typing slips, and the table is quadratic.
+    constexpr std::size_t kLongestWord = 200;
+    if (word.size() > kLongestWord) return {};
+
+    const std::string wanted = lowerCase(word);
+    const std::size_t forgiven =
+        std::max<std::size_t>(wanted.size() / 3, wanted.size() < 4 ? 1 : 2);
+    std::string best;
+    std::size_t fewest = forgiven + 1;
+    for (const std::string& candidate : candidates) {
+        if (candidate.size() > wanted.size() + forgiven) continue;
+        if (wanted.size() > candidate.size() + forgiven) continue;
+        const std::size_t slips = slipsBetween(wanted, lowerCase(candidate));
+        if (slips < fewest && slips < std::max(wanted.size(), candidate.size())) {
+            fewest = slips;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates)
+{
+    const std::string nearest = nearestWord(word, candidates);
+    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
+std::string joined(const std::vector<std::string>& words)
+{
+    std::string result;
+    for (const std::string& word : words) result += (result.empty() ? "" : ", ") + word;
+    return result;
+}
+
+}  // namespace scree

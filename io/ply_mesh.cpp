@@ -1,0 +1,114 @@
+#include "io/ply_mesh.h"
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "io/atomic_file.h"
+#include "io/byte_order.h"
+#include "io/file_bytes.h"
+
+namespace scree {
+
+namespace {
+
+constexpr std::size_t kPointBytes = 3 * sizeof(double);
+constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::int32_t);
+constexpr char kCornerCount = 3;
+
+std::string headerOf(std::uint64_t pointCount, std::uint64_t faceCount)
+{
+    return "ply\n"
+           "format binary_little_endian 1.0\n"
+           "element vertex " +
+           std::to_string(pointCount) +
+           "\n"
+           "property double x\n"
+           "property double y\n"
+           "property double z\n"
+           "element face " +
+           std::to_string(faceCount) +
+           "\n"
+           "property list uchar int vertex_indices\n"
+           "end_header\n";
+}
+
+/// The number behind "element <name> ".
+std::optional<std::uint64_t> readCount(std::string_view bytes, std::string_view name)
+{
+    const std::string key = "element " + std::string(name) + " ";
+    const std::size_t begin = bytes.substr(0, headerOf(~0ull, ~0ull).size()).find(key);
+    if (begin == std::string_view::npos) return std::nullopt;
+    std::uint64_t count = 0;
+    const char* end = bytes.data() + bytes.size();
+    const auto result = std::from_chars(bytes.data() + begin + key.size(), end, count);
+    return result.ec == std::errc() ? std::optional(count) : std::nullopt;
+}
+
+[[noreturn]] void failDamaged(const std::filesystem::path& path, const std::string& what)
+{
+    throw Error(ErrorKind::inputOutput, "the mesh \"" + path.string() + "\" is damaged: " + what);
+}
+
+}  // namespace
+
+void writePlyMesh(const std::filesystem::path& path, const TriMesh& mesh)
+{
+    AtomicFile file(path);
+    file.write(headerOf(static_cast<std::uint64_t>(mesh.points.cols()),
+                        static_cast<std::uint64_t>(mesh.triangles.cols())));
+    file.write(bytesOf(mesh.points));
+    for (Eigen::Index face = 0; face < mesh.triangles.cols(); ++face) {
+        const Eigen::Vector3i corners = mesh.triangles.col(face);
+        file.write(&kCornerCount, 1);
+        file.write(bytesOf(corners));
+    }
+    file.commit();
+}
+
+TriMesh readPlyMesh(const std::filesystem::path& path)
+{
+    const std::string bytes = readFileBytes(path);
+
+    // Rebuild the header from its two counts: it must be the one we write.
+    const std::optional<std::uint64_t> pointCount = readCount(bytes, "vertex");
+    const std::optional<std::uint64_t> faceCount = readCount(bytes, "face");
+    if (!pointCount || !faceCount) failDamaged(path, "its header is not complete");
+    const std::string header = headerOf(*pointCount, *faceCount);
+    if (!bytes.starts_with(header)) failDamaged(path, "its header is not one written by Scree");
+    std::string_view body = std::string_view(bytes).substr(header.size());
+
+    // Bound the counts before multiplying them.
+    if (*pointCount > body.size() || *faceCount > body.size() ||
+        *pointCount * kPointBytes + *faceCount * kFaceBytes != body.size()) {
+        failDamaged(path, std::to_string(*pointCount) + " points and " +
+                              std::to_string(*faceCount) + " triangles do not take " +
+                              std::to_string(body.size()) + " bytes");
+    }
+
+    TriMesh mesh;
+    mesh.points.resize(3, static_cast<Eigen::Index>(*pointCount));
+    std::memcpy(mesh.points.data(), body.data(), *pointCount * kPointBytes);
+    body.remove_prefix(*pointCount * kPointBytes);
+
+    mesh.triangles.resize(3, static_cast<Eigen::Index>(*faceCount));
+    for (Eigen::Index face = 0; face < mesh.triangles.cols(); ++face) {
+        if (body.front() != kCornerCount) failDamaged(path, "a face is not a triangle");
+        for (Eigen::Index corner = 0; corner < 3; ++corner) {
+            const auto point =
+                readBytes<std::int32_t>(body, 1 + 4 * static_cast<std::size_t>(corner));
+            if (point < 0 || point >= mesh.points.cols()) {
+                failDamaged(path, "triangle " + std::to_string(face) + " names point " +
+                                      std::to_string(point) + " of " + std::to_string(*pointCount));
+            }
+            mesh.triangles(corner, face) = point;
+        }
+        body.remove_prefix(kFaceBytes);
+    }
+    return mesh;
+}
+
+}  // namespace scree

@@ -1,0 +1,19 @@
+// One mesh as a binary PLY file (little endian) with its points in full double precision: how a
+// take keeps its shapes. Any mesh tool opens these files; only files of exactly this layout are
+// read back, meshes from elsewhere come through io/mesh_import.h.
+#pragma once
+
+#include <filesystem>
+
+#include "core/geometry/tri_mesh.h"
+
+namespace scree {
+
+/// Equal meshes give equal bytes. Throws Error{cannotCreate} or Error{inputOutput}.
+void writePlyMesh(const std::filesystem::path& path, const TriMesh& mesh);
+
+/// The mesh that was written, bit for bit. Throws Error{missingInput} when there is no file, and
+/// Error{inputOutput} when it is cut short or otherwise not what writePlyMesh writes.
+TriMesh readPlyMesh(const std::filesystem::path& path);
+
+}  // namespace scree

@@ -1,0 +1,122 @@
+// A shot as plain data: what the shot file says, with lengths turned into metres, angles into
+// radians and names checked, but nothing built yet. Every item remembers where in the file it
+// stands.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/dynamics/settings.h"
+#include "core/geometry/shape.h"
+#include "core/math/types.h"
+#include "core/scene/body.h"
+
+namespace scree {
+
+/// Generated shapes; fields as in core/geometry/primitives.h, lengths [m].
+struct TorusSpec {
+    double major = 1.0, minor = 0.25;
+    std::array<int, 2> segments = {16, 10};
+};
+struct BoxSpec {
+    Vec3 size = Vec3::Ones();
+    std::array<int, 3> segments = {2, 2, 2};
+};
+struct SphereSpec {
+    double radius = 0.5;
+    int subdivisions = 3;
+};
+struct CylinderSpec {
+    double radius = 0.5, height = 1.0;
+    int sectors = 20, bands = 1;
+};
+struct CapsuleSpec {
+    double radius = 0.25, height = 1.0;
+    int sectors = 20, rings = 5;
+};
+/// An asset on disk; `path` is absolute or relative to the working directory, ready to open.
+struct FileSpec {
+    std::string path;
+};
+
+using ShapeSource =
+    std::variant<TorusSpec, BoxSpec, SphereSpec, CylinderSpec, CapsuleSpec, FileSpec>;
+
+struct ShotShape {
+    std::string name;
+    ShapeSource source;
+    Vec3 scale = Vec3::Ones();  ///< baked into the mesh
+    ShapeSettings settings;     ///< of its field, normals and samples; voxel [m]
+    SourceLocation location;
+};
+
+/// Material plus how it looks.
+struct ShotMaterial {
+    Material material;
+    Vec3 color = {0.6, 0.6, 0.6};  ///< linear
+    double roughness = 0.5;
+    SourceLocation location;
+};
+
+/// Infinite half space below a plane; shape of a static body.
+struct PlaneSpec {
+    Vec3 point = Vec3::Zero();
+    Vec3 normal = Vec3::UnitY();
+};
+
+/// One body of the finished shot: grids and pose files are already expanded.
+struct ShotBody {
+    std::string name;
+    std::optional<std::string> shape;  ///< a shape's name; exactly one of shape and plane is set
+    std::optional<PlaneSpec> plane;
+    std::string material;
+    BodyKind kind = BodyKind::dynamic;
+    Pose worldFromAsset;                  ///< [m]
+    Vec3 velocity = Vec3::Zero();         ///< [m/s]
+    Vec3 angularVelocity = Vec3::Zero();  ///< world axes [rad/s]
+    std::optional<double> mass;           ///< [kg]
+    SourceLocation location;
+};
+
+struct ShotCamera {
+    std::string name = "main";
+    Vec3 eye = Vec3::Zero();     ///< [m]
+    Vec3 target = Vec3::Zero();  ///< [m]
+    double fovDegrees = 35.0;    ///< vertical
+};
+
+struct ShotRender {
+    std::array<int, 2> size = {1280, 720};
+};
+
+struct ShotOutput {
+    std::vector<std::string>
+        exports;  ///< file name endings written when the simulation ends: "abc", …
+    std::vector<double> subframes;  ///< samples around every frame [frames], see io/subframes.h
+};
+
+struct Shot {
+    std::string name;
+    int firstFrame = 1001;  ///< simulated time zero
+    int lastFrame = 1240;
+    double framesPerSecond = 24.0;
+    double metresPerUnit = 1.0;
+    bool zUp = false;
+    StepSettings settings;  ///< gravity and seed included
+    double penetrationWarn = 0.01,
+           penetrationFail = 0.1;  ///< of the smaller body's longest box edge
+    std::vector<ShotMaterial> materials;
+    std::vector<ShotShape> shapes;
+    std::vector<ShotBody> bodies;
+    std::vector<ShotCamera> cameras;
+    ShotRender render;
+    ShotOutput output;
+    std::string resolvedText;  ///< canonical TOML of everything, defaults included, --set applied
+};
+
+}  // namespace scree

@@ -1,0 +1,493 @@
+#include "io/shot_interpreter.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <unordered_map>
+
+#include "core/math/rotation.h"
+#include "io/nearest_word.h"
+#include "io/pose_file.h"
+#include "io/shot_check.h"
+#include "io/subframes.h"
+
+namespace scree {
+namespace {
+
+constexpr double kRadiansPerDegree = kPi / 180.0;
+constexpr std::size_t kMostBodies = 1'000'000;
+
+Vec3 toVec3(const ShotNode& node)
+{
+    return {node.items[0].number, node.items[1].number, node.items[2].number};
+}
+
+template <std::size_t N>
+std::array<int, N> toInts(const ShotNode& node)
+{
+    std::array<int, N> result{};
+    for (std::size_t i = 0; i < N; ++i) result[i] = static_cast<int>(node.items[i].integer);
+    return result;
+}
+
+double metresPerUnit(const std::string& unit)
+{
+    if (unit == "cm") return 0.01;
+    if (unit == "mm") return 0.001;
+    if (unit == "in") return 0.0254;
+    if (unit == "ft") return 0.3048;
+    return 1.0;
+}
+
+/// Reads "A-B" or "A"; false when it is neither. Frames before 0 are allowed.
+bool readFrames(const std::string& text, int& first, int& last)
+{
+    int length = 0, a = 0, b = 0;
+    const int size = static_cast<int>(text.size());
+    if (text.size() > 32) return false;
+    if (std::sscanf(text.c_str(), "%9d%n", &a, &length) == 1 && length == size) {
+        first = last = a;
+        return true;
+    }
+    if (std::sscanf(text.c_str(), "%9d -%9d%n", &a, &b, &length) != 2 || length != size) {
+        return false;
+    }
+    first = a;
+    last = b;
+    return true;
+}
+
+class Interpreter {
+public:
+    Interpreter(const ShotNode& tree, const std::string& shotPath, ProblemList& problems)
+        : tree_(tree), folder_(std::filesystem::path(shotPath).parent_path()), problems_(problems)
+    {
+    }
+
+    Shot interpret()
+    {
+        readShotTable();
+        if (const ShotNode* solver = tree_.find("solver")) readSolver(*solver);
+        readMaterials();
+        readShapes();
+        if (const ShotNode* bodies = tree_.find("body")) {
+            for (const ShotNode& body : bodies->items) readBody(body);
+        }
+        readLook();
+        return std::move(shot_);
+    }
+
+private:
+    void readShotTable()
+    {
+        const ShotNode* table = tree_.find("shot");
+        if (!table) return;
+        if (const ShotNode* name = table->find("name")) {
+            shot_.name = name->text;
+            if (!isIdentifier(name->text)) {
+                report(*name, "name " + toTomlText(std::string_view(name->text)) +
+                                  " must be letters, digits and _, not beginning with a digit");
+            }
+        }
+        const ShotNode& frames = *table->find("frames");
+        if (!readFrames(frames.text, shot_.firstFrame, shot_.lastFrame)) {
+            report(frames, "'frames' must be \"FIRST-LAST\", for example \"1001-1240\", not " +
+                               toTomlText(frames));
+        } else if (shot_.lastFrame < shot_.firstFrame) {
+            report(frames, "'frames' must not end before they begin: " + toTomlText(frames));
+        }
+        shot_.framesPerSecond = table->find("fps")->number;
+        shot_.metresPerUnit = metresPerUnit(table->find("units")->text);
+        shot_.zUp = table->find("up")->text == "+z";
+        shot_.settings.gravity = toVec3(*table->find("gravity"));
+        shot_.settings.seed = static_cast<std::uint64_t>(table->find("seed")->integer);
+    }
+
+    void readSolver(const ShotNode& table)
+    {
+        const auto whole = [&](const char* key) {
+            return static_cast<int>(table.find(key)->integer);
+        };
+        StepSettings& settings = shot_.settings;
+        settings.collisionIterations = whole("collision_iterations");
+        settings.collisionPairImpulses = whole("collision_pair_impulses");
+        settings.contactIterations = whole("contact_iterations");
+        settings.levelIterations = whole("level_iterations");
+        settings.pairImpulses = whole("pair_impulses");
+        settings.shockPropagation = table.find("shock_propagation")->boolean;
+        settings.shockPairImpulses = whole("shock_pair_impulses");
+        settings.pushOut = table.find("push_out")->boolean;
+        settings.pushOutLevelIterations = whole("push_out_level_iterations");
+        settings.pushOutPairImpulses = whole("push_out_pair_impulses");
+        settings.orientation = table.find("orientation")->text == "euler"
+                                   ? OrientationUpdate::euler
+                                   : OrientationUpdate::secondOrder;
+        settings.maximumSpinPerStep = table.find("maximum_spin")->number * kRadiansPerDegree;
+        settings.hoverLimit = table.find("hover")->number;
+
+        const ShotNode& substeps = *table.find("substeps");
+        settings.substeps.min = static_cast<int>(substeps.find("min")->integer);
+        settings.substeps.max = static_cast<int>(substeps.find("max")->integer);
+        settings.substeps.safety = substeps.find("safety")->number;
+        if (settings.substeps.min > settings.substeps.max) {
+            report(*substeps.find("min"), "'min' sub-steps must not exceed 'max', " +
+                                              std::to_string(settings.substeps.max));
+        }
+        const ShotNode& penetration = *table.find("penetration");
+        shot_.penetrationWarn = penetration.find("warn")->number;
+        shot_.penetrationFail = penetration.find("fail")->number;
+        if (shot_.penetrationWarn > shot_.penetrationFail) {
+            report(*penetration.find("warn"),
+                   "'warn' must not exceed 'fail', " + toTomlText(shot_.penetrationFail));
+        }
+    }
+
+    void readMaterials()
+    {
+        const ShotNode* table = tree_.find("material");
+        if (!table) return;
+        for (const ShotEntry& entry : table->entries) {
+            materialNames_.push_back(entry.key);
+            if (!entry.isValid) continue;
+            const ShotNode& node = entry.node;
+            ShotMaterial material;
+            material.location = entry.where;
+            material.material.name = entry.key;
+            material.material.density = node.find("density")->number;
+            material.material.friction = node.find("friction")->number;
+            material.material.restitution = node.find("restitution")->number;
+            material.color = toVec3(*node.find("color"));
+            material.roughness = node.find("roughness")->number;
+            shot_.materials.push_back(material);
+        }
+    }
+
+    void readShapes()
+    {
+        const ShotNode* table = tree_.find("shape");
+        if (!table) return;
+        for (const ShotEntry& entry : table->entries) {
+            shapeNames_.push_back(entry.key);
+            if (!entry.isValid) continue;
+            ShotShape shape;
+            shape.name = entry.key;
+            shape.location = entry.where;
+            readShapeSource(entry, shape);
+            const ShotNode& scale = *entry.node.find("scale");
+            shape.scale =
+                scale.kind == ShotNode::Kind::list ? toVec3(scale) : Vec3::Constant(scale.number);
+            readShapeSettings(entry.node, shape.settings);
+            shot_.shapes.push_back(shape);
+        }
+    }
+
+    void readShapeSource(const ShotEntry& entry, ShotShape& shape)
+    {
+        const ShotNode& node = entry.node;
+        const auto length = [&](const ShotNode& table, const char* key) {
+            return table.find(key)->number * shot_.metresPerUnit;
+        };
+        const auto whole = [](const ShotNode& table, const char* key) {
+            return static_cast<int>(table.find(key)->integer);
+        };
+        if (const ShotNode* torus = node.find("torus")) {
+            const TorusSpec spec{length(*torus, "major"), length(*torus, "minor"),
+                                 toInts<2>(*torus->find("segments"))};
+            if (spec.minor >= spec.major) {
+                report(*torus->find("minor"),
+                       "'minor' must be less than 'major', or the ring has "
+                       "no hole");
+            }
+            shape.source = spec;
+        } else if (const ShotNode* box = node.find("box")) {
+            shape.source = BoxSpec{toVec3(*box->find("size")) * shot_.metresPerUnit,
+                                   toInts<3>(*box->find("segments"))};
+        } else if (const ShotNode* sphere = node.find("sphere")) {
+            shape.source = SphereSpec{length(*sphere, "radius"), whole(*sphere, "subdivisions")};
+        } else if (const ShotNode* cylinder = node.find("cylinder")) {
+            shape.source = CylinderSpec{length(*cylinder, "radius"), length(*cylinder, "height"),
+                                        whole(*cylinder, "sectors"), whole(*cylinder, "bands")};
+        } else if (const ShotNode* capsule = node.find("capsule")) {
+            shape.source = CapsuleSpec{length(*capsule, "radius"), length(*capsule, "height"),
+                                       whole(*capsule, "sectors"), whole(*capsule, "rings")};
+        } else if (const ShotNode* file = node.find("file")) {
+            shape.source = FileSpec{besideShot(file->text)};
+        } else if (!mentionsAny(node, {"torus", "box", "sphere", "cylinder", "capsule", "file"})) {
+            problems_.add(entry.where, "[shape." + entry.key +
+                                           "] says nothing of its form; give it "
+                                           "torus, box, sphere, cylinder, capsule or file");
+        }
+    }
+
+    void readShapeSettings(const ShotNode& node, ShapeSettings& settings)
+    {
+        if (const ShotNode* sdf = node.find("sdf")) {
+            if (const ShotNode* resolution = sdf->find("resolution")) {
+                settings.resolution = static_cast<int>(resolution->integer);
+            }
+            if (const ShotNode* voxel = sdf->find("voxel")) {
+                settings.voxel = voxel->number * shot_.metresPerUnit;
+            }
+        }
+        settings.field = node.find("field")->text == "grid" ? FieldMode::grid : FieldMode::refined;
+        const std::string& normals = node.find("normals")->text;
+        settings.normals = normals == "true"     ? NormalMode::trueNormals
+                           : normals == "smooth" ? NormalMode::smooth
+                                                 : NormalMode::automatic;
+        if (const ShotNode* samples = node.find("edge_samples")) {
+            settings.edgeSamples = samples->boolean;
+        }
+    }
+
+    void readBody(const ShotNode& node)
+    {
+        ShotBody body;
+        body.location = node.where;
+        if (const ShotNode* name = node.find("name")) body.name = name->text;
+        readReferences(node, body);
+        if (const ShotNode* plane = node.find("plane")) readPlane(node, *plane, body);
+        readMotion(node, body);
+
+        // A copy count that is wrong or too large is reported, and nothing is expanded.
+        const std::vector<Pose> copies = readCopies(node);
+        const bool isSingle = !node.mentions("grid") && !node.mentions("poses");
+        bool isNew = true;
+        for (std::size_t i = 0; i < copies.size() && isNew; ++i) {
+            ShotBody copy = body;
+            copy.worldFromAsset = copies[i];
+            copy.worldFromAsset.position *= shot_.metresPerUnit;
+            if (!isSingle && !body.name.empty()) copy.name = nameOfCopy(body.name, i);
+            isNew = claimName(node, copy.name);
+            if (isNew) shot_.bodies.push_back(std::move(copy));
+        }
+    }
+
+    static std::string nameOfCopy(const std::string& name, std::size_t index)
+    {
+        char number[24];
+        std::snprintf(number, sizeof number, "_%04zu", index);
+        return name + number;
+    }
+
+    /// False, and a report, when another body has the name.
+    bool claimName(const ShotNode& node, const std::string& name)
+    {
+        const ShotNode* place = node.find("name");
+        if (!place) return true;
+        const auto [owner, isNew] = ownerOfName_.try_emplace(name, place->where);
+        if (!isNew) {
+            report(*place,
+                   "body name '" + name + "' is taken by the body at " + toString(owner->second));
+        }
+        return isNew;
+    }
+
+    void readReferences(const ShotNode& node, ShotBody& body)
+    {
+        if (const ShotNode* shape = node.find("shape")) {
+            body.shape = shape->text;
+            requireKnown(*shape, "shape", shapeNames_);
+        } else if (!mentionsAny(node, {"shape", "plane"})) {
+            report(node, "[[body]]" + quotedName(body) + " has neither 'shape' nor 'plane'");
+        }
+        if (const ShotNode* material = node.find("material")) {
+            body.material = material->text;
+            requireKnown(*material, "material", materialNames_);
+        }
+    }
+
+    void requireKnown(const ShotNode& reference, const std::string& table,
+                      const std::vector<std::string>& names)
+    {
+        for (const std::string& name : names) {
+            if (name == reference.text) return;
+        }
+        report(reference, "no [" + table + "." + reference.text + "] in the shot" +
+                              didYouMean(reference.text, names) +
+                              (names.empty() ? "" : " (known: " + joined(names) + ")"));
+    }
+
+    void readPlane(const ShotNode& node, const ShotNode& plane, ShotBody& body)
+    {
+        PlaneSpec spec;
+        spec.point = toVec3(*plane.find("point")) * shot_.metresPerUnit;
+        if (const ShotNode* normal = plane.find("normal")) {
+            const Vec3 direction = toVec3(*normal);
+            const double largest = direction.cwiseAbs().maxCoeff();
+            if (largest > 0.0) {
+                spec.normal = (direction / largest).normalized();
+            } else {
+                report(*normal, "'normal' must not be zero");
+            }
+        }
+        body.plane = spec;
+        if (node.find("motion")->text != "static") {
+            report(plane, "a plane cannot move: write motion = \"static\"");
+        }
+    }
+
+    void readMotion(const ShotNode& node, ShotBody& body)
+    {
+        const bool isStatic = node.find("motion")->text == "static";
+        body.kind = isStatic ? BodyKind::fixed : BodyKind::dynamic;
+        if (const ShotNode* velocity = node.find("velocity")) {
+            body.velocity = toVec3(*velocity) * shot_.metresPerUnit;
+            if (isStatic && !body.velocity.isZero(0.0)) {
+                report(*velocity, "a static body has no 'velocity'");
+            }
+        }
+        if (const ShotNode* spin = node.find("spin")) {
+            body.angularVelocity = toVec3(*spin) * kRadiansPerDegree;
+            if (isStatic && !body.angularVelocity.isZero(0.0)) {
+                report(*spin, "a static body has no 'spin'");
+            }
+        }
+        if (const ShotNode* mass = node.find("mass")) {
+            body.mass = mass->number;
+            if (isStatic) report(*mass, "a static body has no 'mass': nothing moves it");
+        }
+    }
+
+    /// Where the copies of a body stand [shot units]; one for a plain body.
+    std::vector<Pose> readCopies(const ShotNode& node)
+    {
+        if (const ShotNode* poses = node.find("poses")) {
+            const std::vector<Pose> copies =
+                readPoseFile(besideShot(poses->text), poses->where, problems_);
+            return hasRoomFor(static_cast<double>(copies.size()), *poses) ? copies
+                                                                          : std::vector<Pose>();
+        }
+        Pose base;
+        if (const ShotNode* position = node.find("position")) base.position = toVec3(*position);
+        if (const ShotNode* rotation = node.find("rotation")) {
+            base.orientation = fromEulerXyz(toVec3(*rotation) * kRadiansPerDegree);
+        } else if (const ShotNode* q = node.find("orientation")) {
+            const std::vector<ShotNode>& wxyz = q->items;
+            if (!toOrientation(wxyz[0].number, wxyz[1].number, wxyz[2].number, wxyz[3].number,
+                               base.orientation)) {
+                report(*q, "'orientation' must not be zero");
+            }
+        }
+        if (const ShotNode* grid = node.find("grid")) return readGrid(*grid, base);
+        return hasRoomFor(1.0, node) ? std::vector<Pose>{base} : std::vector<Pose>();
+    }
+
+    std::vector<Pose> readGrid(const ShotNode& grid, const Pose& base)
+    {
+        std::vector<Pose> copies;
+        const ShotNode* countNode = grid.find("count");
+        const ShotNode* spacingNode = grid.find("spacing");
+        if (!countNode || !spacingNode) return copies;
+        const std::array<int, 3> count = toInts<3>(*countNode);
+        if (!hasRoomFor(1.0 * count[0] * count[1] * count[2], *countNode)) return copies;
+
+        const Vec3 spacing = toVec3(*spacingNode);
+        for (int z = 0; z < count[2]; ++z) {
+            for (int y = 0; y < count[1]; ++y) {
+                for (int x = 0; x < count[0]; ++x) {
+                    const Vec3 steps(x - 0.5 * (count[0] - 1), y - 0.5 * (count[1] - 1),
+                                     z - 0.5 * (count[2] - 1));
+                    Pose pose = base;
+                    pose.position += steps.cwiseProduct(spacing);
+                    copies.push_back(pose);
+                }
+            }
+        }
+        return copies;
+    }
+
+    /// False, and one report in the whole shot, when the bodies become too many.
+    bool hasRoomFor(double count, const ShotNode& node)
+    {
+        const bool hasRoom = static_cast<double>(shot_.bodies.size()) + count <= kMostBodies;
+        if (!hasRoom && !isTooManyReported_) {
+            report(node, "the shot has more than 1000000 bodies");
+            isTooManyReported_ = true;
+        }
+        return hasRoom;
+    }
+
+    void readLook()
+    {
+        if (const ShotNode* cameras = tree_.find("camera")) {
+            for (const ShotNode& camera : cameras->items) readCamera(camera);
+        }
+        if (const ShotNode* render = tree_.find("render")) {
+            shot_.render.size = toInts<2>(*render->find("size"));
+        }
+        if (const ShotNode* output = tree_.find("output")) {
+            for (const ShotNode& word : output->find("export")->items) {
+                shot_.output.exports.push_back(word.text);
+            }
+            readSubframes(*output->find("subframes"));
+        }
+    }
+
+    void readSubframes(const ShotNode& list)
+    {
+        for (const ShotNode& item : list.items) shot_.output.subframes.push_back(item.number);
+        if (!areSampleOffsets(shot_.output.subframes)) {
+            report(list,
+                   "'subframes' must lie within one frame and at least 0.01 frames apart, like "
+                   "[-0.25, 0.0, 0.25], not " +
+                       toTomlText(list));
+        }
+    }
+
+    void readCamera(const ShotNode& node)
+    {
+        ShotCamera camera;
+        const ShotNode& name = *node.find("name");
+        camera.name = name.text;
+        for (const ShotCamera& other : shot_.cameras) {
+            if (other.name != camera.name) continue;
+            report(name, "camera name '" + camera.name + "' is taken by another camera");
+        }
+        camera.target = toVec3(*node.find("target")) * shot_.metresPerUnit;
+        camera.fovDegrees = node.find("fov")->number;
+        if (const ShotNode* eye = node.find("eye")) {
+            camera.eye = toVec3(*eye) * shot_.metresPerUnit;
+            if (camera.eye == camera.target) report(*eye, "'eye' must not be where 'target' is");
+        }
+        shot_.cameras.push_back(camera);
+    }
+
+    static bool mentionsAny(const ShotNode& node, std::initializer_list<const char*> keys)
+    {
+        for (const char* key : keys) {
+            if (node.mentions(key)) return true;
+        }
+        return false;
+    }
+
+    static std::string quotedName(const ShotBody& body)
+    {
+        return body.name.empty() ? "" : " '" + body.name + "'";
+    }
+
+    std::string besideShot(const std::string& file) const
+    {
+        return (folder_ / file).lexically_normal().string();
+    }
+
+    void report(const ShotNode& node, const std::string& message)
+    {
+        problems_.add(node.where, message);
+    }
+
+    const ShotNode& tree_;
+    std::filesystem::path folder_;
+    ProblemList& problems_;
+    Shot shot_;
+    std::vector<std::string> materialNames_, shapeNames_;
+    std::unordered_map<std::string, SourceLocation> ownerOfName_;  // asked, never walked
+    bool isTooManyReported_ = false;
+};
+
+}  // namespace
+
+Shot interpretShot(const ShotNode& tree, const std::string& shotPath, ProblemList& problems)
+{
+    return Interpreter(tree, shotPath, problems).interpret();
+}
+
+}  // namespace scree

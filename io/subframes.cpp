@@ -1,0 +1,111 @@
+// Symbols: x centre of mass, q orientation, v velocity, L angular momentum; s share of the sub-step
+//          that has passed, 0 … 1.
+#include "io/subframes.h"
+
+#include <algorithm>
+
+#include "core/math/rotation.h"
+#include "io/build_world.h"
+
+namespace scree {
+namespace {
+
+/// Linear, orientations normalised afterwards: a sub-step turns a body by 17° at most, so this
+/// differs from the even turn by less than a thousandth of the angle.
+BodyMotion mixed(const BodyMotion& a, const BodyMotion& b, double s)
+{
+    const double sign = a.orientation.dot(b.orientation) < 0.0 ? -1.0 : 1.0;
+    BodyMotion result;
+    result.position = (1.0 - s) * a.position + s * b.position;
+    result.orientation.coeffs() =
+        (1.0 - s) * a.orientation.coeffs() + s * sign * b.orientation.coeffs();
+    result.orientation.normalize();
+    result.velocity = (1.0 - s) * a.velocity + s * b.velocity;
+    result.angularMomentum = (1.0 - s) * a.angularMomentum + s * b.angularMomentum;
+    return result;
+}
+
+/// A resting body keeps its very bits, so that its samples are stored once.
+bool isSamePlace(const BodyMotion& a, const BodyMotion& b)
+{
+    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
+}  // namespace
+
+bool areSampleOffsets(const std::vector<double>& asked)
+{
+    const std::vector<double> offsets = sampleOffsets(asked);
+    for (std::size_t i = 1; i < offsets.size(); ++i)
+        if (offsets[i] - offsets[i - 1] < kLeastSampleDistance) return false;
+    return offsets.back() - offsets.front() <= 1.0 - kLeastSampleDistance;
+}
+
+std::vector<double> sampleOffsets(const std::vector<double>& asked)
+{
+    std::vector<double> offsets = asked;
+    if (std::find(offsets.begin(), offsets.end(), 0.0) == offsets.end()) offsets.push_back(0.0);
+    std::sort(offsets.begin(), offsets.end());
+    return offsets;
+}
+
+std::vector<double> instantsBetween(const std::vector<double>& offsets)
+{
+    std::vector<double> instants;
+    for (const double offset : offsets)
+        if (offset != 0.0) instants.push_back(offset > 0.0 ? offset : 1.0 + offset);
+    std::sort(instants.begin(), instants.end());
+    return instants;
+}
+
+SubframeRecorder::SubframeRecorder(const Shot& shot, const World& world)
+    : shot_(shot), instants_(instantsBetween(sampleOffsets(shot.output.subframes)))
+{
+    if (!instants_.empty()) inBetween_ = world;
+}
+
+void SubframeRecorder::begin(const World& world, std::vector<SceneFrame> passed)
+{
+    samples_ = std::move(passed);
+    if (instants_.empty()) return;
+    before_ = world.motion;
+    timeBefore_ = world.clock.frameTimeDone;
+}
+
+void SubframeRecorder::afterStep(const World& world, double frameTime)
+{
+    if (instants_.empty()) return;
+    while (samples_.size() < instants_.size()) {
+        const double instant = instants_[samples_.size()];
+        const double time = instant / shot_.framesPerSecond;
+        if (time > frameTime) break;
+        samples_.push_back(sampleAt(world, (time - timeBefore_) / (frameTime - timeBefore_)));
+        samples_.back().offset = instant;
+    }
+    before_ = world.motion;
+    timeBefore_ = frameTime;
+}
+
+SceneFrame SubframeRecorder::sampleAt(const World& world, double share)
+{
+    inBetween_->clock = world.clock;
+    for (std::size_t body = 0; body < world.motion.size(); ++body) {
+        const BodyMotion &a = before_[body], &b = world.motion[body];
+        inBetween_->motion[body] = isSamePlace(a, b) ? b : mixed(a, b, share);
+    }
+    return captureFrame(shot_, *inBetween_);
+}
+
+SceneFrame coasted(const SceneFrame& frame, double seconds)
+{
+    SceneFrame result = frame;
+    for (std::size_t body = 0; body < frame.worldFromAsset.size(); ++body) {
+        Pose& pose = result.worldFromAsset[body];
+        pose.position += seconds * frame.velocity[body];
+        if (!frame.angularVelocity[body].isZero(0.0))
+            pose.orientation = rotated(pose.orientation, seconds * frame.angularVelocity[body]);
+    }
+    return result;
+}
+
+}  // namespace scree

@@ -1,0 +1,346 @@
+#include "io/take.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "io/build_world.h"
+#include "io/file_bytes.h"
+#include "io/ply_mesh.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kFramePrefix = "frame.";
+constexpr std::string_view kFrameSuffix = ".scree";
+
+/// The number in "frame.001001.scree"; nothing for any other name.
+std::optional<int> frameNumber(const std::string& name)
+{
+    if (!name.starts_with(kFramePrefix) || !name.ends_with(kFrameSuffix)) return std::nullopt;
+    const std::string digits =
+        name.substr(kFramePrefix.size(), name.size() - kFramePrefix.size() - kFrameSuffix.size());
+    const std::size_t firstDigit = digits.starts_with('-') ? 1 : 0;
+    if (digits.size() < firstDigit + 1 || digits.size() > 9 ||
+        digits.find_first_not_of("0123456789", firstDigit) != std::string::npos)
+        return std::nullopt;
+    return std::stoi(digits);
+}
+
+void createFolder(const fs::path& folder)
+{
+    std::error_code code;
+    fs::create_directories(folder, code);
+    if (code)
+        throw Error(ErrorKind::cannotCreate,
+                    "cannot create the folder \"" + folder.string() + "\": " + code.message());
+}
+
+/// The lock goes with the descriptor, so a killed writer leaves none behind. File systems that know
+/// no locks are taken at their word.
+int lockFolder(const fs::path& folder)
+{
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        ::close(descriptor);
+        throw Error(ErrorKind::cannotCreate,
+                    "\"" + folder.string() + "\" is being written by another scree sim");
+    }
+    return descriptor;
+}
+
+/// Appends a line and makes it durable. A write that fails half way is cut back.
+void appendLine(const fs::path& path, const std::string& line)
+{
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        throw Error(ErrorKind::cannotCreate,
+                    "cannot create \"" + path.string() + "\": " + std::strerror(errno));
+    const off_t before = ::lseek(descriptor, 0, SEEK_END);
+    const std::string bytes = line + "\n";
+    errno = 0;
+    const bool written =
+        ::write(descriptor, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
+    const int reason = errno == 0 ? ENOSPC : errno;
+    if (!written && ::ftruncate(descriptor, before) != 0) {
+        // The cut line is skipped by readers and dropped by the next resume.
+    }
+    ::fdatasync(descriptor);
+    ::close(descriptor);
+    if (!written)
+        throw Error(ErrorKind::inputOutput,
+                    "writing \"" + path.string() + "\" failed: " + std::strerror(reason));
+}
+
+}  // namespace
+
+fs::path TakePaths::frame(int frame) const
+{
+    char name[32];
+    std::snprintf(name, sizeof name, "frame.%06d.scree", frame);
+    return frames() / name;
+}
+
+std::vector<int> listFrames(const TakePaths& paths)
+{
+    std::vector<int> frames;
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(paths.frames(), code))
+        if (const auto frame = frameNumber(entry.path().filename().string()))
+            frames.push_back(*frame);
+    std::sort(frames.begin(), frames.end());
+    return frames;
+}
+
+FrameState captureState(const Shot& shot, const World& world, std::vector<SceneFrame> between)
+{
+    FrameState state;
+    state.shotHash = hashText(shot.resolvedText);
+    state.clock = world.clock;
+    state.motion = world.motion;
+    state.order = world.order;
+    state.scene = captureFrame(shot, world);
+    state.scene.frame = shot.firstFrame + static_cast<int>(world.clock.frame);
+    state.between = std::move(between);
+    return state;
+}
+
+void restoreState(World& world, const FrameState& state)
+{
+    SCREE_CHECK(state.motion.size() == world.bodyCount(), "the state is of another world");
+    world.motion = state.motion;
+    world.order = state.order;
+    world.clock = state.clock;
+}
+
+TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& world,
+                       const std::string& programVersion, ExistingTake existing)
+    : shot_(shot), paths_{folder}, shotHash_(hashText(shot.resolvedText))
+{
+    const bool exists = fs::exists(paths_.info());
+    const std::vector<int> frames = listFrames(paths_);
+    const std::string name = "\"" + folder.string() + "\"";
+    if (!exists && !frames.empty() && existing != ExistingTake::overwrite)
+        throw Error(ErrorKind::inputOutput,
+                    name +
+                        " has frames but no take.json: put the file back, choose another folder "
+                        "with -o, or begin again with --overwrite");
+    if (exists && existing == ExistingTake::refuse) {
+        const bool finished = !frames.empty() && frames.back() >= shot.lastFrame;
+        throw Error(ErrorKind::cannotCreate,
+                    name + (finished ? " holds a finished take: --overwrite replaces it, -o writes "
+                                       "elsewhere, --resume checks it and fills gaps"
+                                     : " holds an unfinished take: --resume goes on with it, "
+                                       "--overwrite begins again"));
+    }
+
+    createFolder(folder);
+    lock_ = lockFolder(folder);
+    try {
+        if (existing == ExistingTake::overwrite) removeTake();
+        removeTemporaries();
+        if (exists && existing == ExistingTake::resume)
+            resume(world, programVersion);
+        else
+            start(world, programVersion);
+    } catch (...) {
+        if (lock_ >= 0) ::close(lock_);
+        throw;
+    }
+}
+
+TakeWriter::~TakeWriter()
+{
+    if (lock_ >= 0) ::close(lock_);
+}
+
+void TakeWriter::start(const World& world, const std::string& programVersion)
+{
+    createFolder(paths_.shapes());
+    createFolder(paths_.frames());
+
+    // Shapes first, the description last: a take without take.json was never begun.
+    const SceneDescription scene = describeScene(shot_, world, 1.0);
+    TakeInfo info = makeTakeInfo(shot_, world, scene, programVersion);
+    std::set<std::string> wanted;
+    for (const TakeBody& body : info.bodies)
+        if (!body.isPlane) wanted.insert(body.shape);
+    for (const SceneMesh& mesh : scene.meshes) {
+        if (!wanted.contains(mesh.name)) continue;
+        writePlyMesh(paths_.shape(mesh.name), {mesh.points, mesh.triangles});
+        info.shapes.push_back({mesh.name, hashText(readFileBytes(paths_.shape(mesh.name)))});
+    }
+    writeFileBytes(paths_.info(), encodeTakeInfo(info));
+}
+
+void TakeWriter::resume(const World& world, const std::string& programVersion)
+{
+    checkSameShot(world, programVersion);
+    findWholeFrames(world);
+    findCheckpoint(world);
+
+    // Statistics follow the frames: lines of frames that are gone or damaged go too.
+    for (const FrameSummary& summary : readStats(paths_.stats()))
+        if (hasFrame(summary.frame)) statsLines_[summary.frame] = summary.line;
+    rewriteStats();
+}
+
+void TakeWriter::checkSameShot(const World& world, const std::string& programVersion)
+{
+    const TakeInfo info = decodeTakeInfo(readFileBytes(paths_.info()), paths_.info());
+    const std::string name = "\"" + paths_.root.string() + "\"";
+    if (info.shotHash != shotHash_)
+        throw Error(ErrorKind::badInput,
+                    name + " was made from another shot: the resolved shot has hash " +
+                        toHex(shotHash_) + ", the take's is " + toHex(info.shotHash) +
+                        ". Compare `scree check SHOT --resolved` with \"shot\" in take.json, or "
+                        "write to another folder with -o");
+    const TakeInfo now =
+        makeTakeInfo(shot_, world, describeScene(shot_, world, 1.0), programVersion);
+    for (std::size_t i = 0; i < std::min(info.inputs.size(), now.inputs.size()); ++i)
+        if (info.inputs[i].hash != now.inputs[i].hash)
+            throw Error(ErrorKind::badInput, name + " was made from another \"" +
+                                                 now.inputs[i].path +
+                                                 "\": the file has changed since");
+    if (info.programVersion != programVersion)
+        notices_.push_back(name + " was begun by scree " + info.programVersion + ", this is " +
+                           programVersion + ": the bits may differ from an unbroken run");
+}
+
+void TakeWriter::findWholeFrames(const World& world)
+{
+    for (const int frame : listFrames(paths_)) {
+        if (frame < shot_.firstFrame || frame > shot_.lastFrame) continue;
+        try {
+            const FrameState state = readFrameFile(paths_.frame(frame));
+            if (state.shotHash != shotHash_ || state.scene.frame != frame ||
+                state.motion.size() != world.bodyCount())
+                throw Error(ErrorKind::badInput, {paths_.frame(frame).string(), 0, 0},
+                            "is of another take");
+            wholeFrames_.insert(frame);
+        } catch (const Error& problem) {
+            notices_.push_back(std::string(problem.what()) + "; this frame is simulated again");
+        }
+    }
+    // Prove that this world begins where the take begins, bit for bit.
+    if (!hasFrame(shot_.firstFrame)) return;
+    if (readFileBytes(paths_.frame(shot_.firstFrame)) != encodeFrame(captureState(shot_, world)))
+        throw Error(ErrorKind::badInput,
+                    "\"" + paths_.root.string() +
+                        "\" does not begin where this shot begins: an asset or the program has "
+                        "changed since. --overwrite begins again, -o writes elsewhere");
+}
+
+void TakeWriter::findCheckpoint(const World& world)
+{
+    if (!fs::exists(paths_.checkpoint())) return;
+    try {
+        const FrameState state = readFrameFile(paths_.checkpoint());
+        const bool fits = state.shotHash == shotHash_ && state.motion.size() == world.bodyCount();
+        if (fits && !hasFrame(state.scene.frame + 1))
+            checkpoint_ = state.clock;
+        else
+            fs::remove(paths_.checkpoint());
+    } catch (const Error& problem) {
+        notices_.push_back(std::string(problem.what()) + "; going on from the last whole frame");
+    }
+}
+
+std::vector<SceneFrame> TakeWriter::prepareFor(int frame, World& world) const
+{
+    const std::int64_t previous = frame - 1 - shot_.firstFrame;
+    const bool fromCheckpoint = checkpoint_ && checkpoint_->frame == previous;
+    const bool standsThere = world.clock.frame == previous &&
+                             !(fromCheckpoint && world.clock.subStep < checkpoint_->subStep);
+    if (standsThere) return {};
+    FrameState state =
+        readFrameFile(fromCheckpoint ? paths_.checkpoint() : paths_.frame(frame - 1));
+    restoreState(world, state);
+    // The samples in a frame's own file lie on the way to it, not from it.
+    return fromCheckpoint ? std::move(state.between) : std::vector<SceneFrame>();
+}
+
+void TakeWriter::writeFrame(const World& world, const FrameStats& stats,
+                            const std::vector<SceneFrame>& between)
+{
+    const FrameState state = captureState(shot_, world, between);
+    SCREE_CHECK(state.scene.frame == stats.frame && world.clock.subStep == 0,
+                "a frame is written at its boundary");
+
+    // Statistics first: a line without its frame is dropped by the next resume, a frame without its
+    // line would stay so.
+    appendStats(stats, world);
+    writeFileBytes(paths_.frame(stats.frame), encodeFrame(state));
+    wholeFrames_.insert(stats.frame);
+
+    // A checkpoint that led here has done its duty: the frame itself is the place to go on from.
+    if (!checkpoint_ || checkpoint_->frame >= world.clock.frame) return;
+    std::error_code code;
+    fs::remove(paths_.checkpoint(), code);
+    checkpoint_.reset();
+}
+
+void TakeWriter::writeCheckpoint(const World& world, const std::vector<SceneFrame>& between)
+{
+    writeFileBytes(paths_.checkpoint(), encodeFrame(captureState(shot_, world, between)));
+    checkpoint_ = world.clock;
+}
+
+std::vector<FrameSummary> TakeWriter::summaries() const
+{
+    return readStats(paths_.stats());
+}
+
+void TakeWriter::appendStats(const FrameStats& stats, const World& world)
+{
+    const bool isLast = statsLines_.empty() || statsLines_.rbegin()->first < stats.frame;
+    statsLines_[stats.frame] = encodeStats(stats, world);
+    if (isLast)
+        appendLine(paths_.stats(), statsLines_[stats.frame]);
+    else
+        rewriteStats();
+}
+
+void TakeWriter::rewriteStats() const
+{
+    std::string text;
+    for (const auto& [frame, line] : statsLines_) text += line + "\n";
+    writeFileBytes(paths_.stats(), text);
+}
+
+void TakeWriter::removeTake()
+{
+    // The description goes first: from then on nobody takes the rest for a take.
+    for (const fs::path& path :
+         {paths_.info(), paths_.frames(), paths_.shapes(), paths_.stats(), paths_.checkpoint()}) {
+        std::error_code code;
+        fs::remove_all(path, code);
+        if (code)
+            throw Error(ErrorKind::cannotCreate,
+                        "cannot remove \"" + path.string() + "\": " + code.message());
+    }
+}
+
+void TakeWriter::removeTemporaries() const
+{
+    for (const fs::path& folder : {paths_.root, paths_.frames(), paths_.shapes()}) {
+        std::error_code code;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+            const std::string name = entry.path().filename().string();
+            std::error_code ignored;
+            if (name.starts_with('.') && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
+        }
+    }
+}
+
+}  // namespace scree

@@ -1,0 +1,222 @@
+#include "io/take_info.h"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "io/file_bytes.h"
+#include "io/subframes.h"
+
+namespace scree {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::uint64_t fromHex(const std::string& text)
+{
+    std::uint64_t value = 0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    if (result.ec != std::errc() || result.ptr != text.data() + text.size())
+        throw std::runtime_error("\"" + text + "\" is not a hexadecimal number");
+    return value;
+}
+
+Json toJson(const TakeBody& body)
+{
+    Json json = {{"name", body.name}, {body.isPlane ? "plane" : "shape", body.shape}};
+    json["material"] = body.material;
+    json["motion"] = body.kind == BodyKind::dynamic ? "dynamic" : "static";
+    json["mass"] = body.mass;
+    return json;
+}
+
+TakeBody bodyFromJson(const Json& json)
+{
+    TakeBody body;
+    body.name = json.at("name");
+    body.isPlane = json.contains("plane");
+    body.shape = json.at(body.isPlane ? "plane" : "shape");
+    body.material = json.at("material");
+    body.kind = json.at("motion") == "dynamic" ? BodyKind::dynamic : BodyKind::fixed;
+    body.mass = json.at("mass");
+    return body;
+}
+
+Json toJson(const Vec3& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+Vec3 vectorFromJson(const Json& json)
+{
+    return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+}
+
+Json toJson(const TakeLook& look)
+{
+    return {{"material", look.material},   {"color", toJson(look.color)},
+            {"roughness", look.roughness}, {"density", look.density},
+            {"friction", look.friction},   {"restitution", look.restitution}};
+}
+
+Json toJson(const TakeCamera& camera)
+{
+    return {{"name", camera.name},
+            {"eye", toJson(camera.eye)},
+            {"target", toJson(camera.target)},
+            {"fov", camera.fovDegrees}};
+}
+
+template <class T>
+Json listToJson(const std::vector<T>& items)
+{
+    Json list = Json::array();
+    for (const T& item : items) list.push_back(toJson(item));
+    return list;
+}
+
+void readPictures(const Json& json, TakeInfo& info)
+{
+    for (const Json& look : json.at("looks"))
+        info.looks.push_back({look.at("material"), vectorFromJson(look.at("color")),
+                              look.at("roughness"), look.value("density", 0.0),
+                              look.value("friction", 0.0), look.value("restitution", 0.0)});
+    for (const Json& camera : json.at("cameras"))
+        info.cameras.push_back({camera.at("name"), vectorFromJson(camera.at("eye")),
+                                vectorFromJson(camera.at("target")), camera.at("fov")});
+    info.pictureSize = {json.at("picture_size").at(0), json.at("picture_size").at(1)};
+}
+
+void describePictures(const Shot& shot, TakeInfo& info)
+{
+    for (const ShotMaterial& material : shot.materials)
+        info.looks.push_back({material.material.name, material.color, material.roughness,
+                              material.material.density, material.material.friction,
+                              material.material.restitution});
+    for (const ShotCamera& camera : shot.cameras)
+        info.cameras.push_back({camera.name, camera.eye / shot.metresPerUnit,
+                                camera.target / shot.metresPerUnit, camera.fovDegrees});
+    info.pictureSize = shot.render.size;
+}
+
+TakeInfo infoFromJson(const Json& json)
+{
+    TakeInfo info;
+    info.programVersion = json.at("program_version");
+    info.name = json.at("name");
+    info.framesPerSecond = json.at("fps");
+    info.firstFrame = json.at("frames").at(0);
+    info.lastFrame = json.at("frames").at(1);
+    info.metresPerUnit = json.at("metres_per_unit");
+    info.zUp = json.at("up") == "+z";
+    info.seed = json.at("seed");
+    info.shotHash = fromHex(json.at("shot_hash"));
+    for (const Json& input : json.at("inputs"))
+        info.inputs.push_back({input.at("path"), fromHex(input.at("hash"))});
+    for (const Json& shape : json.at("shapes"))
+        info.shapes.push_back({shape.at("name"), fromHex(shape.at("hash"))});
+    for (const Json& body : json.at("bodies")) info.bodies.push_back(bodyFromJson(body));
+    readPictures(json, info);
+    info.offsets = json.value("subframes", std::vector<double>{0.0});
+    info.resolvedShot = json.at("shot");
+    return info;
+}
+
+}  // namespace
+
+TakeInfo makeTakeInfo(const Shot& shot, const World& world, const SceneDescription& scene,
+                      const std::string& programVersion)
+{
+    SCREE_CHECK(scene.bodies.size() == world.bodyCount(), "scene and world differ in size");
+    TakeInfo info;
+    info.programVersion = programVersion;
+    info.name = shot.name;
+    info.resolvedShot = shot.resolvedText;
+    info.shotHash = hashText(shot.resolvedText);
+    info.seed = shot.settings.seed;
+    info.framesPerSecond = shot.framesPerSecond;
+    info.metresPerUnit = shot.metresPerUnit;
+    info.zUp = shot.zUp;
+    info.firstFrame = shot.firstFrame;
+    info.lastFrame = shot.lastFrame;
+    for (const ShotShape& shape : shot.shapes)
+        if (const auto* file = std::get_if<FileSpec>(&shape.source))
+            info.inputs.push_back({file->path, hashText(readFileBytes(file->path))});
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        const SceneBody& described = scene.bodies[body];
+        info.bodies.push_back({described.name, scene.meshes[described.mesh].name,
+                               world.shapeOf(body).isPlane, described.material,
+                               world.info[body].kind, described.mass});
+    }
+    describePictures(shot, info);
+    info.offsets = sampleOffsets(shot.output.subframes);
+    return info;
+}
+
+std::string encodeTakeInfo(const TakeInfo& info)
+{
+    Json inputs = Json::array(), shapes = Json::array();
+    for (const TakeInput& input : info.inputs)
+        inputs.push_back({{"path", input.path}, {"hash", toHex(input.hash)}});
+    for (const TakeShape& shape : info.shapes)
+        shapes.push_back({{"name", shape.name}, {"hash", toHex(shape.hash)}});
+    const Json json = {
+        {"format", "scree take"},
+        {"format_version", kTakeFormatVersion},
+        {"program_version", info.programVersion},
+        {"name", info.name},
+        {"fps", info.framesPerSecond},
+        {"frames", {info.firstFrame, info.lastFrame}},
+        {"metres_per_unit", info.metresPerUnit},
+        {"up", info.zUp ? "+z" : "+y"},
+        {"seed", info.seed},
+        {"shot_hash", toHex(info.shotHash)},
+        {"inputs", inputs},
+        {"shapes", shapes},
+        {"bodies", listToJson(info.bodies)},
+        {"looks", listToJson(info.looks)},
+        {"cameras", listToJson(info.cameras)},
+        {"picture_size", info.pictureSize},
+        {"subframes", info.offsets},
+        {"shot", info.resolvedShot},
+    };
+    return json.dump(1) + "\n";
+}
+
+TakeInfo decodeTakeInfo(const std::string& text, const std::filesystem::path& path)
+{
+    const auto fail = [&](const std::string& why) {
+        throw Error(ErrorKind::inputOutput, {path.string(), 0, 0},
+                    why + "; the frames beside it are untouched");
+    };
+    TakeInfo info;
+    try {
+        const Json json = Json::parse(text);
+        if (json.value("format", "") != "scree take") fail("not the description of a Scree take");
+        if (const int version = json.at("format_version"); version != kTakeFormatVersion)
+            fail("take format " + std::to_string(version) + "; this program knows format " +
+                 std::to_string(kTakeFormatVersion));
+        info = infoFromJson(json);
+        if (sampleOffsets(info.offsets) != info.offsets || !areSampleOffsets(info.offsets))
+            fail("damaged: the offsets of \"subframes\" do not fit into a frame");
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& problem) {
+        fail(std::string("damaged: ") + problem.what());
+    }
+    if (info.shotHash != hashText(info.resolvedShot))
+        fail("damaged: the shot's text does not fit its hash");
+    return info;
+}
+
+std::string toHex(std::uint64_t value)
+{
+    std::string text(16, '0');
+    for (int digit = 15; digit >= 0; --digit, value >>= 4)
+        text[digit] = "0123456789abcdef"[value & 15];
+    return text;
+}
+
+}  // namespace scree

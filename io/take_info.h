@@ -1,0 +1,90 @@
+// What take.json says: which shot a take was made from, by which program, and what is in it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene_description.h"
+#include "core/scene/world.h"
+#include "io/shot.h"
+
+namespace scree {
+
+constexpr int kTakeFormatVersion = 1;
+
+/// A file that the shot was built from; the hash tells whether it has changed since.
+struct TakeInput {
+    std::string path;
+    std::uint64_t hash = 0;
+};
+
+/// A mesh kept under shapes/.
+struct TakeShape {
+    std::string name;
+    std::uint64_t hash = 0;  ///< of the file's bytes
+};
+
+struct TakeBody {
+    std::string name;
+    std::string shape;     ///< name of its mesh
+    bool isPlane = false;  ///< infinite, through its asset's origin with normal +y; no mesh is kept
+    std::string material;
+    BodyKind kind = BodyKind::dynamic;
+    double mass = 0.0;  ///< [kg], 0 for bodies that cannot be moved
+};
+
+/// How a material looks, for pictures, and how it behaves, for programs that simulate on.
+struct TakeLook {
+    std::string material;
+    Vec3 color = {0.6, 0.6, 0.6};  ///< linear
+    double roughness = 0.5;
+    double density = 0.0;  ///< [kg/m³]
+    double friction = 0.0, restitution = 0.0;
+};
+
+/// A camera in the shot's unit of length.
+struct TakeCamera {
+    std::string name;
+    Vec3 eye = Vec3::Zero();
+    Vec3 target = Vec3::Zero();
+    double fovDegrees = 35.0;  ///< vertical
+};
+
+struct TakeInfo {
+    std::string programVersion;
+    std::string name;
+    std::string resolvedShot;    ///< canonical text of the shot, defaults included
+    std::uint64_t shotHash = 0;  ///< of that text
+    std::uint64_t seed = 0;
+    double framesPerSecond = 24.0;
+    double metresPerUnit = 1.0;
+    bool zUp = false;
+    int firstFrame = 1001;
+    int lastFrame = 1240;
+    std::vector<TakeInput> inputs;
+    std::vector<TakeShape> shapes;
+    std::vector<TakeBody> bodies;
+    std::vector<TakeLook> looks;
+    std::vector<TakeCamera> cameras;
+    std::array<int, 2> pictureSize = {1280, 720};
+    std::vector<double> offsets = {0.0};  ///< of the samples around every frame (io/subframes.h)
+};
+
+/// Everything but the hashes of the shapes, which exist once they are written. `scene` is what
+/// describeScene says of shot and world.
+TakeInfo makeTakeInfo(const Shot& shot, const World& world, const SceneDescription& scene,
+                      const std::string& programVersion);
+
+/// The text of take.json.
+std::string encodeTakeInfo(const TakeInfo& info);
+
+/// Throws Error{inputOutput} naming `path` when the text is damaged or of an unknown version.
+TakeInfo decodeTakeInfo(const std::string& text, const std::filesystem::path& path);
+
+/// 16 hexadecimal digits.
+std::string toHex(std::uint64_t value);
+
+}  // namespace scree

@@ -1,0 +1,53 @@
+// Reads a take without its shot: what render and the exporters need stands in it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene_description.h"
+#include "io/frame_stats.h"
+#include "io/take.h"
+#include "io/take_info.h"
+
+namespace scree {
+
+class TakeReader {
+public:
+    /// Throws Error{missingInput} when the folder is no take, Error{inputOutput} when take.json is
+    /// damaged.
+    explicit TakeReader(const std::filesystem::path& folder);
+
+    const TakeInfo& info() const { return info_; }
+    const TakePaths& paths() const { return paths_; }
+
+    /// Frames that have a file, ascending.
+    const std::vector<int>& frames() const { return frames_; }
+
+    /// Bodies and meshes, in the shot's unit. A plane becomes a square as large as the action:
+    /// reads the frames to see how far that goes. Throws when a mesh is missing or damaged.
+    SceneDescription describe() const;
+
+    /// Throws Error{missingInput} when the frame was not simulated, Error{inputOutput} when its
+    /// file is damaged.
+    SceneFrame readFrame(int frame) const;
+
+    /// Offsets of the samples around every frame [frames], ascending, 0 among them.
+    const std::vector<double>& offsets() const { return info_.offsets; }
+
+    /// The frame and its sub-frame samples, one for each of offsets(). Where nothing was simulated,
+    /// before the first and after the last frame, bodies coast. Throws as readFrame does.
+    std::vector<SceneFrame> readSamples(int frame) const;
+
+    std::vector<FrameSummary> stats() const { return readStats(paths_.stats()); }
+
+private:
+    FrameState readState(int frame) const;
+    double planeHalfWidth(const SceneDescription& scene) const;
+
+    TakePaths paths_;
+    TakeInfo info_;
+    std::vector<int> frames_;
+};
+
+}  // namespace scree

@@ -1,0 +1,166 @@
+#include "io/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include "core/base/error.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path)
+{
+    std::ifstream stream(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+std::size_t fileCount(const fs::path& folder)
+{
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+/// The kind of the Error that `action` throws; fails the test if it throws none.
+template <class Action>
+ErrorKind kindThrownBy(Action action)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.kind();
+    }
+    ADD_FAILURE() << "no Error was thrown";
+    return ErrorKind::internal;
+}
+
+/// A disk that is full after some bytes: the system refuses writes beyond them, to any user.
+class SmallDisk {
+public:
+    explicit SmallDisk(rlim_t byteCount) : handlerBefore_(std::signal(SIGXFSZ, SIG_IGN))
+    {
+        getrlimit(RLIMIT_FSIZE, &limitBefore_);
+        const rlimit limit = {byteCount, limitBefore_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~SmallDisk()
+    {
+        setrlimit(RLIMIT_FSIZE, &limitBefore_);
+        std::signal(SIGXFSZ, handlerBefore_);
+    }
+
+private:
+    rlimit limitBefore_;
+    void (*handlerBefore_)(int);
+};
+
+TEST(AtomicFile, HoldsWhatWasWrittenAndNothingElseIsLeftBeside)
+{
+    const test::TemporaryFolder folder;
+    AtomicFile file(folder / "a.bin");
+    file.write("hello ");
+    file.write("world");
+    EXPECT_EQ(file.size(), 11u);
+    file.commit();
+    EXPECT_EQ(contentOf(folder / "a.bin"), "hello world");
+    EXPECT_EQ(fileCount(folder.path()), 1u);
+}
+
+TEST(AtomicFile, LeavesTheOldFileUntilCommit)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a.bin") << "old";
+    AtomicFile file(folder / "a.bin");
+    file.write("new");
+    EXPECT_EQ(contentOf(folder / "a.bin"), "old");
+    file.commit();
+    EXPECT_EQ(contentOf(folder / "a.bin"), "new");
+}
+
+TEST(AtomicFile, WithoutCommitLeavesNothing)
+{
+    const test::TemporaryFolder folder;
+    {
+        AtomicFile file(folder / "a.bin");
+        file.write("half a fi");
+    }
+    EXPECT_EQ(fileCount(folder.path()), 0u);
+}
+
+TEST(AtomicFile, OverwritesBytesWhetherPendingOrAlreadyWritten)
+{
+    const test::TemporaryFolder folder;
+    const std::string large(3 << 20, 'x');
+    AtomicFile file(folder / "a.bin");
+    file.write("head");
+    file.write(large);
+    file.write("tail");
+    file.overwrite(0, "HE", 2);
+    file.overwrite(file.size() - 4, "TA", 2);
+    file.write("!");
+    file.commit();
+    EXPECT_EQ(contentOf(folder / "a.bin"), "HEad" + large + "TAil!");
+}
+
+TEST(AtomicFile, ManySmallWritesArriveInOrder)
+{
+    const test::TemporaryFolder folder;
+    AtomicFile file(folder / "a.bin");
+    std::string expected;
+    for (int i = 0; i < 400000; ++i) {
+        const std::string piece = std::to_string(i);
+        file.write(piece);
+        expected += piece;
+    }
+    file.commit();
+    EXPECT_TRUE(contentOf(folder / "a.bin") == expected);
+}
+
+TEST(AtomicFile, CannotBeCreatedInAFolderThatDoesNotExist)
+{
+    const test::TemporaryFolder folder;
+    EXPECT_EQ(kindThrownBy([&] { AtomicFile file(folder / "missing/a.bin"); }),
+              ErrorKind::cannotCreate);
+}
+
+TEST(AtomicFile, ReplacesNeitherFoldersNorDevices)
+{
+    const test::TemporaryFolder folder;
+    EXPECT_EQ(kindThrownBy([&] { AtomicFile file(folder.path()); }), ErrorKind::cannotCreate);
+    EXPECT_EQ(kindThrownBy([] { AtomicFile file("/dev/full"); }), ErrorKind::cannotCreate);
+}
+
+TEST(AtomicFile, FollowsASymbolicLinkInsteadOfReplacingIt)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "real.bin") << "old";
+    fs::create_symlink("real.bin", folder / "link.bin");
+    AtomicFile file(folder / "link.bin");
+    file.write("new");
+    file.commit();
+    EXPECT_TRUE(fs::is_symlink(folder / "link.bin"));
+    EXPECT_EQ(contentOf(folder / "real.bin"), "new");
+}
+
+TEST(AtomicFile, AFullDiskIsAnErrorAndTheOldFileSurvives)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a.bin") << "old";
+    {
+        AtomicFile file(folder / "a.bin");
+        const SmallDisk disk(1000);
+        file.write(std::string(2000, 'x'));
+        EXPECT_EQ(kindThrownBy([&] { file.commit(); }), ErrorKind::inputOutput);
+    }
+    EXPECT_EQ(contentOf(folder / "a.bin"), "old");
+    EXPECT_EQ(fileCount(folder.path()), 1u);
+}
+
+}  // namespace
+}  // namespace scree

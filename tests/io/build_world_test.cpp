@@ -1,0 +1,146 @@
+#include "io/build_world.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "io/shot_parser.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+const std::string kHead =
+    "scree = 1\n[shot]\nname = \"s\"\nunits = \"cm\"\n[material.wood]\n"
+    "density = 500\n";
+
+/// A box whose corner, not its centre, is its origin: 2 × 1 × 1 shot units.
+const char* const kSlabObj =
+    "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 0 1 1\n"
+    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
+
+Shot slabShot(const test::TemporaryFolder& folder, const std::string& shapeLines,
+              const std::string& bodyLines)
+{
+    std::ofstream(folder / "slab.obj") << kSlabObj;
+    return parseShotText(kHead + "[shape.slab]\nfile = \"slab.obj\"\n" + shapeLines +
+                             "[[body]]\nname = \"a\"\nshape = \"slab\"\nmaterial = \"wood\"\n" +
+                             bodyLines,
+                         (folder / "s.toml").string());
+}
+
+TEST(BuildWorld, FileMeshesAreInTheShotsUnitAndScaled)
+{
+    const test::TemporaryFolder folder;
+    const Shot shot = slabShot(folder, "scale = [10, 20, 20]\n", "");
+    const World world = buildWorld(shot);
+    // 20 × 20 × 20 cm at 500 kg/m³; the mesh has passed through single precision.
+    EXPECT_NEAR(1.0 / world.mass[0].inverseMass, 4.0, 1e-6);
+}
+
+TEST(BuildWorld, FramesGiveBackThePoseTheShotGave)
+{
+    const test::TemporaryFolder folder;
+    const Shot shot = slabShot(folder, "",
+                               "position = [3, 40, -7]\nrotation = [20, 30, 40]\n"
+                               "velocity = [1, 2, 3]\nspin = [0, 90, 0]\n");
+    World world = buildWorld(shot);
+    world.clock.frame = 5;
+    const SceneFrame frame = captureFrame(shot, world);
+    EXPECT_EQ(frame.frame, 1006);
+    EXPECT_TRUE(frame.worldFromAsset[0].position.isApprox(Vec3(3.0, 40.0, -7.0), 1e-12));
+    const Quat given = shot.bodies[0].worldFromAsset.orientation;
+    EXPECT_LT(frame.worldFromAsset[0].orientation.angularDistance(given), 1e-12);
+
+    // The origin is a corner, so it circles the centre of mass: v + w × (origin - centre).
+    const Vec3 spin(0.0, std::acos(-1.0) / 2.0, 0.0);
+    const Vec3 centre = frame.worldFromAsset[0] * Vec3(1.0, 0.5, 0.5);
+    const Vec3 expected =
+        Vec3(1.0, 2.0, 3.0) + spin.cross(frame.worldFromAsset[0].position - centre);
+    EXPECT_TRUE(frame.velocity[0].isApprox(expected, 1e-9)) << frame.velocity[0].transpose();
+    EXPECT_TRUE(frame.angularVelocity[0].isApprox(spin, 1e-12));
+}
+
+TEST(BuildWorld, DescriptionHasTheArtistsMeshOncePerShapeAndPlanesAsSquares)
+{
+    const test::TemporaryFolder folder;
+    const Shot shot = slabShot(folder, "",
+                               "grid = { count = [3, 1, 1], spacing = [5, 0, 0] }\n"
+                               "[[body]]\nname = \"ground\"\nmaterial = \"wood\"\n"
+                               "motion = \"static\"\nplane = { point = [0, -4, 0], "
+                               "normal = [1, 0, 0] }\n");
+    const World world = buildWorld(shot);
+    const SceneDescription scene = describeScene(shot, world, 100.0);
+    EXPECT_EQ(scene.name, "s");
+    EXPECT_EQ(scene.metresPerUnit, 0.01);
+    ASSERT_EQ(scene.bodies.size(), 4u);
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.bodies[2].name, "a_0002");
+    EXPECT_EQ(scene.bodies[2].mesh, 0u);
+    EXPECT_TRUE(scene.bodies[2].moves);
+    EXPECT_EQ(scene.bodies[2].material, "wood");
+    EXPECT_FALSE(scene.bodies[3].moves);
+    EXPECT_EQ(scene.bodies[3].mass, 0.0);
+    EXPECT_TRUE(scene.meshes[0].points.rowwise().maxCoeff().isApprox(Vec3(2.0, 1.0, 1.0)));
+    EXPECT_EQ(scene.meshes[0].points.rowwise().minCoeff(), Vec3(0.0, 0.0, 0.0));
+
+    // The square stands in the plane and its front is where the normal points.
+    const SceneFrame frame = captureFrame(shot, world);
+    const SceneMesh& square = scene.meshes[1];
+    const Pose& pose = frame.worldFromAsset[3];
+    EXPECT_TRUE(pose.position.isApprox(Vec3(0.0, -4.0, 0.0)));
+    for (int f = 0; f < 2; ++f) {
+        const Vec3 a = pose * Vec3(square.points.col(square.triangles(0, f)));
+        const Vec3 b = pose * Vec3(square.points.col(square.triangles(1, f)));
+        const Vec3 c = pose * Vec3(square.points.col(square.triangles(2, f)));
+        EXPECT_TRUE((b - a).cross(c - a).normalized().isApprox(Vec3::UnitX(), 1e-12));
+        EXPECT_NEAR(a.x(), 0.0, 1e-12);
+        EXPECT_NEAR((b - a).cross(c - a).norm(), 200.0 * 200.0, 1e-6);
+    }
+}
+
+TEST(BuildWorld, AssetErrorsAreLocatedAtTheShapeAndSaidOnce)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = (folder / "s.toml").string();
+    std::ofstream(folder / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n";
+    const Shot shot =
+        parseShotText(kHead +
+                          "[shape.gone]\nfile = \"gone.obj\"\n[shape.open]\nfile = \"open.obj\"\n"
+                          "[shape.unused]\nfile = \"unused.obj\"\n"
+                          "[[body]]\nname = \"a\"\nshape = \"gone\"\nmaterial = \"wood\"\n"
+                          "grid = { count = [2, 1, 1], spacing = [9, 9, 9] }\n"
+                          "[[body]]\nname = \"b\"\nshape = \"open\"\nmaterial = \"wood\"\n",
+                      path);
+    try {
+        buildWorld(shot);
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        const std::string first = path + ":7:8: mesh file '" + (folder / "gone.obj").string() +
+                                  "' does not exist\n" + path + ":9:8: ";
+        EXPECT_EQ(message.rfind(first, 0), 0u) << message;
+        EXPECT_NE(message.find("open"), std::string::npos) << message;
+        EXPECT_EQ(message.find("unused"), std::string::npos) << message;
+        EXPECT_EQ(error.kind(), ErrorKind::badInput);
+    }
+}
+
+TEST(BuildWorld, AShapeNamedPlaneDoesNotCollideWithPlanes)
+{
+    const Shot shot =
+        parseShotText(kHead +
+                          "[shape.plane]\nbox = {}\n[[body]]\nname = \"a\"\nshape = \"plane\"\n"
+                          "material = \"wood\"\n[[body]]\nname = \"g\"\nmaterial = \"wood\"\n"
+                          "motion = \"static\"\nplane = { normal = [0, 1, 0] }\n",
+                      "s.toml");
+    const SceneDescription scene = describeScene(shot, buildWorld(shot), 10.0);
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].name, "plane");
+    EXPECT_NE(scene.meshes[1].name, "plane");
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,109 @@
+#include "io/frame_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "core/base/error.h"
+#include "tests/support/export_scene.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+/// Keeps nothing: only the checks that all formats share are under test.
+class SilentWriter final : public FrameWriter {
+    void beginScene(const SceneDescription&, int, int) override {}
+    void writeFrame(const SceneFrame&) override {}
+    void finishScene() override {}
+};
+
+template <class Action>
+std::string messageOf(ErrorKind kind, Action action)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), kind) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "no Error was thrown";
+    return "";
+}
+
+TEST(FrameWriter, AnUnknownEndingIsAnsweredWithTheKnownOnes)
+{
+    const std::string message =
+        messageOf(ErrorKind::usage, [] { makeFrameWriter("out/cache.abx"); });
+    for (const char* ending : {".abc", ".obj", ".ply"}) {
+        EXPECT_NE(message.find(ending), std::string::npos) << message;
+    }
+}
+
+TEST(FrameWriter, EndingsAreKnownInAnyCase)
+{
+    EXPECT_NE(makeFrameWriter("CACHE.ABC"), nullptr);
+    EXPECT_NE(makeFrameWriter("cache.$F4.Obj"), nullptr);
+}
+
+TEST(FrameWriter, SequencesNeedAPlaceForTheFrameNumberAndCachesNone)
+{
+    const std::string message = messageOf(ErrorKind::usage, [] { makeFrameWriter("x.ply"); });
+    EXPECT_NE(message.find("x.####.ply"), std::string::npos) << message;
+    messageOf(ErrorKind::usage, [] { makeFrameWriter("x.####.abc"); });
+}
+
+TEST(FrameWriter, AFolderThatDoesNotExistIsFoundBeforeTheFirstFrame)
+{
+    const test::TemporaryFolder folder;
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("ring")});
+    for (const char* name : {"missing/x.abc", "missing/x.####.obj", "missing/x.####.ply"}) {
+        messageOf(ErrorKind::cannotCreate,
+                  [&] { makeFrameWriter(folder / name)->begin(scene, 1, 1); });
+    }
+}
+
+TEST(FrameWriter, NamesThatFormatsCannotHoldAreRefused)
+{
+    for (const char* name : {"", "a/b", "a b", "a.b", "a:b", "a;b", "a=b", "bröd", "a\nb"}) {
+        const SceneDescription scene = test::sceneOf({test::bodyNamed(name)});
+        messageOf(ErrorKind::badInput, [&] { SilentWriter().begin(scene, 1, 1); });
+    }
+    SceneDescription scene = test::sceneOf({});
+    scene.name = "my shot";
+    messageOf(ErrorKind::badInput, [&] { SilentWriter().begin(scene, 1, 1); });
+}
+
+TEST(FrameWriter, TwoBodiesOfOneNameAreRefused)
+{
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("a"), test::bodyNamed("a")});
+    messageOf(ErrorKind::badInput, [&] { SilentWriter().begin(scene, 1, 1); });
+}
+
+TEST(FrameWriter, ANonFinitePoseIsNamedWithBodyAndFrame)
+{
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("a"), test::bodyNamed("lost")});
+    SceneFrame frame = test::tumblingFrame(scene, 7, 7);
+    frame.worldFromAsset[1].position.y() = std::numeric_limits<double>::quiet_NaN();
+    SilentWriter writer;
+    writer.begin(scene, 7, 1);
+    const std::string message = messageOf(ErrorKind::qualityLimit, [&] { writer.write(frame); });
+    EXPECT_NE(message.find("lost"), std::string::npos) << message;
+    EXPECT_NE(message.find("frame 7"), std::string::npos) << message;
+}
+
+TEST(FrameWriter, GapsAndMissingFramesAreOurOwnMistakes)
+{
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("a")});
+    SilentWriter writer;
+    writer.begin(scene, 7, 2);
+    writer.write(test::tumblingFrame(scene, 7, 7));
+    messageOf(ErrorKind::internal, [&] { writer.finish(); });
+    messageOf(ErrorKind::internal, [&] { writer.write(test::tumblingFrame(scene, 9, 7)); });
+    writer.write(test::tumblingFrame(scene, 8, 7));
+    EXPECT_NO_THROW(writer.finish());
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,129 @@
+#include "io/mesh_import.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "core/base/error.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+/// A unit cube of six squares, corners at 0 and 1, in two groups and with texture coordinates, as
+/// modelling packages write it.
+const char* const kCubeObj =
+    "o first\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv -0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\n"
+    "f 4/1 3/2 2/3 1/1\nf 5/1 6/2 7/3 8/1\nf 1/1 2/2 6/3 5/1\n"
+    "o second\nf 3/1 4/2 8/3 7/1\nf 2/2 3/2 7/2 6/2\nf 4/3 1/2 5/1 8/1\n";
+
+std::string write(const test::TemporaryFolder& folder, const std::string& name,
+                  const std::string& text)
+{
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+}
+
+/// Kind and message of the error that importing gives.
+std::string messageOf(const std::string& path, ErrorKind expected = ErrorKind::badInput)
+{
+    try {
+        importMesh(path);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), expected);
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+TEST(MeshImport, JoinsTheObjectsOfAnObjIntoOneClosedMesh)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh cube = importMesh(write(folder, "cube.obj", kCubeObj));
+    EXPECT_EQ(cube.points.cols(), 8);
+    EXPECT_EQ(cube.triangles.cols(), 12);
+    EXPECT_TRUE(findDefects(cube).empty());
+    EXPECT_DOUBLE_EQ(signedVolume(cube), 1.0);
+}
+
+TEST(MeshImport, KeepsPositionsToSinglePrecision)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh mesh = importMesh(
+        write(folder, "t.obj", "v 0.1 -20.5 1e3\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"));
+    EXPECT_EQ(mesh.points.col(0), Vec3(0.1f, -20.5, 1000.0));
+}
+
+TEST(MeshImport, ReadsPlyAndStl)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh ply = importMesh(
+        write(folder, "t.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+              "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"));
+    EXPECT_EQ(ply.triangles.cols(), 4);
+    EXPECT_TRUE(findDefects(ply).empty());
+    EXPECT_DOUBLE_EQ(signedVolume(ply), 1.0 / 6.0);
+
+    const char* const facet = "facet normal 0 0 0\nouter loop\n";
+    const std::string stl =
+        std::string("solid t\n") + facet +
+        "vertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n" + facet +
+        "vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n" + facet +
+        "vertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n" + facet +
+        "vertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n"
+        "endsolid t\n";
+    const TriMesh fromStl = importMesh(write(folder, "t.STL", stl));
+    EXPECT_EQ(fromStl.points.cols(), 4);
+    EXPECT_DOUBLE_EQ(signedVolume(fromStl), 1.0 / 6.0);
+}
+
+TEST(MeshImport, AMissingFileIsMissingInput)
+{
+    EXPECT_EQ(messageOf("/no/such/bone.obj", ErrorKind::missingInput),
+              "mesh file '/no/such/bone.obj' does not exist");
+}
+
+TEST(MeshImport, AnUnsupportedEndingListsTheSupportedOnes)
+{
+    EXPECT_EQ(messageOf("bone.max"),
+              "mesh file 'bone.max' has an ending that cannot be read; supported: obj, ply, stl");
+}
+
+TEST(MeshImport, AFileThatIsNoMeshIsRefusedWithTheReason)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = write(folder, "t.ply", "this is no ply file\n");
+    const std::string message = messageOf(path);
+    EXPECT_EQ(message.rfind("mesh file '" + path + "' cannot be read: ", 0), 0u) << message;
+    EXPECT_GT(message.size(), path.size() + 40) << message;
+}
+
+TEST(MeshImport, AFolderIsRefused)
+{
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "t.obj");
+    const std::string path = (folder / "t.obj").string();
+    EXPECT_EQ(messageOf(path), "mesh file '" + path + "' is not a file");
+}
+
+TEST(MeshImport, PointsWithoutFacesAreRefused)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = write(folder, "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n");
+    EXPECT_EQ(messageOf(path), "mesh file '" + path + "' has no faces");
+}
+
+TEST(MeshImport, CoordinatesThatAreNotFiniteAreRefused)
+{
+    const test::TemporaryFolder folder;
+    const std::string path =
+        write(folder, "t.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
+    EXPECT_NE(messageOf(path).find("not finite"), std::string::npos) << messageOf(path);
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,100 @@
+#include "io/ply_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "core/base/error.h"
+#include "tests/support/export_scene.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+TriMesh smallMesh()
+{
+    const SceneMesh mesh = test::tetrahedron();
+    return {mesh.points / 3.0, mesh.triangles};
+}
+
+std::string contentOf(const fs::path& path)
+{
+    std::ifstream stream(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+void expectDamaged(const fs::path& path, const std::string& bytes)
+{
+    std::ofstream(path, std::ios::binary) << bytes;
+    try {
+        readPlyMesh(path);
+        ADD_FAILURE() << "read a damaged file of " << bytes.size() << " bytes";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::inputOutput) << error.what();
+    }
+}
+
+TEST(PlyMesh, ReadsBackEveryBit)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh written = smallMesh();
+    writePlyMesh(folder / "a.ply", written);
+    const TriMesh read = readPlyMesh(folder / "a.ply");
+    EXPECT_EQ(read.points, written.points);
+    EXPECT_EQ(read.triangles, written.triangles);
+}
+
+TEST(PlyMesh, AnEmptyMeshIsAMesh)
+{
+    const test::TemporaryFolder folder;
+    writePlyMesh(folder / "a.ply", {Points(3, 0), Triangles(3, 0)});
+    EXPECT_EQ(readPlyMesh(folder / "a.ply").points.cols(), 0);
+}
+
+TEST(PlyMesh, CutAnywhereItIsDamaged)
+{
+    const test::TemporaryFolder folder;
+    writePlyMesh(folder / "a.ply", smallMesh());
+    const std::string bytes = contentOf(folder / "a.ply");
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+        expectDamaged(folder / "cut.ply", bytes.substr(0, length));
+    }
+    expectDamaged(folder / "cut.ply", bytes + "x");
+}
+
+TEST(PlyMesh, CountsAndCornersThatCannotBeAreDamage)
+{
+    const test::TemporaryFolder folder;
+    writePlyMesh(folder / "a.ply", smallMesh());
+    const std::string bytes = contentOf(folder / "a.ply");
+
+    std::string huge = bytes;
+    huge.replace(huge.find("vertex 4"), 8, "vertex 768614336404564651");
+    expectDamaged(folder / "b.ply", huge);
+
+    std::string corner = bytes;
+    corner[corner.size() - 4] = 4;  // the last corner names a fifth point
+    expectDamaged(folder / "b.ply", corner);
+
+    std::string quad = bytes;
+    quad[quad.size() - 13] = 4;
+    expectDamaged(folder / "b.ply", quad);
+}
+
+TEST(PlyMesh, AMissingFileIsSaidToBeMissing)
+{
+    const test::TemporaryFolder folder;
+    try {
+        readPlyMesh(folder / "none.ply");
+        FAIL() << "read a file that is not there";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::missingInput);
+    }
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,341 @@
+// Malformed shots and the whole message each of them must give. The head of every text takes three
+// lines, so that what a case adds begins on line 4.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "io/shot_parser.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+const std::string kHead = "scree = 1\n[shot]\nname = \"s\"\n";
+const std::string kMaterial = "[material.wood]\n";
+const std::string kShape = "[shape.block]\nbox = {}\n";
+// Lines 4 to 6; what follows begins on line 7.
+const std::string kBase = kHead + kMaterial + kShape;
+
+struct BadShot {
+    const char* name;
+    std::string text;
+    std::string message;
+};
+
+/// The message of the error that the text gives; empty when it gives none.
+std::string messageOf(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    try {
+        parseShotText(text, "bad.toml", overrides);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::badInput);
+        return error.what();
+    }
+    return "";
+}
+
+std::string body(const std::string& lines)
+{
+    return kBase + "[[body]]\nname = \"b\"\nmaterial = \"wood\"\n" + lines;
+}
+
+const char* const kMaterialKeys = "(valid: density, friction, restitution, color, roughness)";
+const char* const kTables =
+    "(valid: scree, shot, solver, material, shape, body, camera, render, output)";
+
+std::vector<BadShot> badShots()
+{
+    const std::string many(12, 'x');
+    return {
+        {"SyntaxError", "scree = 1\n[shot\n",
+         "bad.toml:2:6: Error while parsing table header: expected ']', saw '\\n'"},
+        {"RepeatedKey", "scree = 1\nscree = 1\n",
+         "bad.toml:2:9: Error while parsing key-value pair: cannot redefine existing integer "
+         "'scree'"},
+        {"KeyBeginsWithDot", "[.a]\n",
+         "bad.toml:1:2: Error while parsing key: expected bare key starting character or "
+         "string delimiter, saw '.'"},
+        {"NotUtf8", "scree = 1 # \xff\n", "bad.toml:1:12: Encountered invalid utf-8 sequence"},
+        {"NoVersion", "[shot]\nname = \"s\"\n", "bad.toml:1:1: the shot lacks 'scree': 1"},
+        {"OtherVersion", "scree = 2\n[shot]\nname = \"s\"\n",
+         "bad.toml:1:9: 'scree' must be 1, not 2"},
+        {"NoShotTable", "scree = 1\n", "bad.toml:1:1: the shot lacks 'shot': a table"},
+        {"NoName", "scree = 1\n[shot]\nfps = 24\n",
+         "bad.toml:2:1: [shot] lacks 'name': text in quotes"},
+        {"NameBeginsWithDigit", "scree = 1\n[shot]\nname = \"1st\"\n",
+         "bad.toml:3:8: name \"1st\" must be letters, digits and _, not beginning with a digit"},
+        {"UnknownKeyNearAnother", kHead + "[material.wood]\nfrction = 0.3\n",
+         std::string("bad.toml:5:1: unknown key 'frction' in [material.wood]; did you mean "
+                     "'friction'? ") +
+             kMaterialKeys},
+        {"UnknownKeyNearNothing", kHead + "[material.wood]\n" + many + " = 0.3\n",
+         "bad.toml:5:1: unknown key '" + many + "' in [material.wood] " + kMaterialKeys},
+        {"UnknownTable", kHead + "[materail.wood]\n",
+         std::string(
+             "bad.toml:4:2: unknown key 'materail' in the shot; did you mean 'material'? ") +
+             kTables},
+        {"UnknownKeyInInlineTable", kHead + "[solver]\nsubsteps = { mx = 3 }\n",
+         "bad.toml:5:14: unknown key 'mx' in [solver] substeps; did you mean 'max'? (valid: min, "
+         "max, safety)"},
+        {"QuotedKeyWithDot", kHead + "[solver]\n\"substeps.max\" = 3\n",
+         "bad.toml:5:1: unknown key 'substeps.max' in [solver]; did you mean 'substeps'? (valid: "
+         "method, "
+         "collision_iterations, collision_pair_impulses, contact_iterations, level_iterations, "
+         "pair_impulses, shock_propagation, shock_pair_impulses, push_out, "
+         "push_out_level_iterations, push_out_pair_impulses, orientation, substeps, maximum_spin, "
+         "hover, penetration)"},
+        {"TextInsteadOfNumber", kHead + "fps = \"24\"\n",
+         "bad.toml:4:7: 'fps' must be a number above 0 and below 10000, not \"24\""},
+        {"NumberInsteadOfInteger", kHead + "[solver]\ncontact_iterations = 2.5\n",
+         "bad.toml:5:22: 'contact_iterations' must be a whole number from 0 to 1000, not 2.5"},
+        {"IntegerOutOfRange", kHead + "[solver]\ncontact_iterations = -1\n",
+         "bad.toml:5:22: 'contact_iterations' must be a whole number from 0 to 1000, not -1"},
+        {"NumberInsteadOfBoolean", kHead + "[solver]\npush_out = 1\n",
+         "bad.toml:5:12: 'push_out' must be true or false, not 1"},
+        {"DateInsteadOfNumber", kHead + "fps = 1979-05-27\n",
+         "bad.toml:4:7: 'fps' must be a number above 0 and below 10000, not a date"},
+        {"TableInsteadOfList", kBase + "[body]\nname = \"b\"\n",
+         "bad.toml:7:1: 'body' must be a list of tables: [[body]], not a table"},
+        {"MaterialWithoutName", kHead + "[material]\ndensity = 3\n",
+         "bad.toml:5:1: 'material' must be tables, each with a name: [material.NAME]; 'density' is "
+         "no table"},
+        {"InfiniteNumber", kHead + "[material.wood]\nfriction = inf\n",
+         "bad.toml:5:12: 'friction' must be a number of at least 0, not inf"},
+        {"NotANumber", body("shape = \"block\"\nposition = [0, nan, 0]\n"),
+         "bad.toml:11:16: 'position' must be 3 numbers [x, y, z], not nan"},
+        {"TooFewNumbers", kHead + "gravity = [0, -9.81]\n",
+         "bad.toml:4:11: 'gravity' must be 3 numbers [x, y, z], not [0, -9.81]"},
+        {"NegativeFriction", kHead + "[material.wood]\nfriction = -0.1\n",
+         "bad.toml:5:12: 'friction' must be a number of at least 0, not -0.1"},
+        {"RestitutionAboveOne", kHead + "[material.wood]\nrestitution = 1.5\n",
+         "bad.toml:5:15: 'restitution' must be a number from 0 to 1, not 1.5"},
+        {"NoDensity", kHead + "[material.wood]\ndensity = 0\n",
+         "bad.toml:5:11: 'density' must be a number above 0, not 0"},
+        {"UnknownWord", kHead + "units = \"metre\"\n",
+         "bad.toml:4:9: 'units' must be one of \"m\", \"cm\", \"mm\", \"in\", \"ft\", not "
+         "\"metre\""},
+        {"MisspeltWord", body("shape = \"block\"\nmotion = \"statik\"\n"),
+         "bad.toml:11:10: 'motion' must be one of \"dynamic\", \"static\", not \"statik\"; did you "
+         "mean 'static'?"},
+        {"MethodOfALaterVersion", kHead + "[solver]\nmethod = \"scree\"\n",
+         "bad.toml:5:10: 'method' = \"scree\" is not supported yet; this version knows only "
+         "paper"},
+        {"KeyedMotion", body("shape = \"block\"\nmotion = \"keyed\"\n"),
+         "bad.toml:11:10: 'motion' = \"keyed\" is not supported yet; this version knows only "
+         "dynamic, static"},
+        {"Emitter", kHead + "[[emitter]]\nname = \"e\"\n",
+         "bad.toml:4:3: 'emitter' in the shot is not supported yet by this version"},
+        {"Extends", "extends = \"base.toml\"\n" + kHead,
+         "bad.toml:1:1: 'extends' in the shot is not supported yet by this version"},
+        {"RollingFriction", kHead + "[material.wood]\nrolling_friction = 0.0\n",
+         "bad.toml:5:1: 'rolling_friction' in [material.wood] is not supported yet by this "
+         "version"},
+        {"Sleep", kHead + "[solver]\nsleep = true\n",
+         "bad.toml:5:1: 'sleep' in [solver] is not supported yet by this version"},
+        {"Subframes", kHead + "[output]\nsubframes = [0.0]\ncontacts = true\n",
+         "bad.toml:5:1: 'subframes' in [output] is not supported yet by this version\n"
+         "bad.toml:6:1: 'contacts' in [output] is not supported yet by this version"},
+        {"ExportOfALaterVersion", kHead + "[output]\nexport = [\"glb\", \"abd\"]\n",
+         "bad.toml:5:11: 'export' = \"glb\" is not supported yet; this version knows only abc, "
+         "obj, ply\n"
+         "bad.toml:5:18: 'export' must be a list of words from \"abc\", \"obj\", \"ply\", "
+         "not \"abd\"; did you mean 'abc'?"},
+        {"UnknownShape", body("shape = \"blok\"\n"),
+         "bad.toml:10:9: no [shape.blok] in the shot; did you mean 'block'? (known: block)"},
+        {"UnknownMaterial", kBase + "[[body]]\nname = \"b\"\nshape = \"block\"\nmaterial = \"w\"\n",
+         "bad.toml:10:12: no [material.w] in the shot (known: wood)"},
+        {"NoMaterial", kBase + "[[body]]\nname = \"b\"\nshape = \"block\"\n",
+         "bad.toml:7:1: [[body]] lacks 'material': text in quotes"},
+        {"NeitherShapeNorPlane", body(""),
+         "bad.toml:7:1: [[body]] 'b' has neither 'shape' nor 'plane'"},
+        {"BothShapeAndPlane",
+         body("shape = \"block\"\nmotion = \"static\"\nplane = { normal = [0, 1, 0] }\n"),
+         "bad.toml:12:1: 'plane' cannot stand beside 'shape' in [[body]]"},
+        {"DynamicPlane", body("plane = { normal = [0, 1, 0] }\n"),
+         "bad.toml:10:9: a plane cannot move: write motion = \"static\""},
+        {"PlaneWithoutDirection", body("motion = \"static\"\nplane = { normal = [0, 0, 0] }\n"),
+         "bad.toml:11:20: 'normal' must not be zero"},
+        {"MovingStaticBody",
+         body("shape = \"block\"\nmotion = \"static\"\nvelocity = [0, 1, 0]\n"
+              "mass = 2\n"),
+         "bad.toml:12:12: a static body has no 'velocity'\n"
+         "bad.toml:13:8: a static body has no 'mass': nothing moves it"},
+        {"RotationTwice",
+         body("shape = \"block\"\nrotation = [0, 0, 0]\norientation = [1, 0, 0, 0]\n"),
+         "bad.toml:12:1: 'orientation' cannot stand beside 'rotation' in [[body]]"},
+        {"ZeroOrientation", body("shape = \"block\"\norientation = [0, 0, 1e-12, 0]\n"),
+         "bad.toml:11:15: 'orientation' must not be zero"},
+        {"SameNameTwice",
+         body("shape = \"block\"\n[[body]]\nname = \"b\"\nmaterial = \"wood\"\n"
+              "shape = \"block\"\n"),
+         "bad.toml:12:8: body name 'b' is taken by the body at bad.toml:8:8"},
+        {"NameOfACopy",
+         body("shape = \"block\"\ngrid = { count = [2, 1, 1], spacing = [2, 2, 2] }\n"
+              "[[body]]\nname = \"b_0001\"\nmaterial = \"wood\"\nshape = \"block\"\n"),
+         "bad.toml:13:8: body name 'b_0001' is taken by the body at bad.toml:8:8"},
+        {"NameWithSpace",
+         kBase + "[[body]]\nname = \"a b\"\nmaterial = \"wood\"\nshape = \"block\"\n",
+         "bad.toml:8:8: name \"a b\" must be letters, digits and _, not beginning with a digit"},
+        {"TooManyBodies",
+         body("shape = \"block\"\ngrid = { count = [1000, 1000, 2], spacing = [2, 2, 2] }\n"),
+         "bad.toml:11:18: the shot has more than 1000000 bodies"},
+        {"GridAndPoses",
+         body("shape = \"block\"\nposes = \"none.poses\"\n"
+              "grid = { count = [1, 1, 1], spacing = [2, 2, 2] }\n"),
+         "bad.toml:11:9: pose file 'none.poses' does not exist\n"
+         "bad.toml:12:1: 'grid' cannot stand beside 'poses' in [[body]]"},
+        {"FramesBackwards", kHead + "frames = \"1240-1001\"\n",
+         "bad.toml:4:10: 'frames' must not end before they begin: \"1240-1001\""},
+        {"FramesWithLetters", kHead + "frames = \"1001-end\"\n",
+         "bad.toml:4:10: 'frames' must be \"FIRST-LAST\", for example \"1001-1240\", not "
+         "\"1001-end\""},
+        {"SubstepsCrossed", kHead + "[solver]\nsubsteps = { min = 9, max = 3 }\n",
+         "bad.toml:5:20: 'min' sub-steps must not exceed 'max', 3"},
+        {"PenetrationCrossed", kHead + "[solver]\npenetration = { warn = 0.5 }\n",
+         "bad.toml:5:24: 'warn' must not exceed 'fail', 0.1"},
+        {"ShapeWithoutForm", kHead + "[shape.a]\nscale = 2\n",
+         "bad.toml:4:8: [shape.a] says nothing of its form; give it torus, box, sphere, cylinder, "
+         "capsule or file"},
+        {"ShapeWithTwoForms", kHead + "[shape.a]\nbox = {}\nsphere = {}\n",
+         "bad.toml:6:1: 'sphere' cannot stand beside 'box' in [shape.a]"},
+        {"RingWithoutHole", kHead + "[shape.a]\ntorus = { major = 1, minor = 1 }\n",
+         "bad.toml:5:30: 'minor' must be less than 'major', or the ring has no hole"},
+        {"TooFewSegments", kHead + "[shape.a]\ntorus = { segments = [16, 2] }\n",
+         "bad.toml:5:27: 'segments' must be 2 whole numbers, each from 3 to 1024, not 2"},
+        {"NegativeSize", kHead + "[shape.a]\nbox = { size = [1, -1, 1] }\n",
+         "bad.toml:5:20: 'size' must be 3 numbers [x, y, z], each above 0, not -1"},
+        {"ZeroScale", kHead + "[shape.a]\nbox = {}\nscale = 0\n",
+         "bad.toml:6:9: 'scale' must be a number above 0, or 3 such numbers [x, y, z], not 0"},
+        {"ResolutionAndVoxel",
+         kHead + "[shape.a]\nbox = {}\nsdf = { resolution = 64, voxel = 0.1 }\n",
+         "bad.toml:6:26: 'voxel' cannot stand beside 'resolution' in [shape.a] sdf"},
+        {"FlatView", kHead + "[[camera]]\neye = [1, 1, 1]\nfov = 180\n",
+         "bad.toml:6:7: 'fov' must be a number above 0 and below 180, not 180"},
+        {"CameraInItsTarget", kHead + "[[camera]]\neye = [0, 0, 0]\n",
+         "bad.toml:5:7: 'eye' must not be where 'target' is"},
+        {"TwoCamerasOfOneName",
+         kHead + "[[camera]]\neye = [1, 0, 0]\n[[camera]]\nname = \"main\"\neye = [2, 0, 0]\n",
+         "bad.toml:7:8: camera name 'main' is taken by another camera"},
+        {"PictureTooLarge", kHead + "[render]\nsize = [1280, 99999]\n",
+         "bad.toml:5:15: 'size' must be 2 whole numbers, each from 16 to 16384, not 99999"},
+    };
+}
+
+TEST(ShotErrors, EveryMalformedShotGivesItsWholeMessage)
+{
+    for (const BadShot& shot : badShots()) {
+        EXPECT_EQ(messageOf(shot.text), shot.message) << "in the case " << shot.name;
+    }
+}
+
+TEST(ShotErrors, AllProblemsOfAFileComeAtOnceInTheOrderOfTheText)
+{
+    const std::string message = messageOf(
+        "scree = 1\n[shot]\nnme = \"s\"\nfps = 0\n[material.wood]\nfriction = -1\n"
+        "[[body]]\nname = \"b\"\nmaterial = \"wod\"\nshape = \"block\"\nposition = 3\n");
+    EXPECT_EQ(message,
+              "bad.toml:2:1: [shot] lacks 'name': text in quotes\n"
+              "bad.toml:3:1: unknown key 'nme' in [shot]; did you mean 'name'? (valid: name, "
+              "frames, fps, units, up, gravity, seed)\n"
+              "bad.toml:4:7: 'fps' must be a number above 0 and below 10000, not 0\n"
+              "bad.toml:6:12: 'friction' must be a number of at least 0, not -1\n"
+              "bad.toml:9:12: no [material.wod] in the shot; did you mean 'wood'? (known: wood)\n"
+              "bad.toml:10:9: no [shape.block] in the shot\n"
+              "bad.toml:11:12: 'position' must be 3 numbers [x, y, z], not 3");
+}
+
+TEST(ShotErrors, AValueReportedAsWrongIsNotReportedAgainAsMissing)
+{
+    EXPECT_EQ(messageOf(kHead + "[shape.a]\nbox = 3\n[material.wood]\n[[body]]\nname = \"b\"\n"
+                                "material = 7\nshape = 8\n"),
+              "bad.toml:5:7: 'box' must be a table, not 3\n"
+              "bad.toml:9:12: 'material' must be text in quotes, not 7\n"
+              "bad.toml:10:9: 'shape' must be text in quotes, not 8");
+}
+
+TEST(ShotErrors, AMissingShotFileIsMissingInput)
+{
+    try {
+        parseShot("/no/such/shot.toml");
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::missingInput);
+        EXPECT_STREQ(error.what(), "shot file '/no/such/shot.toml' does not exist");
+    }
+}
+
+TEST(ShotErrors, AMissingPoseFileAloneIsMissingInput)
+{
+    try {
+        parseShotText(body("shape = \"block\"\nposes = \"none.poses\"\n"), "dir/bad.toml");
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::missingInput);
+        EXPECT_STREQ(error.what(), "dir/bad.toml:11:9: pose file 'dir/none.poses' does not exist");
+    }
+}
+
+TEST(ShotErrors, ProblemsOfAPoseFileAreLocatedInThatFile)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "b.poses") << "# x y z qw qx qy qz\n"
+                                         "0 0 0 1 0 0 0\n"
+                                         "0 0 0 1 0 0\n"
+                                         "0 0 zero 1 0 0 0  # a word\n"
+                                         "0 0 0  0 0 0 0\n"
+                                         "0 inf 0 1 0 0 0\n";
+    const std::string shot = (folder / "bad.toml").string();
+    const std::string poses = (folder / "b.poses").string();
+    try {
+        parseShotText(body("shape = \"block\"\nposes = \"b.poses\"\nmotion = 1\n"), shot);
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  shot + ":12:10: 'motion' must be one of \"dynamic\", \"static\", not 1\n" +  //
+                      poses + ":3:1: the line has 6 numbers; expected 7: x y z qw qx qy qz\n" +
+                      poses + ":4:5: 'zero' is not a finite number\n" +  //
+                      poses + ":5:8: the orientation qw qx qy qz is zero\n" + poses +
+                      ":6:3: 'inf' is not a finite number");
+    }
+}
+
+TEST(ShotErrors, BadOverridesNameTheirOwnText)
+{
+    const std::string text = body("shape = \"block\"\n");
+    const auto message = [&](const std::string& setting) { return messageOf(text, {setting}); };
+
+    EXPECT_EQ(message("nonsense"),
+              "--set nonsense: expected KEY=VALUE, for example solver.contact_iterations=20");
+    EXPECT_EQ(message("material.wood.frction=0.3"),
+              std::string("--set material.wood.frction=0.3: unknown key 'frction' in 'material'; "
+                          "did you mean 'friction'? ") +
+                  kMaterialKeys);
+    EXPECT_EQ(message("material.wod.friction=0.3"),
+              "--set material.wod.friction=0.3: no material 'wod' in the shot; did you mean "
+              "'wood'? (known: wood)");
+    EXPECT_EQ(message("body.c.position=[0,1,0]"),
+              "--set body.c.position=[0,1,0]: no body 'c' in the shot (known: b)");
+    EXPECT_EQ(message("material.wood.friction=-1"),
+              "--set material.wood.friction=-1: 'friction' must be a number of at least 0, not -1");
+    EXPECT_EQ(message("material.wood.friction=much"),
+              "--set material.wood.friction=much: 'material.friction' must be a number of at least "
+              "0, not much");
+    EXPECT_EQ(message("solver.substeps.max="),
+              "--set solver.substeps.max=: 'solver.substeps.max' must be a whole number from 1 to "
+              "100000, not nothing");
+    EXPECT_EQ(message("body.b=3"),
+              "--set body.b=3: 'b' is a whole [body]; name one of its keys: name, shape, plane, "
+              "material, motion, position, rotation, orientation, velocity, spin, mass, grid, "
+              "poses");
+    EXPECT_EQ(message("solver.sleep=true"),
+              "--set solver.sleep=true: 'sleep' is not supported yet by this version");
+    EXPECT_EQ(message("shot.fps.x=1"), "--set shot.fps.x=1: 'fps' has no keys of its own");
+    EXPECT_EQ(message("shot.frames=end"),
+              "--set shot.frames=end: 'frames' must be \"FIRST-LAST\", for example "
+              "\"1001-1240\", not \"end\"");
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,115 @@
+// The shots that come with the project.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/build_world.h"
+#include "io/mesh_import.h"
+#include "io/shot_parser.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+Shot shippedShot(const std::string& name)
+{
+    return parseShot(test::sourceFile("shots/" + name).string());
+}
+
+TEST(ShotFiles, AllParseAndKeepTheirMeaningWhenResolved)
+{
+    int count = 0;
+    for (const auto& file : std::filesystem::directory_iterator(test::sourceFile("shots"))) {
+        if (file.path().extension() != ".toml") continue;
+        const std::string path = file.path().string();
+        const Shot shot = parseShot(path);
+        EXPECT_EQ(parseShotText(shot.resolvedText, path).resolvedText, shot.resolvedText) << path;
+        EXPECT_EQ(shot.name, file.path().stem().string());
+        EXPECT_FALSE(shot.bodies.empty()) << path;
+        EXPECT_FALSE(shot.cameras.empty()) << path;
+        ++count;
+    }
+    EXPECT_GE(count, 4);
+}
+
+TEST(ShotFiles, RingsStartApartAndAboveThePoles)
+{
+    const Shot shot = shippedShot("rings_100.toml");
+    std::vector<Vec3> rings;
+    int poleCount = 0;
+    for (const ShotBody& body : shot.bodies) {
+        if (body.shape == "ring") rings.push_back(body.worldFromAsset.position);
+        if (body.shape != "pole") continue;
+        ++poleCount;
+        EXPECT_EQ(body.worldFromAsset.position.y(), 4.0);
+    }
+    ASSERT_EQ(rings.size(), 100u);
+    EXPECT_EQ(poleCount, 25);
+    // A ring fits in a ball of 1.25 m about its centre.
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+        EXPECT_GT(rings[i].y() - 1.25, 8.0);
+        for (std::size_t j = 0; j < i; ++j) EXPECT_GT((rings[i] - rings[j]).norm(), 2.5);
+    }
+    EXPECT_EQ(shot.lastFrame - shot.firstFrame + 1, 240);
+}
+
+TEST(ShotFiles, StackedCubesTouchExactly)
+{
+    const Shot shot = shippedShot("stack_10.toml");
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(shot.bodies[i].worldFromAsset.position, Vec3(0.0, i + 0.5, 0.0));
+    }
+}
+
+TEST(ShotFiles, BlocksLieOnTheSlopeAndOnlyRubberSticks)
+{
+    const Shot shot = shippedShot("incline.toml");
+    const PlaneSpec slope = *shot.bodies[0].plane;
+    const double steepness = std::hypot(slope.normal.x(), slope.normal.z()) / slope.normal.y();
+    std::map<std::string, double> friction;
+    for (const ShotMaterial& material : shot.materials) {
+        friction[material.material.name] = material.material.friction;
+    }
+    for (std::size_t i = 1; i < shot.bodies.size(); ++i) {
+        const Vec3 bottom = shot.bodies[i].worldFromAsset * Vec3(0.7, -0.3, 0.7);
+        EXPECT_NEAR((bottom - slope.point).dot(slope.normal), 0.0, 1e-14);
+        const double mu = std::max(friction["slope"], friction[shot.bodies[i].material]);
+        EXPECT_EQ(mu > steepness, shot.bodies[i].material == "rubber");
+    }
+}
+
+TEST(ShotFiles, WedgeIsASharpSolidOfTwelveTriangles)
+{
+    const TriMesh wedge = importMesh(test::sourceFile("shots/meshes/wedge.obj").string());
+    EXPECT_EQ(wedge.triangles.cols(), 12);
+    EXPECT_TRUE(findDefects(wedge).empty());
+    // Every wedge fits in a ball about its origin, and the balls do not overlap at the start.
+    const double reach = wedge.points.colwise().norm().maxCoeff();
+    const Shot shot = shippedShot("wedges.toml");
+    ASSERT_EQ(shot.bodies.size(), 61u);
+    for (std::size_t i = 0; i + 1 < shot.bodies.size(); ++i) {
+        EXPECT_GT(shot.bodies[i].worldFromAsset.position.y(), reach);
+        for (std::size_t j = 0; j < i; ++j) {
+            const Vec3 apart =
+                shot.bodies[i].worldFromAsset.position - shot.bodies[j].worldFromAsset.position;
+            EXPECT_GT(apart.norm(), 2.0 * reach) << i << " " << j;
+        }
+    }
+}
+
+TEST(ShotFiles, WedgesBuildWithNormalsOfTheMeshAndEdgeSamples)
+{
+    const Shot shot = shippedShot("wedges.toml");
+    const World world = buildWorld(shot);
+    ASSERT_EQ(world.bodyCount(), 61u);
+    EXPECT_TRUE(world.shapeOf(0).usesTrueNormals);
+    EXPECT_GT(world.shapeOf(0).samples.edges.size(), 0u);
+}
+
+}  // namespace
+}  // namespace scree

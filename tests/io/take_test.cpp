@@ -1,0 +1,354 @@
+// Frame files and takes: what is written is what is read, damage is seen, gaps are found.
+#include "io/take.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/diagnostics/state_hash.h"
+#include "io/build_world.h"
+#include "io/file_bytes.h"
+#include "io/shot_parser.h"
+#include "io/take_reader.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+
+constexpr const char* kShotText = R"(
+scree = 1
+[shot]
+name = "two"
+frames = "1001-1005"
+units = "cm"
+[material.wood]
+density = 650
+[shape.block]
+box = { size = [10, 20, 30] }
+[[body]]
+name = "ground"
+plane = { point = [0, -5, 0], normal = [0, 1, 0] }
+material = "wood"
+motion = "static"
+[[body]]
+name = "block"
+shape = "block"
+material = "wood"
+position = [100, 40, 0]
+rotation = [10, 20, 30]
+velocity = [50, 0, 0]
+[[camera]]
+name = "main"
+eye = [300, 200, 100]
+target = [0, 10, 0]
+)";
+
+/// A shot, its world, and a stand-in for simulation that is quick and reaches every value.
+class TakeTest : public testing::Test {
+protected:
+    TakeTest() : shot(parseShotText(kShotText, "two.toml")), world(buildWorld(shot)) {}
+
+    void advance(World& moved) const
+    {
+        ++moved.clock.frame;
+        moved.motion[1].position.x() += 1.0 / 3.0;
+        moved.motion[1].angularMomentum.z() -= 0.1;
+        std::swap(moved.order[0], moved.order[1]);
+    }
+
+    FrameStats statsOf(const World& moved) const
+    {
+        FrameStats stats;
+        stats.frame = shot.firstFrame + static_cast<int>(moved.clock.frame);
+        stats.report.stateHash = stateHash(moved);
+        return stats;
+    }
+
+    TakeWriter open(ExistingTake existing, const Shot& used)
+    {
+        return TakeWriter(folder / "take", used, world, "1.2.3", existing);
+    }
+
+    /// All five frames.
+    void writeWholeTake()
+    {
+        TakeWriter take = open(ExistingTake::refuse, shot);
+        World moved = world;
+        take.writeFrame(moved, statsOf(moved));
+        for (int i = 0; i < 4; ++i) {
+            advance(moved);
+            take.writeFrame(moved, statsOf(moved));
+        }
+    }
+
+    TemporaryFolder folder;
+    Shot shot;
+    World world;
+};
+
+void flipByte(const fs::path& path, std::size_t offset)
+{
+    std::string bytes = readFileBytes(path);
+    bytes[offset] ^= 1;
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+ErrorKind kindOf(const std::function<void()>& action)
+{
+    try {
+        action();
+    } catch (const Error& problem) {
+        return problem.kind();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return ErrorKind::internal;
+}
+
+TEST_F(TakeTest, RestoringAStateGivesBackEveryBit)
+{
+    World moved = world;
+    advance(moved);
+    moved.clock.subStep = 7;
+    moved.clock.frameTimeDone = 0.1;
+    const std::string bytes = encodeFrame(captureState(shot, moved));
+
+    World restored = buildWorld(shot);
+    restoreState(restored, decodeFrame(bytes, "memory"));
+
+    EXPECT_EQ(stateHash(restored), stateHash(moved));
+    EXPECT_EQ(restored.clock.frameTimeDone, 0.1);
+    EXPECT_EQ(encodeFrame(captureState(shot, restored)), bytes);
+}
+
+TEST_F(TakeTest, EverySingleFlippedByteOfAFrameIsNoticed)
+{
+    const std::string bytes = encodeFrame(captureState(shot, world));
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        std::string damaged = bytes;
+        damaged[i] ^= 0x10;
+        EXPECT_THROW(decodeFrame(damaged, "memory"), Error) << "byte " << i;
+    }
+}
+
+TEST_F(TakeTest, EveryCutOfAFrameIsNoticed)
+{
+    const std::string bytes = encodeFrame(captureState(shot, world));
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_THROW(decodeFrame(bytes.substr(0, size), "memory"), Error) << size << " bytes";
+}
+
+TEST_F(TakeTest, ReaderFindsThePosesOfTheAssetsInTheShotsUnit)
+{
+    writeWholeTake();
+    const TakeReader take(folder / "take");
+    ASSERT_EQ(take.frames(), (std::vector<int>{1001, 1002, 1003, 1004, 1005}));
+    const SceneFrame frame = take.readFrame(1001);
+    EXPECT_EQ(frame.frame, 1001);
+    // Metres and back costs a few roundings.
+    EXPECT_NEAR((frame.worldFromAsset[1].position - Vec3(100, 40, 0)).norm(), 0.0, 1e-10);
+    EXPECT_NEAR(frame.velocity[1].x(), 50.0, 1e-10);
+}
+
+TEST_F(TakeTest, DescriptionOfTheTakeIsTheOneOfTheShot)
+{
+    writeWholeTake();
+    const SceneDescription expected = describeScene(shot, world, 1.0);
+    const SceneDescription scene = TakeReader(folder / "take").describe();
+    ASSERT_EQ(scene.bodies.size(), expected.bodies.size());
+    EXPECT_EQ(scene.name, expected.name);
+    EXPECT_EQ(scene.metresPerUnit, expected.metresPerUnit);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const SceneBody &body = scene.bodies[i], &other = expected.bodies[i];
+        EXPECT_EQ(body.name, other.name);
+        EXPECT_EQ(body.material, other.material);
+        EXPECT_EQ(body.mass, other.mass);
+        EXPECT_EQ(body.moves, other.moves);
+        const SceneMesh& mesh = scene.meshes[body.mesh];
+        EXPECT_EQ(mesh.name, expected.meshes[other.mesh].name);
+        EXPECT_EQ(mesh.triangles.cols(), expected.meshes[other.mesh].triangles.cols());
+    }
+    const SceneMesh& block = scene.meshes[scene.bodies[1].mesh];
+    EXPECT_EQ(block.points, expected.meshes[expected.bodies[1].mesh].points);
+}
+
+TEST_F(TakeTest, PlaneIsASquareThatHoldsTheWholeActionAndFacesItsNormal)
+{
+    writeWholeTake();
+    const SceneDescription scene = TakeReader(folder / "take").describe();
+    const SceneMesh& plane = scene.meshes[scene.bodies[0].mesh];
+    const double half = plane.points.row(0).maxCoeff();
+    EXPECT_GT(half, 230.0);  // the block ends at x = 100 cm + 4/3 m
+    EXPECT_LT(half, 500.0);
+    for (Eigen::Index i = 0; i < plane.triangles.cols(); ++i) {
+        const Eigen::Vector3i corner = plane.triangles.col(i);
+        const Vec3 a = plane.points.col(corner[0]), b = plane.points.col(corner[1]),
+                   c = plane.points.col(corner[2]);
+        EXPECT_GT((b - a).cross(c - a).y(), 0.0);
+    }
+}
+
+TEST_F(TakeTest, TakeInfoSurvivesItsText)
+{
+    const SceneDescription scene = describeScene(shot, world, 1.0);
+    const TakeInfo info = makeTakeInfo(shot, world, scene, "1.2.3");
+    const std::string text = encodeTakeInfo(info);
+    const TakeInfo back = decodeTakeInfo(text, "take.json");
+    EXPECT_EQ(encodeTakeInfo(back), text);
+    EXPECT_EQ(back.cameras.at(0).eye, info.cameras.at(0).eye);
+    EXPECT_NEAR(back.cameras.at(0).eye.x(), 300.0, 1e-10);
+    EXPECT_EQ(back.resolvedShot, shot.resolvedText);
+}
+
+TEST_F(TakeTest, ChangedShotTextInTakeJsonIsNoticed)
+{
+    const SceneDescription scene = describeScene(shot, world, 1.0);
+    std::string text = encodeTakeInfo(makeTakeInfo(shot, world, scene, "1.2.3"));
+    text.replace(text.find("density = 650"), 13, "density = 651");
+    EXPECT_EQ(kindOf([&] { decodeTakeInfo(text, "take.json"); }), ErrorKind::inputOutput);
+}
+
+TEST_F(TakeTest, ExistingTakeIsNotTouchedWithoutLeave)
+{
+    writeWholeTake();
+    const std::string before = readFileBytes(folder / "take/frames/frame.001005.scree");
+    EXPECT_EQ(kindOf([&] { open(ExistingTake::refuse, shot); }), ErrorKind::cannotCreate);
+    EXPECT_EQ(readFileBytes(folder / "take/frames/frame.001005.scree"), before);
+}
+
+TEST_F(TakeTest, OverwritingLeavesNothingOfTheOldTake)
+{
+    writeWholeTake();
+    const TakeWriter take = open(ExistingTake::overwrite, shot);
+    EXPECT_FALSE(take.hasFrame(1001));
+    EXPECT_FALSE(fs::exists(take.paths().frame(1003)));
+    EXPECT_FALSE(fs::exists(take.paths().stats()));
+}
+
+TEST_F(TakeTest, ResumeRefusesAnotherShot)
+{
+    writeWholeTake();
+    const Shot other = parseShotText(kShotText, "two.toml", {"material.wood.friction=0.9"});
+    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, other); }), ErrorKind::badInput);
+}
+
+TEST_F(TakeTest, ResumeRefusesAWorldThatBeginsElsewhere)
+{
+    writeWholeTake();
+    world.motion[1].position.x() += 1e-12;
+    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::badInput);
+}
+
+TEST_F(TakeTest, DamagedTakeJsonIsAnErrorThatLeavesTheFrames)
+{
+    writeWholeTake();
+    std::ofstream(folder / "take/take.json") << "{ \"format\": ";
+    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::inputOutput);
+    EXPECT_EQ(kindOf([&] { TakeReader(folder / "take"); }), ErrorKind::inputOutput);
+    EXPECT_EQ(listFrames({folder / "take"}).size(), 5u);
+}
+
+TEST_F(TakeTest, LostTakeJsonIsAnErrorThatLeavesTheFrames)
+{
+    writeWholeTake();
+    fs::remove(folder / "take/take.json");
+    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::inputOutput);
+    EXPECT_EQ(listFrames({folder / "take"}).size(), 5u);
+}
+
+TEST_F(TakeTest, DamagedMeshIsNoticedByItsHash)
+{
+    writeWholeTake();
+    const fs::path mesh = folder / "take/shapes/block.ply";
+    flipByte(mesh, readFileBytes(mesh).size() - 1);
+    EXPECT_EQ(kindOf([&] { TakeReader(folder / "take").describe(); }), ErrorKind::inputOutput);
+}
+
+TEST_F(TakeTest, DamagedFrameIsReportedAndOpenAgainWhileOthersStay)
+{
+    writeWholeTake();
+    flipByte(folder / "take/frames/frame.001003.scree", 300);
+    TakeWriter take = open(ExistingTake::resume, shot);
+    ASSERT_EQ(take.notices().size(), 1u);
+    EXPECT_NE(take.notices()[0].find("frame.001003.scree"), std::string::npos);
+    EXPECT_FALSE(take.hasFrame(1003));
+    EXPECT_TRUE(take.hasFrame(1005));
+
+    // Filling the hole gives the statistics their order back.
+    World moved = world;
+    take.prepareFor(1003, moved);
+    EXPECT_EQ(moved.clock.frame, 1);
+    advance(moved);
+    take.writeFrame(moved, statsOf(moved));
+    std::vector<int> frames;
+    for (const FrameSummary& line : take.summaries()) frames.push_back(line.frame);
+    EXPECT_EQ(frames, (std::vector<int>{1001, 1002, 1003, 1004, 1005}));
+}
+
+TEST_F(TakeTest, CheckpointIsWhereAFrameGoesOnAndGoesWithIt)
+{
+    World moved = world;
+    {
+        TakeWriter take = open(ExistingTake::refuse, shot);
+        take.writeFrame(moved, statsOf(moved));
+        moved.clock.subStep = 3;
+        moved.motion[1].position.y() -= 0.25;
+        take.writeCheckpoint(moved);
+    }
+    TakeWriter take = open(ExistingTake::resume, shot);
+    World resumed = world;
+    take.prepareFor(1002, resumed);
+    EXPECT_EQ(stateHash(resumed), stateHash(moved));
+    resumed.clock = {1, 0, 0.0};
+    take.writeFrame(resumed, statsOf(resumed));
+    EXPECT_FALSE(fs::exists(take.paths().checkpoint()));
+}
+
+TEST_F(TakeTest, DamagedCheckpointFallsBackToTheFrame)
+{
+    {
+        TakeWriter take = open(ExistingTake::refuse, shot);
+        World moved = world;
+        take.writeFrame(moved, statsOf(moved));
+        moved.clock.subStep = 3;
+        take.writeCheckpoint(moved);
+    }
+    flipByte(folder / "take/checkpoint.scree", 200);
+    const TakeWriter take = open(ExistingTake::resume, shot);
+    EXPECT_EQ(take.notices().size(), 1u);
+    World resumed = world;
+    take.prepareFor(1002, resumed);
+    EXPECT_EQ(stateHash(resumed), stateHash(world));
+}
+
+TEST_F(TakeTest, CutLineOfTheStatisticsIsDroppedOnResume)
+{
+    writeWholeTake();
+    std::ofstream(folder / "take/stats.jsonl", std::ios::app) << R"({"frame":1006,"wall_s":0.)";
+    const TakeWriter take = open(ExistingTake::resume, shot);
+    const std::string text = readFileBytes(take.paths().stats());
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);
+    EXPECT_TRUE(text.ends_with("}\n"));
+}
+
+TEST_F(TakeTest, SecondWriterIsKeptOut)
+{
+    const TakeWriter take = open(ExistingTake::refuse, shot);
+    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::cannotCreate);
+}
+
+TEST_F(TakeTest, TemporariesOfAKilledWriterAreRemoved)
+{
+    writeWholeTake();
+    const fs::path left = folder / "take/frames/.frame.001006.scree.1-2.tmp";
+    std::ofstream(left) << "half";
+    open(ExistingTake::resume, shot);
+    EXPECT_FALSE(fs::exists(left));
+}
+
+}  // namespace
+}  // namespace scree

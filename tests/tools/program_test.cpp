@@ -1,0 +1,388 @@
+// The whole program: exit codes, interruption and resume, as a shell or a farm meets them.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <regex>
+#include <sstream>
+#include <thread>
+
+#include "io/file_bytes.h"
+#include "io/take.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace test {
+
+struct Outcome {
+    int code = -1;  ///< exit code, or minus the signal that ended it
+    std::string out, err;
+};
+
+/// A running scree. Must be waited for.
+class Program {
+public:
+    /// `prepare` runs in the child before the program starts, for limits.
+    explicit Program(const std::vector<std::string>& arguments,
+                     const std::function<void()>& prepare = {});
+
+    void signal(int number) const;
+    Outcome wait();
+
+private:
+    pid_t child_ = -1;
+    std::string outPath_, errPath_;
+};
+
+Program::Program(const std::vector<std::string>& arguments, const std::function<void()>& prepare)
+{
+    outPath_ = (std::filesystem::temp_directory_path() / "scree_out_XXXXXX").string();
+    errPath_ = (std::filesystem::temp_directory_path() / "scree_err_XXXXXX").string();
+    const int out = ::mkstemp(outPath_.data()), err = ::mkstemp(errPath_.data());
+    std::vector<char*> words = {const_cast<char*>(SCREE_PROGRAM)};
+    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ == 0) {
+        ::dup2(out, STDOUT_FILENO);
+        ::dup2(err, STDERR_FILENO);
+        if (prepare) prepare();
+        ::execv(words[0], words.data());
+        ::_exit(127);
+    }
+    ::close(out);
+    ::close(err);
+}
+
+void Program::signal(int number) const
+{
+    ::kill(child_, number);
+}
+
+Outcome Program::wait()
+{
+    int status = 0;
+    ::waitpid(child_, &status, 0);
+    Outcome outcome;
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    outcome.out = readFileBytes(outPath_);
+    outcome.err = readFileBytes(errPath_);
+    ::unlink(outPath_.c_str());
+    ::unlink(errPath_.c_str());
+    return outcome;
+}
+
+/// Starts and waits.
+Outcome runScree(const std::vector<std::string>& arguments)
+{
+    return Program(arguments).wait();
+}
+
+}  // namespace test
+
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::Program;
+using test::runScree;
+using test::TemporaryFolder;
+
+// Many short steps, so that a signal nearly always arrives inside a frame.
+constexpr const char* kShotText = R"(
+scree = 1
+[shot]
+name = "boxes"
+frames = "1001-1040"
+[solver]
+substeps = { min = 40, max = 256 }
+[material.wood]
+density = 650
+friction = 0.4
+restitution = 0.2
+[shape.block]
+box = { size = [1, 1, 1] }
+[[body]]
+name = "ground"
+plane = { point = [0, 0, 0], normal = [0, 1, 0] }
+material = "wood"
+motion = "static"
+[[body]]
+name = "low"
+shape = "block"
+material = "wood"
+position = [0, 0.55, 0]
+[[body]]
+name = "high"
+shape = "block"
+material = "wood"
+position = [0.3, 1.8, 0.1]
+rotation = [15, 0, 35]
+)";
+
+class ProgramTest : public testing::Test {
+protected:
+    ProgramTest() { std::ofstream(shot()) << kShotText; }
+
+    std::string shot() const { return folder / "boxes.toml"; }
+    std::string take(const std::string& name) const { return folder / name; }
+
+    /// The take of a run that nothing disturbed.
+    void simulateUnbroken()
+    {
+        const Outcome outcome = runScree({"sim", shot(), "-o", take("unbroken"), "--threads", "1"});
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+    }
+
+    /// Waits until the running program has written the frame.
+    bool waitForFrame(const std::string& name, int frame) const
+    {
+        const TakePaths paths{take(name)};
+        for (int i = 0; i < 20000 && !fs::exists(paths.frame(frame)); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return fs::exists(paths.frame(frame));
+    }
+
+    void expectSameFrames(const std::string& nameA, const std::string& nameB) const
+    {
+        const TakePaths a{take(nameA)}, b{take(nameB)};
+        ASSERT_EQ(listFrames(a), listFrames(b));
+        for (const int frame : listFrames(a))
+            EXPECT_EQ(readFileBytes(a.frame(frame)), readFileBytes(b.frame(frame)))
+                << "frame " << frame;
+        const auto statsA = readStats(a.stats()), statsB = readStats(b.stats());
+        ASSERT_EQ(statsA.size(), statsB.size());
+        for (std::size_t i = 0; i < statsA.size(); ++i)
+            EXPECT_EQ(statsA[i].stateHash, statsB[i].stateHash);
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(ProgramTest, KilledRunResumesToTheSameBytes)
+{
+    simulateUnbroken();
+    Program program({"sim", shot(), "-o", take("killed"), "--threads", "1"});
+    ASSERT_TRUE(waitForFrame("killed", 1010));
+    program.signal(SIGKILL);
+    EXPECT_EQ(program.wait().code, -SIGKILL);
+    ASSERT_FALSE(fs::exists(TakePaths{take("killed")}.frame(1040))) << "killed too late to tell";
+
+    const Outcome resumed = runScree({"sim", shot(), "-o", take("killed"), "--resume"});
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    expectSameFrames("unbroken", "killed");
+}
+
+TEST_F(ProgramTest, InterruptedRunExitsWith75AndResumesToTheSameBytes)
+{
+    simulateUnbroken();
+    for (const int number : {SIGINT, SIGTERM}) {
+        const std::string name = "stopped" + std::to_string(number);
+        Program program({"sim", shot(), "-o", take(name), "--threads", "1"});
+        ASSERT_TRUE(waitForFrame(name, 1005));
+        program.signal(number);
+        const Outcome stopped = program.wait();
+        EXPECT_EQ(stopped.code, 75) << stopped.err;
+        EXPECT_NE(stopped.err.find("--resume"), std::string::npos) << stopped.err;
+
+        const Outcome resumed = runScree({"sim", shot(), "-o", take(name), "--resume"});
+        EXPECT_EQ(resumed.code, 0) << resumed.err;
+        expectSameFrames("unbroken", name);
+        EXPECT_FALSE(fs::exists(TakePaths{take(name)}.checkpoint()));
+    }
+}
+
+TEST_F(ProgramTest, SaveRequestIsAnsweredAndChangesNothing)
+{
+    simulateUnbroken();
+    Program program({"sim", shot(), "-o", take("saved")});
+    ASSERT_TRUE(waitForFrame("saved", 1005));
+    program.signal(SIGUSR1);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("scree: saved in frame"), std::string::npos) << outcome.err;
+    expectSameFrames("unbroken", "saved");
+}
+
+TEST_F(ProgramTest, RunInTwoPartsEqualsTheUnbrokenOne)
+{
+    simulateUnbroken();
+    const std::string output = take("parts");
+    EXPECT_EQ(runScree({"sim", shot(), "-o", output, "--frames", "1001-1015"}).code, 0);
+    EXPECT_EQ(listFrames({output}).back(), 1015);
+    EXPECT_EQ(runScree({"sim", shot(), "-o", output, "--resume", "--threads", "2"}).code, 0);
+    expectSameFrames("unbroken", "parts");
+}
+
+TEST_F(ProgramTest, DamagedFramesAreReportedAndSimulatedAgain)
+{
+    simulateUnbroken();
+    fs::copy(take("unbroken"), take("damaged"), fs::copy_options::recursive);
+    const TakePaths paths{take("damaged")};
+    fs::resize_file(paths.frame(1040), 100);
+    std::string bytes = readFileBytes(paths.frame(1020));
+    bytes[700] ^= 1;
+    std::ofstream(paths.frame(1020), std::ios::binary) << bytes;
+
+    const Outcome outcome = runScree({"sim", shot(), "-o", take("damaged"), "--resume"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("frame.001020.scree"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("frame.001040.scree"), std::string::npos) << outcome.err;
+    expectSameFrames("unbroken", "damaged");
+}
+
+// A limit on the size of files stands in for a full disk: the system refuses in the same call.
+TEST_F(ProgramTest, FullDiskExitsWith74AndLosesNoFrame)
+{
+    simulateUnbroken();
+    Program program({"sim", shot(), "-o", take("full")}, [] {
+        const rlimit limit = {12000, 12000};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    });
+    const Outcome full = program.wait();
+    EXPECT_EQ(full.code, 74) << full.err;
+    EXPECT_NE(full.err.find("stats.jsonl"), std::string::npos) << full.err;
+    EXPECT_GT(listFrames({take("full")}).size(), 3u);
+
+    EXPECT_EQ(runScree({"sim", shot(), "-o", take("full"), "--resume"}).code, 0);
+    expectSameFrames("unbroken", "full");
+}
+
+TEST_F(ProgramTest, TakesAreNotWrittenOverUnasked)
+{
+    const std::string output = take("twice");
+    ASSERT_EQ(runScree({"sim", shot(), "-o", output, "--frames", "1003"}).code, 0);
+    const Outcome unfinished = runScree({"sim", shot(), "-o", output});
+    EXPECT_EQ(unfinished.code, 73);
+    EXPECT_NE(unfinished.err.find("--resume"), std::string::npos) << unfinished.err;
+    EXPECT_EQ(runScree({"sim", shot(), "-o", output, "--frames", "1002", "--overwrite"}).code, 0);
+    EXPECT_EQ(listFrames({output}).back(), 1002);
+}
+
+TEST_F(ProgramTest, ResumingAnotherShotExitsWith65)
+{
+    const std::string output = take("other");
+    ASSERT_EQ(runScree({"sim", shot(), "-o", output, "--frames", "1002"}).code, 0);
+    const Outcome outcome =
+        runScree({"sim", shot(), "-o", output, "--resume", "--set", "material.wood.friction=0.9"});
+    EXPECT_EQ(outcome.code, 65);
+    EXPECT_NE(outcome.err.find("another shot"), std::string::npos) << outcome.err;
+}
+
+TEST_F(ProgramTest, ExitCodesTellWhatWentWrong)
+{
+    std::ofstream(folder / "bad.toml") << "scree = 1\n[shot]\nnaem = \"x\"\n";
+    EXPECT_EQ(runScree({}).code, 64);
+    EXPECT_EQ(runScree({"simulate"}).code, 64);
+    EXPECT_EQ(runScree({"sim", shot(), "--no-such-option"}).code, 64);
+    EXPECT_EQ(runScree({"sim", shot(), "--frames", "5-1", "-o", take("x")}).code, 64);
+    EXPECT_EQ(runScree({"sim", folder / "bad.toml", "-o", take("x")}).code, 65);
+    EXPECT_EQ(runScree({"sim", folder / "missing.toml", "-o", take("x")}).code, 66);
+    EXPECT_EQ(runScree({"info", folder / "missing"}).code, 66);
+    EXPECT_EQ(runScree({"sim", shot(), "-o", "/proc/take"}).code, 73);
+    EXPECT_FALSE(fs::exists(take("x")));
+}
+
+TEST_F(ProgramTest, FatalMessagesAndNothingElseBeginWithError)
+{
+    const Outcome wrong = runScree({"info", folder / "missing"});
+    EXPECT_TRUE(wrong.err.starts_with("Error: ")) << wrong.err;
+    EXPECT_TRUE(wrong.out.empty());
+    const Outcome right = runScree({"sim", shot(), "-o", take("fine"), "--frames", "1003"});
+    EXPECT_EQ(right.err.find("Error:"), std::string::npos) << right.err;
+}
+
+TEST_F(ProgramTest, HelpNamesEveryCommandAndEachCommandShowsAnExample)
+{
+    const Outcome help = runScree({"--help"});
+    EXPECT_EQ(help.code, 0);
+    for (const char* command :
+         {"sim", "render", "export", "sheet", "movie", "check", "info", "explain"}) {
+        EXPECT_TRUE(std::regex_search(help.out, std::regex("\n  " + std::string(command) + " ")))
+            << command;
+        const Outcome own = runScree({command, "--help"});
+        EXPECT_EQ(own.code, 0);
+        EXPECT_NE(own.out.find("Example:\n  scree " + std::string(command)), std::string::npos)
+            << own.out;
+    }
+}
+
+TEST_F(ProgramTest, VersionNamesTheLibraries)
+{
+    const Outcome outcome = runScree({"--version"});
+    EXPECT_EQ(outcome.code, 0);
+    for (const char* word : {"scree ", "OpenVDB ", "Embree ", "Eigen ", "libpng "})
+        EXPECT_TRUE(std::regex_search(outcome.out, std::regex(std::string(word) + "[0-9]")))
+            << word << " in " << outcome.out;
+}
+
+TEST_F(ProgramTest, ProgressForAFarmOnlyGrowsAndEndsAtAHundred)
+{
+    const Outcome outcome = runScree({"sim", shot(), "-o", take("alf"), "--progress", "alf"});
+    ASSERT_EQ(outcome.code, 0);
+    std::istringstream lines(outcome.err);
+    int last = -1;
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch match;
+        if (!std::regex_match(line, match, std::regex("ALF_PROGRESS ([0-9]+)%"))) continue;
+        EXPECT_GT(std::stoi(match[1]), last);
+        last = std::stoi(match[1]);
+    }
+    EXPECT_EQ(last, 100);
+}
+
+TEST_F(ProgramTest, LogAsJsonIsOneObjectALine)
+{
+    const Outcome outcome = runScree({"sim", shot(), "-o", take("json"), "--frames", "1002",
+                                      "--log-format", "json", "--progress", "json"});
+    ASSERT_EQ(outcome.code, 0);
+    std::istringstream lines(outcome.err);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+        EXPECT_TRUE(line.starts_with("{") && line.ends_with("}")) << line;
+    }
+    EXPECT_GE(count, 2);
+}
+
+TEST_F(ProgramTest, ScriptReadsThePosesThatWereWritten)
+{
+    const std::string frame = take("script") + "/frames/frame.001001.scree";
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("script"), "--frames", "1001"}).code, 0);
+    const std::string command = "/usr/bin/python3 '" +
+                                test::sourceFile("tools/read_take.py").string() + "' '" + frame +
+                                "' > '" + take("poses.txt") + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string poses = readFileBytes(take("poses.txt"));
+    EXPECT_TRUE(std::regex_search(poses, std::regex("high +position \\[0\\.3 +1\\.8 +0\\.1 *\\]")))
+        << poses;
+}
+
+TEST_F(ProgramTest, TakeBecomesPicturesSheetFilmAndCache)
+{
+    const std::string output = take("shown");
+    ASSERT_EQ(runScree({"sim", shot(), "-o", output, "--frames", "1001-1006"}).code, 0);
+    const Outcome render =
+        runScree({"render", output, "--size", "160x90", "--frames", "1001-1006x2"});
+    EXPECT_EQ(render.code, 0) << render.err;
+    EXPECT_TRUE(fs::exists(output + "/images/boxes.1003.png"));
+    EXPECT_FALSE(fs::exists(output + "/images/boxes.1002.png"));
+    const Outcome sheet = runScree({"sheet", output, "--count", "4", "-o", take("sheet.png")});
+    EXPECT_EQ(sheet.code, 0) << sheet.err;
+    const Outcome movie = runScree({"movie", output, "-o", take("film.mp4")});
+    EXPECT_EQ(movie.code, 0) << movie.err;
+    EXPECT_NE(movie.err.find("ffmpeg "), std::string::npos);
+    EXPECT_GT(fs::file_size(take("film.mp4")), 500u);
+    const Outcome cache = runScree({"export", output, "-o", take("boxes.abc")});
+    EXPECT_EQ(cache.code, 0) << cache.err;
+    EXPECT_GT(fs::file_size(take("boxes.abc")), 1000u);
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,43 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/take_export.h"
+
+namespace scree {
+namespace {
+
+struct ExportOptions {
+    std::string take, output, frames, progress = "auto";
+};
+
+int runExport(const ExportOptions& options, Console& console)
+{
+    const ProgressMode progress = parseProgressMode(options.progress);
+    const TakeReader take(options.take);
+    exportTake(take, chooseFrames(options.frames, take.frames()), options.output, console,
+               progress);
+    std::printf("%s\n", options.output.c_str());
+    return kExitDone;
+}
+
+}  // namespace
+
+Command addExportCommand(CLI::App& program)
+{
+    auto options = std::make_shared<ExportOptions>();
+    CLI::App* command = program.add_subcommand("export", "Write a cache for another program");
+    command->add_option("TAKE", options->take, "The take directory")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "out.abc, out.####.obj or out.####.ply: the ending chooses the format")
+        ->required();
+    command->add_option("--frames", options->frames, "Only these, without gaps: 1001-1240");
+    command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
+    command->footer("Example:\n  scree export takes/rings_100 -o rings.abc");
+    return {command, [options](Console& console) { return runExport(*options, console); }};
+}
+
+}  // namespace scree

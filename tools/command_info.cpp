@@ -1,0 +1,125 @@
+// What is in a take.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "io/take_reader.h"
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+
+namespace scree {
+namespace {
+
+struct InfoOptions {
+    std::string take;
+    bool json = false;
+};
+
+/// The take in a few numbers.
+struct TakeSummary {
+    std::vector<int> frames;
+    bool isFinished = false;
+    bool hasCheckpoint = false;
+    std::size_t movable = 0;
+    double wallSeconds = 0.0, cpuSeconds = 0.0;
+    FrameSummary worst;  ///< the frame with the deepest overlap
+    FrameSummary last;
+};
+
+TakeSummary summarize(const TakeReader& take)
+{
+    TakeSummary summary;
+    summary.frames = take.frames();
+    summary.isFinished = static_cast<int>(summary.frames.size()) ==
+                         take.info().lastFrame - take.info().firstFrame + 1;
+    summary.hasCheckpoint = std::filesystem::exists(take.paths().checkpoint());
+    for (const TakeBody& body : take.info().bodies)
+        summary.movable += body.kind == BodyKind::dynamic;
+    for (const FrameSummary& frame : take.stats()) {
+        summary.wallSeconds += frame.wallSeconds;
+        summary.cpuSeconds += frame.cpuSeconds;
+        if (frame.overlapRatio >= summary.worst.overlapRatio) summary.worst = frame;
+        if (frame.frame >= summary.last.frame) summary.last = frame;
+    }
+    return summary;
+}
+
+void printText(const TakeReader& take, const TakeSummary& summary)
+{
+    const TakeInfo& info = take.info();
+    std::printf("shot       %s, frames %d-%d at %g a second, seed %llu\n", info.name.c_str(),
+                info.firstFrame, info.lastFrame, info.framesPerSecond,
+                static_cast<unsigned long long>(info.seed));
+    std::printf("bodies     %zu, %zu of them movable, %zu shapes; 1 unit = %g m, up %s\n",
+                info.bodies.size(), summary.movable, info.shapes.size(), info.metresPerUnit,
+                info.zUp ? "+z" : "+y");
+    std::printf("take       %s: %s%s\n", summary.isFinished ? "finished" : "unfinished",
+                summary.frames.empty() ? "no frames" : describeFrames(summary.frames).c_str(),
+                summary.hasCheckpoint ? " and a checkpoint" : "");
+    std::printf("time       %s wall, %s of processors\n",
+                describeDuration(summary.wallSeconds).c_str(),
+                describeDuration(summary.cpuSeconds).c_str());
+    std::printf(
+        "overlap    worst %.3g %% of a body's length, frame %d%s\n",
+        100.0 * summary.worst.overlapRatio, summary.worst.frame,
+        summary.worst.deepestA.empty()
+            ? ""
+            : (" (" + summary.worst.deepestA + ", " + summary.worst.deepestB + ")").c_str());
+    std::printf("at the end kinetic energy %.4g J, %d awake, state %s\n",
+                summary.last.kineticEnergy, summary.last.bodiesAwake,
+                summary.last.stateHash.c_str());
+    std::printf("made by    scree %s, shot hash %s\n", info.programVersion.c_str(),
+                toHex(info.shotHash).c_str());
+}
+
+void printJson(const TakeReader& take, const TakeSummary& summary)
+{
+    const TakeInfo& info = take.info();
+    const nlohmann::ordered_json json = {
+        {"name", info.name},
+        {"program_version", info.programVersion},
+        {"shot_hash", toHex(info.shotHash)},
+        {"shot_frames", {info.firstFrame, info.lastFrame}},
+        {"fps", info.framesPerSecond},
+        {"metres_per_unit", info.metresPerUnit},
+        {"up", info.zUp ? "+z" : "+y"},
+        {"seed", info.seed},
+        {"bodies", info.bodies.size()},
+        {"movable_bodies", summary.movable},
+        {"shapes", info.shapes.size()},
+        {"frames", describeFrames(summary.frames)},
+        {"frame_count", summary.frames.size()},
+        {"finished", summary.isFinished},
+        {"checkpoint", summary.hasCheckpoint},
+        {"wall_s", summary.wallSeconds},
+        {"cpu_s", summary.cpuSeconds},
+        {"worst_overlap_ratio", summary.worst.overlapRatio},
+        {"worst_overlap_frame", summary.worst.frame},
+        {"last_kinetic_energy_J", summary.last.kineticEnergy},
+        {"last_state_hash", summary.last.stateHash},
+    };
+    std::printf("%s\n", json.dump(2).c_str());
+}
+
+}  // namespace
+
+Command addInfoCommand(CLI::App& program)
+{
+    auto options = std::make_shared<InfoOptions>();
+    CLI::App* command = program.add_subcommand("info", "Say what is in a take");
+    command->add_option("TAKE", options->take, "The take directory")->required();
+    command->add_flag("--json", options->json, "As one JSON object");
+    command->footer("Example:\n  scree info takes/rings_100 --json");
+    return {command, [options](Console&) {
+                const TakeReader take(options->take);
+                if (options->json)
+                    printJson(take, summarize(take));
+                else
+                    printText(take, summarize(take));
+                return kExitDone;
+            }};
+}
+
+}  // namespace scree

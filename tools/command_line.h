@@ -1,0 +1,42 @@
+// What several commands understand in the same way: frame lists, sizes, how many threads.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+/// Frames in ascending order, each once: "1001-1240", "1-100x5" (every fifth), "1001", and lists of
+/// these with commas. Throws Error{usage}.
+std::vector<int> parseFrames(const std::string& text);
+
+/// Those of `available` (ascending) that `text` asks for; all for an empty text. Throws
+/// Error{usage} for a bad text and Error{missingInput} when a frame that was asked for is not
+/// available.
+std::vector<int> chooseFrames(const std::string& text, const std::vector<int>& available);
+
+/// At most `count` of the frames, evenly spread, first and last among them.
+std::vector<int> spreadFrames(const std::vector<int>& frames, int count);
+
+/// "1280x720". Throws Error{usage}.
+std::array<int, 2> parseSize(const std::string& text);
+
+/// "1001-1240" or "1001-1101x10", or a list: parseFrames gives the frames back.
+std::string describeFrames(const std::vector<int>& frames);
+
+/// What was asked for, else SLURM_CPUS_PER_TASK, else as many processors as the affinity mask and
+/// the quota of the control group allow. Throws Error{usage} for a number below 1.
+int threadsToUse(std::optional<int> asked);
+
+/// Processors' worth of time that the control group of this process allows, rounded up; nothing
+/// when there is no limit. `cgroupRoot` is /sys/fs/cgroup but for tests.
+std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
+                                  const std::filesystem::path& cgroupOfProcess);
+
+/// Seconds as a person says them: "8.2 s", "3 min 05 s", "2 h 10 min".
+std::string describeDuration(double seconds);
+
+}  // namespace scree

@@ -1,0 +1,274 @@
+// Pictures → MP4, by ffmpeg, which is a program of its own and is told so in one printed line.
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <regex>
+
+#include "io/frame_pattern.h"
+#include "io/take_reader.h"
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/take_export.h"
+
+extern char** environ;
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MovieOptions {
+    std::string input, output;
+    double framesPerSecond = 0.0;
+};
+
+/// Pictures of a sequence, evenly spaced.
+struct PictureSequence {
+    fs::path pattern;  ///< with one place for the frame number
+    std::vector<int> frames;
+    double framesPerSecond = 24.0;
+};
+
+/// The numbers for which the pattern names a file.
+std::vector<int> findFrames(const fs::path& pattern)
+{
+    static const std::regex kNumber(R"(-?\d{1,9})");
+    const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+    std::vector<int> frames;
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+        // The pattern itself judges: a number found in the name must give that name again.
+        const std::string name = entry.path().filename().string();
+        for (std::sregex_iterator match(name.begin(), name.end(), kNumber), end; match != end;
+             ++match) {
+            const int number = std::stoi(match->str());
+            if (expandFramePattern(pattern.filename().string(), number) != name) continue;
+            frames.push_back(number);
+            break;
+        }
+    }
+    std::sort(frames.begin(), frames.end());
+    return frames;
+}
+
+PictureSequence findPictures(const MovieOptions& options)
+{
+    PictureSequence sequence;
+    if (fs::exists(TakePaths{options.input}.info())) {
+        const TakeReader take(options.input);
+        sequence.pattern = take.paths().root / "images" / (take.info().name + ".####.png");
+        sequence.framesPerSecond = take.info().framesPerSecond;
+        sequence.frames = findFrames(sequence.pattern);
+        if (sequence.frames.empty())
+            throw Error(ErrorKind::missingInput, "\"" + options.input +
+                                                     "\" has no pictures yet: scree render " +
+                                                     options.input + " draws them");
+    } else if (hasFramePattern(options.input)) {
+        sequence.pattern = options.input;
+        sequence.frames = findFrames(sequence.pattern);
+    } else {
+        throw Error(ErrorKind::missingInput,
+                    "\"" + options.input + "\" is neither a take nor a pattern like name.####.png");
+    }
+    if (sequence.frames.empty())
+        throw Error(ErrorKind::missingInput, "no picture fits \"" + options.input + "\"");
+    if (options.framesPerSecond > 0.0) sequence.framesPerSecond = options.framesPerSecond;
+    return sequence;
+}
+
+/// Distance of the pictures in frames; throws when it changes, for then the motion would stutter.
+int spacingOf(const PictureSequence& sequence)
+{
+    const std::vector<int>& frames = sequence.frames;
+    if (frames.size() < 2) return 1;
+    const int spacing = frames[1] - frames[0];
+    for (std::size_t i = 2; i < frames.size(); ++i)
+        if (frames[i] - frames[i - 1] != spacing)
+            throw Error(ErrorKind::missingInput,
+                        "the pictures have gaps: " + describeFrames(frames) +
+                            "; render the missing ones first");
+    return spacing;
+}
+
+std::string format(const char* pattern, double value)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, pattern, value);
+    return text;
+}
+
+/// In ffmpeg's patterns % begins a number; in its globs * ? [ ] \ have a meaning.
+std::string escaped(const std::string& text, const char* special, char escape)
+{
+    std::string result;
+    for (const char letter : text) {
+        if (std::strchr(special, letter)) result += escape;
+        result += letter;
+    }
+    return result;
+}
+
+/// A file name around the place of its number.
+struct SplitPattern {
+    std::string head, tail;
+    std::size_t digits = 0;
+};
+
+/// Two numbers without a digit in common show where the place is.
+SplitPattern splitPattern(const std::string& pattern)
+{
+    const std::string ones = expandFramePattern(pattern, 111111111);
+    const std::string twos = expandFramePattern(pattern, 222222222);
+    std::size_t begin = 0, end = ones.size();
+    while (ones[begin] == twos[begin]) ++begin;
+    while (ones[end - 1] == twos[end - 1]) --end;
+    const SplitPattern split = {ones.substr(0, begin), ones.substr(end), 0};
+    const std::size_t rest = split.head.size() + split.tail.size();
+    return {split.head, split.tail, expandFramePattern(pattern, 0).size() - rest};
+}
+
+/// Every picture by a numbered pattern; every n-th by a glob, which ffmpeg sorts by name.
+std::vector<std::string> inputArguments(const PictureSequence& sequence)
+{
+    const int spacing = spacingOf(sequence);
+    const SplitPattern split = splitPattern(sequence.pattern.string());
+    std::vector<std::string> arguments = {"-framerate",
+                                          format("%.10g", sequence.framesPerSecond / spacing)};
+    if (spacing == 1) {
+        const std::string input = escaped(split.head, "%", '%') + "%0" +
+                                  std::to_string(split.digits) + "d" +
+                                  escaped(split.tail, "%", '%');
+        arguments.insert(arguments.end(),
+                         {"-start_number", std::to_string(sequence.frames[0]), "-i", input});
+    } else {
+        const char* special = "*?[]\\{}";
+        arguments.insert(arguments.end(), {"-pattern_type", "glob", "-i",
+                                           escaped(split.head, special, '\\') + "*" +
+                                               escaped(split.tail, special, '\\')});
+    }
+    return arguments;
+}
+
+/// Plays everywhere: H.264, even sizes, 4:2:0, and says which colours it means.
+std::vector<std::string> makeCommand(const PictureSequence& sequence, const std::string& output)
+{
+    std::vector<std::string> command = {"ffmpeg",    "-nostdin", "-hide_banner",
+                                        "-loglevel", "error",    "-y"};
+    for (const std::string& argument : inputArguments(sequence)) command.push_back(argument);
+    for (const char* argument :
+         {"-vf",
+          "scale=trunc(iw/2)*2:trunc(ih/2)*2:out_color_matrix=bt709:out_range=tv,format=yuv420p",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "medium",
+          "-crf",
+          "18",
+          "-color_range",
+          "tv",
+          "-color_primaries",
+          "bt709",
+          "-color_trc",
+          "bt709",
+          "-colorspace",
+          "bt709",
+          "-movflags",
+          "+faststart",
+          "-f",
+          "mp4"})
+        command.push_back(argument);
+    command.push_back(output);
+    return command;
+}
+
+/// As it would be typed.
+std::string quoted(const std::vector<std::string>& command)
+{
+    std::string text;
+    for (const std::string& word : command) {
+        const bool isPlain = word.find_first_not_of(
+                                 "abcdefghijklmnopqrstuvwxyz"
+                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                 "0123456789-_./%=:,+") == std::string::npos;
+        std::string inside;
+        for (const char letter : word) inside += letter == '\'' ? "'\\''" : std::string(1, letter);
+        text += (text.empty() ? "" : " ") + (isPlain ? word : "'" + inside + "'");
+    }
+    return text;
+}
+
+/// Runs a program found along PATH and waits for it. Its words go to stderr.
+void runProgram(const std::vector<std::string>& command)
+{
+    std::vector<char*> arguments;
+    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    pid_t child = 0;
+    const int problem =
+        ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    if (problem != 0)
+        throw Error(ErrorKind::missingInput, command[0] + " cannot be started (" +
+                                                 std::strerror(problem) +
+                                                 "); on Debian: apt-get install " + command[0]);
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw Error(ErrorKind::inputOutput,
+                    command[0] + " failed; the command was: " + quoted(command));
+}
+
+int runMovie(const MovieOptions& options, Console& console)
+{
+    const PictureSequence sequence = findPictures(options);
+    const fs::path output = options.output;
+    createFolderOf(output);
+    console.info(quoted(makeCommand(sequence, output.string())));
+
+    // Under another name first: an interrupted ffmpeg leaves half a film.
+    const fs::path temporary = output.parent_path() / ("." + output.filename().string() + "." +
+                                                       std::to_string(::getpid()) + ".tmp");
+    std::error_code code;
+    try {
+        runProgram(makeCommand(sequence, temporary.string()));
+        fs::rename(temporary, output, code);
+        if (code)
+            throw Error(ErrorKind::cannotCreate,
+                        "cannot create \"" + output.string() + "\": " + code.message());
+    } catch (...) {
+        fs::remove(temporary, code);
+        throw;
+    }
+    std::printf("%s\n", output.c_str());
+    return kExitDone;
+}
+
+}  // namespace
+
+Command addMovieCommand(CLI::App& program)
+{
+    auto options = std::make_shared<MovieOptions>();
+    CLI::App* command = program.add_subcommand("movie", "Make an MP4 of pictures, with ffmpeg");
+    command
+        ->add_option("INPUT", options->input,
+                     "A take whose pictures are drawn, or a pattern like name.####.png")
+        ->required()
+        ->type_name("TAKE|PATTERN");
+    command->add_option("-o,--output", options->output, "The MP4 file to write")->required();
+    command->add_option("--fps", options->framesPerSecond, "Frames per second [of the shot, or 24]")
+        ->check(CLI::PositiveNumber);
+    command->footer("Example:\n  scree movie takes/rings_100 -o rings.mp4");
+    return {command, [options](Console& console) { return runMovie(*options, console); }};
+}
+
+}  // namespace scree

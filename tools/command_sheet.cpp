@@ -1,0 +1,91 @@
+// A take, or pictures that are there already, at a glance.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/base/parallel.h"
+#include "render/contact_sheet.h"
+#include "render/png_writer.h"
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/take_export.h"
+#include "tools/take_painter.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SheetOptions {
+    std::vector<std::string> inputs;
+    std::string output, frames, camera;
+    int count = 12;
+    SheetLayout layout;
+};
+
+/// Draws the frames anew, in the size of the cells: quicker than reading large pictures.
+std::vector<LabelledImage> paintTake(const SheetOptions& options)
+{
+    const TakeReader take(options.inputs[0]);
+    const std::vector<int> chosen = chooseFrames(options.frames, take.frames());
+    const std::vector<int> frames =
+        options.frames.empty() ? spreadFrames(chosen, options.count) : chosen;
+    const std::array<int, 2> shotSize = take.info().pictureSize;
+    const int width = options.layout.cellWidth;
+    const int height = std::max(1, width * shotSize[1] / shotSize[0]);
+    TakePainter painter(take, take.frames(), options.camera, {width, height});
+    std::vector<LabelledImage> pictures;
+    for (const int frame : frames)
+        pictures.push_back({painter.paint(frame), std::to_string(frame)});
+    return pictures;
+}
+
+std::vector<LabelledImage> readPictures(const SheetOptions& options)
+{
+    std::vector<LabelledImage> pictures;
+    for (const std::string& path : options.inputs) {
+        const Image image = readPng(path).image;
+        const int width = std::min(image.width, options.layout.cellWidth);
+        const int height = std::max(1, image.height * width / image.width);
+        pictures.push_back({downscaled(image, width, height), fs::path(path).stem().string()});
+    }
+    return pictures;
+}
+
+int runSheet(const SheetOptions& options)
+{
+    setThreadCount(threadsToUse(std::nullopt));
+    const bool isTake = options.inputs.size() == 1 && fs::is_directory(options.inputs[0]);
+    if (!isTake && !(options.frames.empty() && options.camera.empty()))
+        throw Error(ErrorKind::usage, "--frames and --camera belong to a take, not to pictures");
+    const std::vector<LabelledImage> pictures = isTake ? paintTake(options) : readPictures(options);
+    createFolderOf(options.output);
+    writePng(options.output, makeContactSheet(pictures, options.layout), {{"Software", "scree"}});
+    std::printf("%s\n", options.output.c_str());
+    return kExitDone;
+}
+
+}  // namespace
+
+Command addSheetCommand(CLI::App& program)
+{
+    auto options = std::make_shared<SheetOptions>();
+    CLI::App* command =
+        program.add_subcommand("sheet", "Put frames of a take, or pictures, on one sheet");
+    command->add_option("INPUT", options->inputs, "A take directory, or PNG files")
+        ->required()
+        ->type_name("TAKE|PNG...");
+    command->add_option("-o,--output", options->output, "The PNG file to write")->required();
+    command->add_option("--frames", options->frames, "These frames of the take, all of them");
+    command->add_option("--count", options->count, "How many frames, evenly spread [12]")
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--columns", options->layout.columns, "Pictures in a row [4]")
+        ->check(CLI::Range(1, 100));
+    command->add_option("--width", options->layout.cellWidth, "Of one picture, in pixels [400]")
+        ->check(CLI::Range(16, 4096));
+    command->add_option("--camera", options->camera, "Name of a camera of the shot [the first]");
+    command->footer("Example:\n  scree sheet takes/rings_100 -o rings.png");
+    return {command, [options](Console&) { return runSheet(*options); }};
+}
+
+}  // namespace scree

@@ -1,0 +1,315 @@
+// Shot → take. Frames are safe on disk one by one; everything that can end a run early (signals, a
+// full disk, numbers that are none) leaves them there and says how to go on.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+
+#include "core/base/parallel.h"
+#include "core/diagnostics/state_hash.h"
+#include "core/dynamics/stepper.h"
+#include "io/build_world.h"
+#include "io/shot_parser.h"
+#include "io/subframes.h"
+#include "io/take.h"
+#include "io/take_reader.h"
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/progress.h"
+#include "tools/stop_signals.h"
+#include "tools/take_export.h"
+#include "tools/version.h"
+
+namespace scree {
+namespace {
+
+struct SimOptions {
+    std::string shot, take, frames, progress = "auto";
+    std::optional<int> threads;
+    bool resume = false, overwrite = false;
+    std::vector<std::string> overrides;
+};
+
+/// Worst frames named when a limit was broken.
+constexpr std::size_t kNamedFrames = 5;
+
+double cpuSeconds()
+{
+    std::timespec time = {};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double wallSeconds()
+{
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(now).count();
+}
+
+std::string percent(double ratio)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * ratio);
+    return text;
+}
+
+/// One run of `scree sim`, from the first missing frame to the last.
+class SimRun {
+public:
+    SimRun(const SimOptions& options, Console& console)
+        : options_(options), console_(console), progressMode_(parseProgressMode(options.progress))
+    {
+        setThreadCount(threadsToUse(options.threads));
+        shot_ = parseShot(options.shot, options.overrides);
+        lastFrame_ = chooseLastFrame();
+        const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
+        world_ = buildWorld(shot_);
+        subframes_.emplace(shot_, world_);
+        const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
+                                      : options.resume  ? ExistingTake::resume
+                                                        : ExistingTake::refuse;
+        take_.emplace(folder, shot_, world_, programVersion(), existing);
+        for (const std::string& notice : take_->notices()) console.warning(notice);
+    }
+
+    int run()
+    {
+        watchSignals();
+        const std::string folder = take_->paths().root.string();
+        const int simulated = simulate();
+        if (isStopped_) {
+            console_.info("stopped in frame " + std::to_string(stoppedIn_) +
+                          "; the state is saved, go on with: scree sim " + options_.shot + " -o " +
+                          folder + " --resume");
+            return kExitStopped;
+        }
+        if (simulated == 0) console_.info("nothing to simulate: " + folder + " is complete");
+        writeExports(simulated > 0);
+        std::printf("%s\n", folder.c_str());
+        return judgeOverlap() ? kExitDone : kExitQuality;
+    }
+
+private:
+    int chooseLastFrame() const
+    {
+        if (options_.frames.empty()) return shot_.lastFrame;
+        const int last = parseFrames(options_.frames).back();
+        if (last < shot_.firstFrame || last > shot_.lastFrame)
+            throw Error(ErrorKind::usage, "--frames " + options_.frames + ": the shot has " +
+                                              std::to_string(shot_.firstFrame) + "-" +
+                                              std::to_string(shot_.lastFrame));
+        return last;
+    }
+
+    /// Simulates what is missing; returns how many frames that were.
+    int simulate()
+    {
+        const int total = lastFrame_ - shot_.firstFrame + 1;
+        int missing = 0;
+        for (int frame = shot_.firstFrame; frame <= lastFrame_; ++frame)
+            missing += !take_->hasFrame(frame);
+        if (missing == 0) return 0;
+        console_.info(shot_.name + ": " + std::to_string(world_.bodyCount()) + " bodies, frames " +
+                      std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) + ", " +
+                      std::to_string(total - missing) + " there already, " +
+                      std::to_string(threadCount()) + " threads");
+
+        Progress progress(console_, progressMode_, "sim", total, total - missing);
+        Stepper stepper(shot_.settings);
+        if (!take_->hasFrame(shot_.firstFrame)) {
+            writeInitialFrame();
+            progress.frameDone(shot_.firstFrame, 0.0);
+        }
+        for (int frame = shot_.firstFrame + 1; frame <= lastFrame_ && !isStopped_; ++frame)
+            if (!take_->hasFrame(frame)) simulateFrame(frame, stepper, progress);
+        return missing;
+    }
+
+    /// Time zero, where nothing has moved yet.
+    void writeInitialFrame()
+    {
+        FrameStats stats;
+        stats.frame = shot_.firstFrame;
+        stats.report.stateHash = stateHash(world_);
+        take_->writeFrame(world_, stats);
+    }
+
+    void simulateFrame(int frame, Stepper& stepper, Progress& progress)
+    {
+        subframes_->begin(world_, take_->prepareFor(frame, world_));
+        FrameStats stats;
+        stats.frame = frame;
+        stats.resumedAtSubStep = world_.clock.subStep;
+        const double wallBefore = wallSeconds(), cpuBefore = cpuSeconds();
+        const double duration = 1.0 / shot_.framesPerSecond;
+        const auto askStop = [&] {
+            progress.insideFrame(frame, world_.clock.frameTimeDone / duration);
+            if (takeSaveRequest()) saveAndTell(frame);
+            return stopRequested();
+        };
+        stats.report = stepper.advanceFrame(
+            world_, duration, askStop,
+            [&](const World& world, double time) { subframes_->afterStep(world, time); });
+        stats.wallSeconds = wallSeconds() - wallBefore;
+        stats.cpuSeconds = cpuSeconds() - cpuBefore;
+        refuseNonFinite(frame, stats.report);
+        if (!stats.report.finished) {
+            take_->writeCheckpoint(world_, subframes_->samples());
+            isStopped_ = true;
+            stoppedIn_ = frame;
+            return;
+        }
+        take_->writeFrame(world_, stats, subframes_->samples());
+        subframes_->begin(world_, {});
+        warnOfOverlap(frame, stats.report);
+        warnOfCap(frame, stats.report);
+        progress.frameDone(frame, stats.wallSeconds,
+                           {stats.report.bodiesAwake, stats.report.sum.contactPairs});
+        if (takeSaveRequest()) saveAndTell(frame + 1);
+        if (stopRequested() && frame < lastFrame_) {
+            isStopped_ = true;
+            stoppedIn_ = frame + 1;
+        }
+    }
+
+    void saveAndTell(int frame)
+    {
+        take_->writeCheckpoint(world_, subframes_->samples());
+        console_.line("scree: saved in frame " + std::to_string(frame) + " of " +
+                      std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) +
+                      ", sub-step " + std::to_string(world_.clock.subStep));
+    }
+
+    void refuseNonFinite(int frame, const FrameReport& report)
+    {
+        if (report.sum.nonFinite.empty()) return;
+        std::string names;
+        for (const BodyId body : report.sum.nonFinite) {
+            if (!names.empty()) names += ", ";
+            names += world_.info[body].name;
+        }
+        throw Error(ErrorKind::qualityLimit,
+                    "frame " + std::to_string(frame) + ", step " + std::to_string(report.steps) +
+                        ", after " + nameOf(report.sum.nonFinitePhase) + ": no longer finite: " +
+                        names + "; frames up to " + std::to_string(frame - 1) + " are kept in \"" +
+                        take_->paths().root.string() + "\"");
+    }
+
+    /// Every breach is in stats.jsonl; here each grade is told once when it happens, so that a
+    /// night's log stays short.
+    void warnOfOverlap(int frame, const FrameReport& report)
+    {
+        const double ratio = report.worstOverlapRatio;
+        if (ratio <= shot_.penetrationWarn) return;
+        const bool isFailure = ratio > shot_.penetrationFail;
+        const auto bodyName = [&](BodyId body) {
+            return body >= 0 ? world_.info[body].name : std::string("?");
+        };
+        const std::string text =
+            "frame " + std::to_string(frame) + ": " + bodyName(report.sum.deepestA) + " and " +
+            bodyName(report.sum.deepestB) + " overlap by " + percent(ratio) +
+            " of the smaller one's length, " +
+            (isFailure ? "beyond penetration.fail; the run goes on" : "beyond penetration.warn");
+        bool& wasTold = isFailure ? toldFailure_ : toldWarning_;
+        if (wasTold)
+            console_.detail(text);
+        else
+            console_.warning(text);
+        wasTold = true;
+    }
+
+    void warnOfCap(int frame, const FrameReport& report)
+    {
+        if (!report.substepCapReached) return;
+        const std::string text = "frame " + std::to_string(frame) +
+                                 ": solver.substeps.max is reached; fast thin bodies may tunnel";
+        if (toldCap_)
+            console_.detail(text);
+        else
+            console_.warning(text);
+        toldCap_ = true;
+    }
+
+    /// Caches the shot asks for, made once the take is complete.
+    void writeExports(bool hasNewFrames)
+    {
+        if (lastFrame_ != shot_.lastFrame) return;
+        const TakeReader reader(take_->paths().root);
+        for (const std::string& ending : shot_.output.exports) {
+            const std::filesystem::path output = defaultExport(reader, ending);
+            if (!hasNewFrames && std::filesystem::exists(output)) continue;
+            // Without progress of its own: the simulation's has reached the end and must not go
+            // back.
+            exportTake(reader, reader.frames(), output, console_, ProgressMode::none);
+            console_.info("wrote " + output.string());
+        }
+    }
+
+    /// Looks over the whole take, earlier sittings included. False when a frame broke the limit.
+    bool judgeOverlap()
+    {
+        std::vector<FrameSummary> broken;
+        for (const FrameSummary& frame : take_->summaries())
+            if (frame.frame <= lastFrame_ && frame.overlapRatio > shot_.penetrationFail)
+                broken.push_back(frame);
+        if (broken.empty()) return true;
+        std::stable_sort(broken.begin(), broken.end(), [](const auto& a, const auto& b) {
+            return a.overlapRatio > b.overlapRatio;
+        });
+        std::string text =
+            std::to_string(broken.size()) +
+            " frames overlap by more than penetration.fail = " + percent(shot_.penetrationFail) +
+            "; worst:";
+        for (std::size_t i = 0; i < std::min(broken.size(), kNamedFrames); ++i)
+            text += (i == 0 ? " " : "; ") + std::to_string(broken[i].frame) + " (" +
+                    broken[i].deepestA + ", " + broken[i].deepestB + ": " +
+                    percent(broken[i].overlapRatio) + ")";
+        console_.error(text);
+        return false;
+    }
+
+    const SimOptions& options_;
+    Console& console_;
+    ProgressMode progressMode_;
+    Shot shot_;
+    World world_;
+    std::optional<TakeWriter> take_;
+    std::optional<SubframeRecorder> subframes_;
+    int lastFrame_ = 0;
+    bool isStopped_ = false;
+    int stoppedIn_ = 0;
+    bool toldWarning_ = false, toldFailure_ = false, toldCap_ = false;
+};
+
+}  // namespace
+
+Command addSimCommand(CLI::App& program)
+{
+    auto options = std::make_shared<SimOptions>();
+    CLI::App* command = program.add_subcommand("sim", "Simulate a shot into a take directory");
+    command->add_option("SHOT", options->shot, "The shot file")->required();
+    command->add_option("-o,--output", options->take, "The take directory [takes/NAME]");
+    command->add_option("--frames", options->frames,
+                        "Simulate up to the last of these: 1001-1100 (a later --resume goes on)");
+    command->add_option("--threads", options->threads,
+                        "Number of threads [all]; the result does not depend on it");
+    CLI::Option* resume =
+        command->add_flag("--resume", options->resume,
+                          "Go on with the take, to the same bits; begin when there is none");
+    command->add_flag("--overwrite", options->overwrite, "Replace the take that is there")
+        ->excludes(resume);
+    command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
+    command->footer(
+        "Stops cleanly on SIGINT and SIGTERM (exit code 75); SIGUSR1 saves and goes on.\n"
+        "Example:\n  scree sim shots/rings_100.toml --set material.steel.friction=0.3 -o takes/b");
+    return {command, [options](Console& console) { return SimRun(*options, console).run(); }};
+}
+
+}  // namespace scree

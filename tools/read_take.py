@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""Reads a frame of a take with NumPy alone: read_take.py takes/seesaw/frames/frame.001001.scree
+
+The layout is explained in io/TAKE_FORMAT.md. The checksum at the end is not verified here.
+"""
+import json
+import pathlib
+import struct
+import sys
+
+import numpy as np
+
+HEADER = struct.Struct("<8sIIqQQQ")  # magic, version, blocks, frame, bodies, shot hash, bytes
+ENTRY = struct.Struct("<24s8sQQQ8x")  # name, NumPy type, rows, columns, offset
+
+
+def read_frame(path):
+    """Frame number and a dictionary of arrays: name -> rows x columns."""
+    data = pathlib.Path(path).read_bytes()
+    magic, version, block_count, frame, _, _, byte_count = HEADER.unpack_from(data)
+    if magic != b"SCREEFRM" or version != 1 or byte_count != len(data):
+        raise ValueError(f"{path}: not a whole Scree frame of version 1")
+    blocks = {}
+    for i in range(block_count):
+        name, dtype, rows, columns, offset = ENTRY.unpack_from(data, 64 + 64 * i)
+        values = np.frombuffer(data, dtype.rstrip(b"\0").decode(), rows * columns, offset)
+        blocks[name.rstrip(b"\0").decode()] = values.reshape(rows, columns)
+    return frame, blocks
+
+
+if __name__ == "__main__":
+    frame, blocks = read_frame(sys.argv[1])
+    take = json.loads((pathlib.Path(sys.argv[1]).parents[1] / "take.json").read_text())
+    print(f"frame {frame} of {take['name']}")
+    for body, place, turn in zip(take["bodies"], blocks["asset.position"], blocks["asset.orientation"]):
+        print(f"{body['name']:24} position {place}  orientation w x y z {turn}")

@@ -1,0 +1,17 @@
+// What the outside asks of a running simulation: SIGINT, SIGTERM and SIGHUP to stop at the next
+// sub-step, SIGUSR1 to save and go on.
+#pragma once
+
+namespace scree {
+
+/// From now on the signals are noted instead of obeyed. A second request to stop is obeyed at once;
+/// what stands on disk is whole at every instant. Writing to a pipe nobody reads, or beyond a size
+/// limit, becomes an error of the call that writes.
+void watchSignals();
+
+bool stopRequested();
+
+/// True once for each SIGUSR1.
+bool takeSaveRequest();
+
+}  // namespace scree

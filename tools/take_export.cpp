@@ -1,0 +1,60 @@
+#include "tools/take_export.h"
+
+#include <chrono>
+#include <system_error>
+
+#include "core/base/error.h"
+#include "io/frame_writer.h"
+#include "tools/command_line.h"
+
+namespace scree {
+
+void exportTake(const TakeReader& take, const std::vector<int>& frames,
+                const std::filesystem::path& output, Console& console, ProgressMode progress)
+{
+    if (frames.empty())
+        throw Error(ErrorKind::missingInput,
+                    "\"" + take.paths().root.string() + "\" has no frames to export");
+    const int frameCount = static_cast<int>(frames.size());
+    if (frames.back() - frames.front() + 1 != frameCount)
+        throw Error(ErrorKind::usage,
+                    "an export needs frames without gaps, not " + describeFrames(frames));
+
+    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(output);
+    createFolderOf(output);
+    const SceneDescription scene = take.describe();
+    Progress shown(console, progress, "export", frameCount);
+    const bool withSubframes = writer->holdsSubframes();
+    writer->begin(scene, frames.front(), frameCount,
+                  withSubframes ? take.offsets() : std::vector<double>{0.0});
+    for (const int frame : frames) {
+        const auto started = std::chrono::steady_clock::now();
+        if (withSubframes)
+            for (const SceneFrame& sample : take.readSamples(frame)) writer->write(sample);
+        else
+            writer->write(take.readFrame(frame));
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
+        shown.frameDone(frame, taken.count());
+    }
+    writer->finish();
+}
+
+std::filesystem::path defaultExport(const TakeReader& take, const std::string& ending)
+{
+    const bool isSequence = ending == "obj" || ending == "ply" || ending == "pov";
+    return take.paths().root / "exports" /
+           (take.info().name + (isSequence ? ".####." : ".") + ending);
+}
+
+void createFolderOf(const std::filesystem::path& file)
+{
+    if (!file.has_parent_path()) return;
+    std::error_code code;
+    std::filesystem::create_directories(file.parent_path(), code);
+    if (code)
+        throw Error(
+            ErrorKind::cannotCreate,
+            "cannot create the folder \"" + file.parent_path().string() + "\": " + code.message());
+}
+
+}  // namespace scree

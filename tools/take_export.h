@@ -1,0 +1,24 @@
+// Take → a cache for another program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/take_reader.h"
+#include "tools/console.h"
+#include "tools/progress.h"
+
+namespace scree {
+
+/// Writes `frames`, which must follow each other without a gap. Folders are made as needed.
+void exportTake(const TakeReader& take, const std::vector<int>& frames,
+                const std::filesystem::path& output, Console& console, ProgressMode progress);
+
+/// <take>/exports/<shot>.abc, or <shot>.####.obj for formats that are one file a frame.
+std::filesystem::path defaultExport(const TakeReader& take, const std::string& ending);
+
+/// Makes the folder that `file` will stand in.
+void createFolderOf(const std::filesystem::path& file);
+
+}  // namespace scree
