@@ -1,0 +1,120 @@
+// Fast against obvious: broad phase against all pairs, remembered samples against all samples.
+// [A7, A8, A13–A15]
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/base/random.h"
+#include "core/collision/broad_phase.h"
+#include "core/collision/interference.h"
+#include "core/geometry/primitives.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+Vec3 drawVector(std::uint64_t i, std::uint64_t what, double size)
+{
+    const auto unit = [&](std::uint64_t axis) {
+        return size * (2.0 * randomUnit(31, i, what, axis) - 1.0);
+    };
+    return {unit(0), unit(1), unit(2)};
+}
+
+TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFinds)
+{
+    for (std::uint64_t scene = 0; scene < 20; ++scene) {
+        std::vector<Aabb> boxes;
+        std::vector<BodyMass> mass;
+        for (std::uint64_t b = 0; b < 200; ++b) {
+            const Vec3 centre = drawVector(scene * 1000 + b, 0, 8.0);
+            const double scale = b % 17 == 0 ? 20.0 : 1.0;
+            const Vec3 half =
+                scale * (drawVector(scene * 1000 + b, 1, 0.4).cwiseAbs() + Vec3::Constant(0.05));
+            boxes.push_back({centre - half, centre + half});
+            mass.push_back({b % 5 == 0 ? 0.0 : 1.0, Vec3::Ones()});
+        }
+        boxes.push_back(Aabb::everything());
+        mass.push_back({0.0, Vec3::Zero()});
+        std::vector<BodyPair> expected;
+        for (BodyId a = 0; a < static_cast<BodyId>(boxes.size()); ++a) {
+            for (BodyId b = a + 1; b < static_cast<BodyId>(boxes.size()); ++b) {
+                if (!mass[a].isMovable() && !mass[b].isMovable()) continue;
+                if (boxes[a].overlaps(boxes[b])) expected.push_back({a, b});
+            }
+        }
+        BroadPhase broadPhase;
+        EXPECT_EQ(broadPhase.findPairs(boxes, mass), expected) << "scene " << scene;
+    }
+}
+
+void expectSameTouches(std::vector<Touch> fast, std::vector<Touch> plain, const std::string& where)
+{
+    std::sort(fast.begin(), fast.end(), isDeeper);
+    std::sort(plain.begin(), plain.end(), isDeeper);
+    ASSERT_EQ(fast.size(), plain.size()) << where;
+    for (std::size_t i = 0; i < fast.size(); ++i) {
+        EXPECT_EQ(fast[i].phi, plain[i].phi) << where;
+        EXPECT_EQ(fast[i].sample, plain[i].sample) << where;
+        EXPECT_EQ(fast[i].sampleOnA, plain[i].sampleOnA) << where;
+        EXPECT_EQ(fast[i].point, plain[i].point) << where;
+    }
+}
+
+TEST(Interference, RememberedSamplesGiveTheSameTouchesBitForBitAsAllSamples)
+{
+    const std::vector<std::shared_ptr<const Shape>> shapes = {
+        buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10})), boxShape(Vec3::Ones(), 2),
+        boxShape({1.5, 0.3, 0.4}, 1), buildMeshShape("ball", makeSphere(0.6, 2)),
+        buildPlaneShape("plane")};
+    int touching = 0;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+        const Shape& a = *shapes[randomIndex(4, 32, i)];
+        const Shape& b = *shapes[randomIndex(5, 33, i)];
+        const Pose poseA{drawVector(i, 1, 0.8), exponentialMap(drawVector(i, 2, 3.0))};
+        PlacedPair pair{
+            &a, &b, poseA, {drawVector(i, 3, 0.8), exponentialMap(drawVector(i, 4, 3.0))}};
+        const double tau = contourValue(a, b);
+        Proximity proximity;
+        proximity.reset(0.01);
+        // Moves of all sizes: within what the proximity remembers, and beyond it.
+        for (std::uint64_t move = 0; move < 6; ++move) {
+            std::vector<Touch> fast, plain;
+            proximity.findTouches(pair, tau, fast);
+            findTouchesPlainly(pair, tau, plain);
+            touching += !plain.empty();
+            expectSameTouches(fast, plain,
+                              a.name + " in " + b.name + ", case " + std::to_string(i));
+            EXPECT_EQ(proximity.interferes(pair, tau), !plain.empty());
+            const double size = std::vector{1e-6, 1e-3, 4e-3, 0.02, 1e-4}[move % 5];
+            pair.worldFromA.position += drawVector(i, 10 + move, size);
+            pair.worldFromA.orientation =
+                rotated(pair.worldFromA.orientation, drawVector(i, 20 + move, size));
+        }
+    }
+    EXPECT_GT(touching, 3000);
+}
+
+TEST(Interference, AnEdgeAcrossAnEdgeIsFoundAtItsDeepestPoint)
+{
+    const auto beam = boxShape({1.0, 0.1, 0.1}, 1);
+    const Quat onEdge = exponentialMap({kPi / 4.0, 0.0, 0.0});
+    const Quat across = exponentialMap({0.0, kPi / 2.0, 0.0});
+    const double depth = 0.004;
+    const double height = 0.1 * std::sqrt(2.0) - depth;
+    // Bodies' frames are principal: their long axis need not be the asset's.
+    const auto place = [&](const Pose& worldFromAsset) {
+        return worldFromAsset * inverse(beam->bodyFromAsset);
+    };
+    std::vector<Touch> touches;
+    findTouchesPlainly({beam.get(), beam.get(), place({{0.0, height, 0.0}, across * onEdge}),
+                        place({Vec3::Zero(), onEdge})},
+                       1e-7, touches);
+    ASSERT_FALSE(touches.empty());
+    const Touch deepest = *std::min_element(touches.begin(), touches.end(), isDeeper);
+    // Straight down the edge stands at 45° to both faces of the other: distance is depth / √2.
+    EXPECT_NEAR(deepest.phi, -depth / std::sqrt(2.0), 1e-5);
+}
+
+}  // namespace
+}  // namespace scree::test

@@ -1,0 +1,161 @@
+// E21: the distance field against exact primitives.  [A4–A6]
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "core/geometry/primitives.h"
+#include "core/geometry/shape.h"
+#include "core/geometry/surface_normal.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+Vec3 randomPoint(std::uint64_t i, const Aabb& box)
+{
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) {
+        p[k] = box.min[k] + box.size()[k] * randomUnit(21, i, static_cast<std::uint64_t>(k));
+    }
+    return p;
+}
+
+double boxDistance(const Vec3& p, const Vec3& half)
+{
+    const Vec3 d = p.cwiseAbs() - half;
+    return d.cwiseMax(0.0).norm() + std::min(d.maxCoeff(), 0.0);
+}
+
+/// Distance to all triangles one by one, signed by the solid angle they subtend.
+double plainDistance(const TriMesh& mesh, const Vec3& p)
+{
+    double nearest = 1e300, angle = 0.0;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        nearest = std::min(nearest, (p - closestOnTriangle(p, a, b, c).point).norm());
+        const Vec3 u = a - p, v = b - p, w = c - p;
+        const double lu = u.norm(), lv = v.norm(), lw = w.norm();
+        angle += 2.0 * std::atan2(u.dot(v.cross(w)),
+                                  lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv);
+    }
+    return angle > 2.0 * std::numbers::pi ? -nearest : nearest;
+}
+
+TEST(E21SignedDistance, ABoxIsExactNearItsSurfaceAndWithinHalfAVoxelEverywhere)
+{
+    const Vec3 half(0.5, 0.35, 0.6);
+    const auto shape = buildMeshShape("box", makeBox(2.0 * half, {1, 1, 1}));
+    const double h = shape->distance.spacing();
+    for (std::uint64_t i = 0; i < 100000; ++i) {
+        const Vec3 p = randomPoint(i, shape->box.grown(3.0 * h));
+        const Vec3 asset = inverse(shape->bodyFromAsset) * p;
+        const double exact = boxDistance(asset, half), phi = shape->distance.value(p);
+        const bool isNear =
+            std::abs(shape->distance.gridValue(p)) < shape->distance.refinementBand();
+        ASSERT_LE(std::abs(phi - exact), isNear ? 1e-12 : 0.5 * h) << asset.transpose();
+        ASSERT_EQ(phi < 0.0, exact < 0.0) << asset.transpose();
+        ASSERT_LE(std::abs(shape->distance.gridValue(p) - exact), 0.88 * h);
+        ASSERT_LE(shape->distance.lowerBound(p), exact + 1e-12);
+    }
+}
+
+TEST(E21SignedDistance, ANonconvexMeshAgreesWithEveryTriangleAskedOneByOne)
+{
+    const auto shape = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const double h = shape->distance.spacing();
+    for (std::uint64_t i = 0; i < 20000; ++i) {
+        const Vec3 p = randomPoint(i, shape->box.grown(5.0 * h));
+        const double exact = plainDistance(shape->mesh, p), phi = shape->distance.value(p);
+        const bool isNear = std::abs(exact) < 0.1 * h;
+        ASSERT_LE(std::abs(phi - exact), isNear ? 1e-12 : 0.88 * h) << p.transpose();
+        ASSERT_EQ(phi < 0.0, exact < 0.0) << p.transpose();
+        ASSERT_LE(shape->distance.lowerBound(p), exact + 1e-9) << p.transpose();
+    }
+}
+
+TEST(E21SignedDistance, SmoothNormalsOfASpherePointOutwardWithinADegree)
+{
+    ShapeSettings settings;
+    settings.resolution = 50;  // h = R/25
+    const auto shape = buildMeshShape("sphere", makeSphere(1.0, 4), settings);
+    double worst = 1.0;
+    for (std::uint64_t i = 0; i < 10000; ++i) {
+        const Vec3 p = randomPoint(i, shape->box);
+        if (p.norm() < 0.1) continue;
+        const Vec3 onSphere = p.normalized();
+        const Approach still{onSphere, Vec3::Zero(), onSphere, onSphere};
+        worst = std::min(worst, surfaceNormal(*shape, still).dot(onSphere));
+    }
+    EXPECT_GE(worst, std::cos(1.0 * kPi / 180.0));
+}
+
+TEST(E21SignedDistance, TrueNormalsOfACubeAreThoseOfItsFaces)
+{
+    const auto shape = buildMeshShape("cube", makeBox(Vec3::Ones(), {1, 1, 1}));
+    ASSERT_TRUE(shape->usesTrueNormals);
+    int wrong = 0;
+    const int count = 10000;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        // A point at most 1 mm above or below a random place of a random face, not moving.
+        const int axis = static_cast<int>(randomIndex(3, 22, i));
+        const double side = randomUnit(23, i) < 0.5 ? -1.0 : 1.0;
+        Vec3 p = randomPoint(i, shape->box), n = Vec3::Zero();
+        n[axis] = side;
+        p[axis] = side * (0.5 + 0.001 * (2.0 * randomUnit(24, i) - 1.0));
+        const Approach still{p, Vec3::Zero(), p, p};
+        wrong += surfaceNormal(*shape, still).dot(n) < 1.0 - 1e-9;
+    }
+    // Within a millimetre of an edge the nearest face of a point just inside may be the other one.
+    EXPECT_LE(wrong, count / 200);
+}
+
+TEST(E21SignedDistance, APointThatCrossesAFaceGetsThatFaceHoweverNearTheEdge)
+{
+    const auto shape = buildMeshShape("cube", makeBox(Vec3::Ones(), {2, 2, 2}));
+    for (double fromEdge : {1e-3, 1e-4, 1e-5}) {
+        const Vec3 above(0.5 - fromEdge, 0.5 + 1e-4, 0.1), below(0.5 - fromEdge, 0.5 - 1e-3, 0.1);
+        const Approach falling{above, {0.0, -1.0, 0.0}, above, below};
+        EXPECT_LE((surfaceNormal(*shape, falling) - Vec3::UnitY()).norm(), 1e-12) << fromEdge;
+    }
+}
+
+TEST(E21SignedDistance, TheFieldHasTheSameBitsForAnyThreadCount)
+{
+    const TriMesh mesh = makeTorus(1.0, 0.25, {32, 20});
+    std::vector<std::vector<float>> fields;
+    for (int threads : {1, 2, 4}) {
+        setThreadCount(threads);
+        const SurfaceRays rays(mesh);
+        GridNodes nodes;
+        nodes.spacing = 0.05;
+        nodes.origin = Vec3(-1.5, -0.5, -1.5);
+        nodes.count = {61, 21, 61};
+        fillSignedDistance(mesh, rays, nodes);
+        fields.push_back(nodes.values);
+    }
+    setThreadCount(1);
+    EXPECT_EQ(fields[0], fields[1]);
+    EXPECT_EQ(fields[0], fields[2]);
+}
+
+TEST(E21SignedDistance, AWallTooThinForTheLargestFieldIsRefusedWithWhatItNeeds)
+{
+    try {
+        buildMeshShape("sheet", makeBox({1.0, 0.001, 1.0}, {1, 1, 1}));
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("'sheet'"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("12000 voxels"), std::string::npos)
+            << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace scree::test
