@@ -68,7 +68,7 @@ double chooseSpacing(const std::string& name, const ShapeSettings& settings, con
             "shape '%s': its thinnest wall of %.4g m needs a field of %.0f voxels along "
             "its longest edge of %.4g m, more than the %d allowed; thicken the wall, split "
             "the shape, or set sdf = { resolution = %d } and accept a coarser field",
-            name.c_str(), thickness, std::ceil(resolution * (1.0 - 1e-4)), longest, kMostResolution,
+            name.c_str(), thickness, std::round(resolution), longest, kMostResolution,
             kMostResolution);
         throw Error(ErrorKind::badInput, text);
     }
