@@ -101,19 +101,43 @@ void cutIntoIslands(const World& world, const StepScratch& scratch, ContactLevel
     }
 }
 
-void findFalls(const World& world, StepScratch& scratch)
+double deepestPhi(PairRecord& pair, const PlacedPair& placed)
 {
+    thread_local std::vector<Touch> touches;
+    touches.clear();
+    pair.proximity.findTouches(placed, pair.tau, touches);
+    double deepest = pair.tau;
+    for (const Touch& touch : touches) deepest = std::min(deepest, touch.phi);
+    return deepest;
+}
+
+/// Departs from A36, by which every interference of the falling body makes an edge. Two bodies that
+/// overlap interfere whichever of them falls: the upper would carry the lower as well, a column
+/// whose bodies overlap would be one component, and neither shock nor push-out could work it upward
+/// (E11c). So a body does not rest on one that its fall takes it clearly away from.
+bool restsOn(PairRecord& pair, const PlacedPair& fallen, const PlacedPair& drifted,
+             double fallHeight)
+{
+    if (!pair.proximity.interferes(fallen, pair.tau)) return false;
+    if (!pair.proximity.interferes(drifted, pair.tau)) return true;
+    return deepestPhi(pair, fallen) - deepestPhi(pair, drifted) < 0.1 * fallHeight;
+}
+
+void findFalls(const World& world, const StepSettings& settings, double dt, StepScratch& scratch)
+{
+    const double fallHeight = dt * dt * settings.gravity.norm();
     parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             PairRecord& pair = scratch.pairs[i];
             const auto [a, b] = pair.bodies;
-            const auto meets = [&](const Pose& poseA, const Pose& poseB) {
-                return pair.proximity.interferes(placePair(world, pair, poseA, poseB), pair.tau);
+            const PlacedPair drifted =
+                placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
+            const auto falls = [&](BodyId body, const Pose& poseA, const Pose& poseB) {
+                return world.mass[body].isMovable() &&
+                       restsOn(pair, placePair(world, pair, poseA, poseB), drifted, fallHeight);
             };
-            pair.aFallsOnB =
-                world.mass[a].isMovable() && meets(scratch.fallPose[a], scratch.driftPose[b]);
-            pair.bFallsOnA =
-                world.mass[b].isMovable() && meets(scratch.driftPose[a], scratch.fallPose[b]);
+            pair.aFallsOnB = falls(a, scratch.fallPose[a], scratch.driftPose[b]);
+            pair.bFallsOnA = falls(b, scratch.driftPose[a], scratch.fallPose[b]);
         }
     });
 }
@@ -191,7 +215,7 @@ ContactGraph buildContactGraph(const World& world, const StepSettings& settings,
     if (settings.gravity.isZero()) {
         settleWeightless(world, scratch);
     } else {
-        findFalls(world, scratch);
+        findFalls(world, settings, dt, scratch);
     }
 
     std::vector<SupportEdge> edges;

@@ -21,11 +21,11 @@ struct SceneMesh {
 };
 
 struct SceneBody {
-    std::string name;      ///< identifier, unique in the scene
-    std::size_t mesh = 0;  ///< index into SceneDescription::meshes
-    std::string material;  ///< name of its material
-    double mass = 0.0;     ///< [kg], 0 for bodies that cannot be moved
-    bool moves = true;     ///< false: the pose of the first frame holds for all
+    std::string name;       ///< identifier, unique in the scene
+    std::size_t mesh = 0;   ///< index into SceneDescription::meshes
+    std::string material;   ///< name of its material
+    double mass = 0.0;      ///< [kg], 0 for bodies that cannot be moved
+    bool moves = true;      ///< false: the pose of the first frame holds for all
     int birthFrame = 1001;  ///< the first frame in which it exists
 };
 
