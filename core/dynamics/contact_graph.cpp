@@ -111,16 +111,12 @@ double deepestPhi(PairRecord& pair, const PlacedPair& placed)
     return deepest;
 }
 
-/// Departs from A36, by which every interference of the falling body makes an edge. Two bodies that
-/// overlap interfere whichever of them falls: the upper would carry the lower as well, a column
-/// whose bodies overlap would be one component, and neither shock nor push-out could work it upward
-/// (E11c). So a body does not rest on one that its fall takes it clearly away from.
-bool restsOn(PairRecord& pair, const PlacedPair& fallen, const PlacedPair& drifted,
-             double fallHeight)
+/// Whether the fall of one body takes it clearly away from one it overlaps.
+bool leaves(PairRecord& pair, const PlacedPair& fallen, const PlacedPair& drifted,
+            double fallHeight)
 {
-    if (!pair.proximity.interferes(fallen, pair.tau)) return false;
-    if (!pair.proximity.interferes(drifted, pair.tau)) return true;
-    return deepestPhi(pair, fallen) - deepestPhi(pair, drifted) < 0.1 * fallHeight;
+    if (!pair.proximity.interferes(drifted, pair.tau)) return false;
+    return deepestPhi(pair, fallen) - deepestPhi(pair, drifted) > 0.1 * fallHeight;
 }
 
 void findFalls(const World& world, const StepSettings& settings, double dt, StepScratch& scratch)
@@ -132,12 +128,14 @@ void findFalls(const World& world, const StepSettings& settings, double dt, Step
             const auto [a, b] = pair.bodies;
             const PlacedPair drifted =
                 placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
-            const auto falls = [&](BodyId body, const Pose& poseA, const Pose& poseB) {
-                return world.mass[body].isMovable() &&
-                       restsOn(pair, placePair(world, pair, poseA, poseB), drifted, fallHeight);
+            const auto test = [&](BodyId body, const Pose& poseA, const Pose& poseB, bool& falls,
+                                  bool& leavesIt) {
+                const PlacedPair fallen = placePair(world, pair, poseA, poseB);
+                falls = world.mass[body].isMovable() && pair.proximity.interferes(fallen, pair.tau);
+                leavesIt = falls && leaves(pair, fallen, drifted, fallHeight);
             };
-            pair.aFallsOnB = falls(a, scratch.fallPose[a], scratch.driftPose[b]);
-            pair.bFallsOnA = falls(b, scratch.driftPose[a], scratch.fallPose[b]);
+            test(a, scratch.fallPose[a], scratch.driftPose[b], pair.aFallsOnB, pair.aLeavesB);
+            test(b, scratch.driftPose[a], scratch.fallPose[b], pair.bFallsOnA, pair.bLeavesA);
         }
     });
 }
@@ -153,6 +151,46 @@ void settleWeightless(const World& world, StepScratch& scratch)
         pair.aFallsOnB = pair.isTouched && inverseA >= inverseB;
         pair.bFallsOnA = pair.isTouched && inverseB >= inverseA;
     }
+}
+
+/// Levels by the falls found. Without the leaving edges a body rests on nothing that its fall takes
+/// it away from.
+GraphLevels levelsOf(const World& world, const StepScratch& scratch, bool withLeaving)
+{
+    std::vector<SupportEdge> edges;
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        const PairRecord& pair = scratch.pairs[i];
+        const auto [a, b] = pair.bodies;
+        const bool onB = pair.aFallsOnB && (withLeaving || !pair.aLeavesB);
+        const bool onA = pair.bFallsOnA && (withLeaving || !pair.bLeavesA);
+        if (onB && world.mass[a].isMovable()) edges.push_back({b, a});
+        if (onA && world.mass[b].isMovable()) edges.push_back({a, b});
+    }
+    std::vector<char> isFixed(world.bodyCount());
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) isFixed[b] = !world.mass[b].isMovable();
+    return computeLevels(world.bodyCount(), edges, isFixed);
+}
+
+/// Touching pairs that `takes` accepts, level by level, in processing order.
+template <class Takes>
+std::vector<ContactLevel> pairsByLevel(const World& world, const StepScratch& scratch,
+                                       const GraphLevels& graph, const Takes& takes)
+{
+    std::vector<ContactLevel> levels(1 + *std::max_element(graph.level.begin(), graph.level.end()));
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (!world.mass[b].isMovable()) continue;
+        ContactLevel& level = levels[graph.level[b]];
+        ++level.bodies;
+        if (graph.isSupported[b]) level.supportedBodies.push_back(static_cast<BodyId>(b));
+    }
+    for (std::size_t i : scratch.pairOrder) {
+        const PairRecord& pair = scratch.pairs[i];
+        if (!pair.isTouched || !takes(pair)) continue;
+        const int level = std::max(graph.level[pair.bodies.a], graph.level[pair.bodies.b]);
+        levels[level].pairs.push_back(i);
+    }
+    for (ContactLevel& level : levels) cutIntoIslands(world, scratch, level);
+    return levels;
 }
 
 }  // namespace
@@ -218,42 +256,16 @@ ContactGraph buildContactGraph(const World& world, const StepSettings& settings,
         findFalls(world, settings, dt, scratch);
     }
 
-    std::vector<SupportEdge> edges;
-    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
-        const PairRecord& pair = scratch.pairs[i];
-        const auto [a, b] = pair.bodies;
-        if (pair.aFallsOnB && world.mass[a].isMovable()) edges.push_back({b, a});
-        if (pair.bFallsOnA && world.mass[b].isMovable()) edges.push_back({a, b});
-    }
-    std::vector<char> isFixed(world.bodyCount());
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) isFixed[b] = !world.mass[b].isMovable();
-
     ContactGraph graph;
-    graph.levels = computeLevels(world.bodyCount(), edges, isFixed);
-    const auto& levelOf = graph.levels.level;
-    const int levelCount = 1 + *std::max_element(levelOf.begin(), levelOf.end());
-    graph.contact.resize(levelCount);
-    graph.overlap.resize(levelCount);
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (isFixed[b]) continue;
-        for (auto* levels : {&graph.contact, &graph.overlap}) {
-            ContactLevel& level = (*levels)[levelOf[b]];
-            ++level.bodies;
-            if (graph.levels.isSupported[b])
-                level.supportedBodies.push_back(static_cast<BodyId>(b));
-        }
+    graph.levels = levelsOf(world, scratch, true);
+    graph.contact = pairsByLevel(world, scratch, graph.levels, [](const PairRecord& pair) {
+        return pair.aFallsOnB || pair.bFallsOnA;
+    });
+    graph.overlap = pairsByLevel(world, scratch, levelsOf(world, scratch, false),
+                                 [](const PairRecord&) { return true; });
+    for (const ContactLevel& level : graph.contact) {
+        graph.contactPairs += static_cast<std::int64_t>(level.pairs.size());
     }
-    for (std::size_t i : scratch.pairOrder) {
-        const PairRecord& pair = scratch.pairs[i];
-        if (!pair.isTouched) continue;
-        const int level = std::max(levelOf[pair.bodies.a], levelOf[pair.bodies.b]);
-        graph.overlap[level].pairs.push_back(i);
-        if (!pair.aFallsOnB && !pair.bFallsOnA) continue;
-        graph.contact[level].pairs.push_back(i);
-        ++graph.contactPairs;
-    }
-    for (ContactLevel& level : graph.contact) cutIntoIslands(world, scratch, level);
-    for (ContactLevel& level : graph.overlap) cutIntoIslands(world, scratch, level);
     return graph;
 }
 

@@ -37,15 +37,20 @@ struct ContactLevel {
     int bodies = 0;                       ///< movable bodies of the level
 };
 
+/// Departs from A52, which has push-out use contact's levels. Two bodies that overlap interfere
+/// whichever of them falls, so a column whose bodies overlap is one component to contact; pushed
+/// about in any order it took ten steps to come apart and was worse after the first (E11c). For
+/// push-out a body therefore rests on nothing that its fall takes it away from, and one step does.
+/// Contact and shock keep the edges: without them a heap of wedges overlapped by 15 % where it did
+/// by 1.3 %.
 struct ContactGraph {
     GraphLevels levels;
-    std::vector<ContactLevel> contact;  ///< by level: pairs that rest and may be processed (set P)
-    std::vector<ContactLevel>
-        overlap;  ///< by level: these and all other touching pairs, for push-out
+    std::vector<ContactLevel> contact;  ///< pairs that rest and may be processed (set P)
+    std::vector<ContactLevel> overlap;  ///< all touching pairs, by the levels of push-out
     std::int64_t contactPairs = 0;
 };
 
-/// Fills aFallsOnB and bFallsOnA of every pair with the present velocities, which have not felt
+/// Fills the falls of every pair with the present velocities, which have not felt
 /// gravity yet, and builds the graph.
 ContactGraph buildContactGraph(const World& world, const StepSettings& settings, double dt,
                                StepScratch& scratch);

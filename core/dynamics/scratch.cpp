@@ -46,7 +46,8 @@ void describePair(const World& world, BodyPair bodies, PairRecord& record)
     record.tau = contourValue(world.shapeOf(bodies.a), world.shapeOf(bodies.b));
     record.friction = std::max(a.friction, b.friction);  // [A27]
     record.restitution = std::min(a.restitution, b.restitution);
-    record.interferesNow = record.aFallsOnB = record.bFallsOnA = record.isTouched = false;
+    record.interferesNow = record.isTouched = false;
+    record.aFallsOnB = record.bFallsOnA = record.aLeavesB = record.bLeavesA = false;
 }
 
 double speedOfSurface(const World& world, BodyId body)

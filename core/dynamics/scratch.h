@@ -21,6 +21,8 @@ struct PairRecord {
     bool interferesNow = false;  ///< at the common predicted positions of this collision iteration
     bool aFallsOnB = false;      ///< moved by its own fall alone, a interferes with b  [A36]
     bool bFallsOnA = false;
+    bool aLeavesB = false;  ///< a falls on b, but away from it: they overlap already
+    bool bLeavesA = false;
     bool isTouched = false;  ///< in the set P: contact may process it  [A26]
     Proximity proximity;
 };
