@@ -85,9 +85,12 @@ void SampleTrack::append(const AlembicSample& sample)
 
 AlembicArchive::AlembicArchive(const std::filesystem::path& path) : file_(path), samplings_(1) {}
 
-int AlembicArchive::addUniformSampling(double start, double step)
+int AlembicArchive::addCyclicSampling(std::vector<double> times, double step)
 {
-    samplings_.push_back({start, step, 0});
+    SCREE_CHECK(!times.empty() && std::is_sorted(times.begin(), times.end()) &&
+                    times.back() - times.front() < step,
+                "the times of a cycle must ascend within it");
+    samplings_.push_back({std::move(times), step, 0});
     return static_cast<int>(samplings_.size()) - 1;
 }
 
@@ -204,9 +207,7 @@ Digest AlembicArchive::digestOf(const AlembicLayout& layout, const SampleTrack& 
     appendBytes(bytes, static_cast<std::uint8_t>(layout.type));
     appendBytes(bytes, static_cast<std::uint8_t>(layout.extent));
     if (layout.kind == AlembicKind::scalar) appendBytes(bytes, std::uint8_t{0});
-    appendBytes(bytes, sampling.step);
-    appendBytes(bytes, std::uint32_t{1});
-    appendBytes(bytes, sampling.start);
+    appendTimes(bytes, sampling);
     appendDigest(bytes, track.digest());
     return spookyDigest(bytes);
 }
@@ -279,11 +280,16 @@ std::string AlembicArchive::samplingTable() const
     std::string table;
     for (const Sampling& sampling : samplings_) {
         appendBytes(table, sampling.mostSamples);
-        appendBytes(table, sampling.step);
-        appendBytes(table, std::uint32_t{1});
-        appendBytes(table, sampling.start);
+        appendTimes(table, sampling);
     }
     return table;
+}
+
+void AlembicArchive::appendTimes(std::string& bytes, const Sampling& sampling)
+{
+    appendBytes(bytes, sampling.step);
+    appendBytes(bytes, static_cast<std::uint32_t>(sampling.times.size()));
+    for (const double time : sampling.times) appendBytes(bytes, time);
 }
 
 }  // namespace scree

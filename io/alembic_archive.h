@@ -103,7 +103,11 @@ public:
     explicit AlembicArchive(const std::filesystem::path& path);
 
     /// Samples every `step` seconds from `start` on; returns the index for AlembicLayout::sampling.
-    int addUniformSampling(double start, double step);
+    int addUniformSampling(double start, double step) { return addCyclicSampling({start}, step); }
+
+    /// Samples at the given times, ascending within less than `step` seconds, and again every
+    /// `step` seconds.
+    int addCyclicSampling(std::vector<double> times, double step);
 
     AlembicSample writeScalar(std::string_view bytes);
     AlembicSample writeArray(std::string_view bytes, std::uint64_t valueCount);
@@ -126,8 +130,9 @@ public:
 
 private:
     struct Sampling {
-        double start = 0.0, step = 1.0;  // [s]
-        std::uint32_t mostSamples = 0;   // of any property; constants count as 1
+        std::vector<double> times = {0.0};  // of the first cycle [s]
+        double step = 1.0;                  // from cycle to cycle [s]
+        std::uint32_t mostSamples = 0;      // of any property; constants count as 1
     };
 
     std::uint8_t metadataIndex(const std::string& metadata);
@@ -136,6 +141,7 @@ private:
     std::string headerOf(const AlembicLayout& layout, const SampleTrack& track);
     Digest digestOf(const AlembicLayout& layout, const SampleTrack& track) const;
     std::string samplingTable() const;
+    static void appendTimes(std::string& bytes, const Sampling& sampling);
 
     OgawaFile file_;
     std::vector<Sampling> samplings_;

@@ -1,16 +1,21 @@
 #include "io/alembic_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/math/rotation.h"
+#include "core/scene/shaded_mesh.h"
 #include "io/alembic_archive.h"
 #include "io/byte_order.h"
+#include "io/camera_pose.h"
 
 namespace scree {
 
@@ -34,6 +39,14 @@ constexpr std::string_view kXformTitle = ";schemaObjTitle=AbcGeom_Xform_v3:.xfor
 constexpr std::string_view kMeshSchema =
     "schema=AbcGeom_PolyMesh_v1;schemaBaseType=AbcGeom_GeomBase_v1";
 constexpr std::string_view kMeshTitle = ";schemaObjTitle=AbcGeom_PolyMesh_v1:.geom";
+constexpr std::string_view kFaceSetSchema =
+    "schema=AbcGeom_FaceSet_v1;schemaBaseType=AbcGeom_GeomBase_v1";
+constexpr std::string_view kFaceSetTitle = ";schemaObjTitle=AbcGeom_FaceSet_v1:.faceset";
+constexpr std::string_view kCameraSchema = "schema=AbcGeom_Camera_v1";
+constexpr std::string_view kCameraTitle = ";schemaObjTitle=AbcGeom_Camera_v1:.geom";
+constexpr std::string_view kNormalMetadata =
+    "arrayExtent=1;geoScope=fvr;interpretation=normal;isGeomParam=true;podExtent=3;"
+    "podName=float32_t";
 constexpr std::string_view kPointMetadata = "geoScope=vtx;interpretation=point";
 constexpr std::string_view kBoxMetadata = "interpretation=box";
 
@@ -87,12 +100,38 @@ struct TransformTrack {
 /// properties point at these blocks. Alembic's instances would say the same, but some readers lose
 /// them.
 struct MeshSamples {
-    AlembicSample bounds, points, faceIndices, faceCounts;
+    AlembicSample bounds, points, normals, faceIndices, faceCounts;
+    AlembicSample allFaces;  // 0 … #F − 1, for the face set
+    bool hasFaces = false;
 };
+
+/// A normal for every corner in the file's order. Readers take a mesh without normals for smooth
+/// all over, edges of cubes included.
+Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh, const Triangles& clockwise)
+{
+    const ShadedMesh shaded = shadeMesh(mesh);
+    Eigen::Matrix3Xf normals(3, clockwise.size());
+    std::size_t next = 0;  // corner in `shaded`, which leaves out triangles with two equal corners
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        if (a == b || b == c || c == a) {
+            normals.middleCols<3>(3 * f).colwise() = Eigen::Vector3f::UnitY();
+            continue;
+        }
+        for (const int corner : {0, 2, 1})
+            normals.col(3 * f + (3 - corner) % 3) = shaded.normals[shaded.indices[next + corner]];
+        next += 3;
+    }
+    return normals;
+}
 
 class AlembicWriter final : public FrameWriter {
 public:
     explicit AlembicWriter(fs::path output) : output_(std::move(output)) {}
+
+    bool holdsSubframes() const override { return true; }
 
 private:
     void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
@@ -101,8 +140,13 @@ private:
 
     MeshSamples writeMesh(const SceneMesh& mesh);
     void addSample(TransformTrack& track, const Channels& channels);
-    AlembicObject writeBody(const SceneBody& body, const TransformTrack& track);
-    AlembicObject writeShape(const std::string& name, const MeshSamples& mesh);
+    AlembicObject writeBody(std::size_t body);
+    AlembicObject writeShape(const std::string& name, const MeshSamples& mesh,
+                             const std::string& material);
+    AlembicObject writeMaterial(const std::string& name, const MeshSamples& mesh);
+    AlembicObject writeCamera(const SceneCamera& camera);
+    AlembicProperty textProperty(const std::string& name, const std::string& text);
+    std::string freeName(std::string name) const;
     AlembicObject writeTransform(const std::string& name, const TransformTrack& track, bool moves,
                                  const std::vector<AlembicProperty>& userProperties,
                                  std::span<const AlembicObject> children);
@@ -111,22 +155,24 @@ private:
     fs::path output_;
     const SceneDescription* scene_ = nullptr;
     std::optional<AlembicArchive> archive_;
-    int everyFrame_ = 0;  // index of the time sampling with one sample per frame
+    int everySample_ = 0;  // index of the time sampling of all that moves
     std::vector<MeshSamples> meshes_;
     std::vector<TransformTrack> bodies_;
 
     // The same for all transforms: "follows the parent" and "is one matrix". Bodies that move need
     // as many of these samples as they have matrices, or readers lose the motion.
     AlembicSample inheritsSample_, opsSample_;
-    SampleTrack inheritsEveryFrame_, opsEveryFrame_;
+    SampleTrack inheritsEverySample_, opsEverySample_;
 };
 
 void AlembicWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*frameCount*/)
 {
     scene_ = &scene;
     archive_.emplace(output_);
-    everyFrame_ = archive_->addUniformSampling(firstFrame / scene.framesPerSecond,
-                                               1.0 / scene.framesPerSecond);
+    std::vector<double> times;
+    for (const double offset : offsets())
+        times.push_back((firstFrame + offset) / scene.framesPerSecond);
+    everySample_ = archive_->addCyclicSampling(std::move(times), 1.0 / scene.framesPerSecond);
     inheritsSample_ = archive_->writeScalar(std::string_view("\x01", 1));
     opsSample_ = archive_->writeScalar(std::string_view(&kMatrixOp, 1));
     bodies_.resize(scene.bodies.size());
@@ -157,8 +203,13 @@ MeshSamples AlembicWriter::writeMesh(const SceneMesh& mesh)
     clockwise.row(1).swap(clockwise.row(2));
     const auto faceCount = static_cast<std::size_t>(clockwise.cols());
     const std::vector<std::int32_t> cornersPerFace(faceCount, 3);
+    std::vector<std::int32_t> allFaces(faceCount);
+    std::iota(allFaces.begin(), allFaces.end(), 0);
 
     MeshSamples samples;
+    samples.hasFaces = faceCount > 0;
+    samples.normals = archive_->writeArray(bytesOf(cornerNormals(mesh, clockwise)), 3 * faceCount);
+    samples.allFaces = archive_->writeArray(bytesOf(allFaces), faceCount);
     samples.bounds = archive_->writeScalar(bytesOf(bounds));
     samples.points =
         archive_->writeArray(bytesOf(points), static_cast<std::uint64_t>(points.cols()));
@@ -174,8 +225,8 @@ void AlembicWriter::writeFrame(const SceneFrame& frame)
         if (!scene_->bodies[body].moves && track.samples.count() > 0) continue;
         addSample(track, channelsOf(frame.worldFromAsset[body]));
     }
-    inheritsEveryFrame_.append(inheritsSample_);
-    opsEveryFrame_.append(opsSample_);
+    inheritsEverySample_.append(inheritsSample_);
+    opsEverySample_.append(opsSample_);
 }
 
 void AlembicWriter::addSample(TransformTrack& track, const Channels& channels)
@@ -197,22 +248,20 @@ void AlembicWriter::addSample(TransformTrack& track, const Channels& channels)
 
 void AlembicWriter::finishScene()
 {
-    std::vector<AlembicObject> bodies;
-    bodies.reserve(bodies_.size());
-    for (std::size_t body = 0; body < bodies_.size(); ++body) {
-        bodies.push_back(writeBody(scene_->bodies[body], bodies_[body]));
-    }
+    std::vector<AlembicObject> children;
+    children.reserve(bodies_.size() + scene_->cameras.size());
+    for (std::size_t body = 0; body < bodies_.size(); ++body) children.push_back(writeBody(body));
+    for (const SceneCamera& camera : scene_->cameras) children.push_back(writeCamera(camera));
 
     TransformTrack axes;
     addSample(axes, scene_->zUp ? kYUpFromZUp : kIdentity);
     const std::array<double, 1> metresPerUnit = {scene_->metresPerUnit};
-    const std::string upAxis = zeroTerminated(scene_->zUp ? "z" : "y");
     const std::vector<AlembicProperty> userProperties = {
         archive_->writeConstant(scalarLayout("metresPerUnit", AlembicType::f64),
                                 bytesOf(metresPerUnit)),
-        archive_->writeConstant(scalarLayout("upAxisOfShot", AlembicType::string), upAxis),
+        textProperty("upAxisOfShot", scene_->zUp ? "z" : "y"),
     };
-    const AlembicObject root = writeTransform(scene_->name, axes, false, userProperties, bodies);
+    const AlembicObject root = writeTransform(scene_->name, axes, false, userProperties, children);
 
     // No date: equal input gives equal bytes.
     archive_->finish(
@@ -221,33 +270,49 @@ void AlembicWriter::finishScene()
             shortestText(scene_->framesPerSecond));
 }
 
-AlembicObject AlembicWriter::writeBody(const SceneBody& body, const TransformTrack& track)
+AlembicProperty AlembicWriter::textProperty(const std::string& name, const std::string& text)
 {
-    const AlembicObject shape = writeShape(body.name + "Shape", meshes_[body.mesh]);
+    return archive_->writeConstant(scalarLayout(name, AlembicType::string), zeroTerminated(text));
+}
 
+AlembicObject AlembicWriter::writeBody(std::size_t index)
+{
+    const SceneBody& body = scene_->bodies[index];
+    const AlembicObject shape = writeShape(body.name + "Shape", meshes_[body.mesh], body.material);
+
+    const std::array<double, 1> mass = {body.mass};
+    const std::array<std::int32_t, 1> id = {static_cast<std::int32_t>(index)};
+    const std::array<std::int32_t, 1> birth = {body.birthFrame};
     std::vector<AlembicProperty> userProperties;
     if (body.mass > 0.0) {
-        const std::array<double, 1> mass = {body.mass};
         userProperties.push_back(
             archive_->writeConstant(scalarLayout("mass", AlembicType::f64), bytesOf(mass)));
     }
-    if (!body.material.empty()) {
-        userProperties.push_back(archive_->writeConstant(
-            scalarLayout("material", AlembicType::string), zeroTerminated(body.material)));
-    }
-    return writeTransform(body.name, track, body.moves, userProperties, std::span(&shape, 1));
+    if (!body.material.empty()) userProperties.push_back(textProperty("material", body.material));
+    userProperties.push_back(textProperty("shape", scene_->meshes[body.mesh].name));
+    userProperties.push_back(
+        archive_->writeConstant(scalarLayout("bodyId", AlembicType::i32), bytesOf(id)));
+    userProperties.push_back(
+        archive_->writeConstant(scalarLayout("birthFrame", AlembicType::i32), bytesOf(birth)));
+    return writeTransform(body.name, bodies_[index], body.moves, userProperties,
+                          std::span(&shape, 1));
 }
 
-AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSamples& mesh)
+AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSamples& mesh,
+                                        const std::string& material)
 {
     AlembicLayout bounds = scalarLayout(".selfBnds", AlembicType::f64, 6);
     bounds.metadata = kBoxMetadata;
     AlembicLayout points = arrayLayout("P", AlembicType::f32, 3);
     points.metadata = kPointMetadata;
 
+    AlembicLayout normals = arrayLayout("N", AlembicType::f32, 3);
+    normals.metadata = kNormalMetadata;
+
     const AlembicProperty properties[] = {
         archive_->writeProperty(bounds, SampleTrack(mesh.bounds)),
         archive_->writeProperty(points, SampleTrack(mesh.points)),
+        archive_->writeProperty(normals, SampleTrack(mesh.normals)),
         archive_->writeProperty(arrayLayout(".faceIndices", AlembicType::i32),
                                 SampleTrack(mesh.faceIndices)),
         archive_->writeProperty(arrayLayout(".faceCounts", AlembicType::i32),
@@ -256,7 +321,76 @@ AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSampl
     const AlembicProperty geometry =
         archive_->writeCompound(".geom", std::string(kMeshSchema), properties);
     const std::string metadata = std::string(kMeshSchema) + std::string(kMeshTitle);
-    return archive_->writeObject(name, metadata, std::span(&geometry, 1), {});
+    if (material.empty() || !mesh.hasFaces)
+        return archive_->writeObject(name, metadata, std::span(&geometry, 1), {});
+    const AlembicObject faces = writeMaterial(material, mesh);
+    return archive_->writeObject(name, metadata, std::span(&geometry, 1), std::span(&faces, 1));
+}
+
+/// A face set of all faces: the one way of naming a material that Alembic's own schemas know.
+/// Blender makes a material of it, Houdini a group.
+AlembicObject AlembicWriter::writeMaterial(const std::string& name, const MeshSamples& mesh)
+{
+    AlembicLayout bounds = scalarLayout(".selfBnds", AlembicType::f64, 6);
+    bounds.metadata = kBoxMetadata;
+    const AlembicProperty properties[] = {
+        archive_->writeProperty(bounds, SampleTrack(mesh.bounds)),
+        archive_->writeProperty(arrayLayout(".faces", AlembicType::i32),
+                                SampleTrack(mesh.allFaces)),
+    };
+    const AlembicProperty faceSet =
+        archive_->writeCompound(".faceset", std::string(kFaceSetSchema), properties);
+    const std::string metadata = std::string(kFaceSetSchema) + std::string(kFaceSetTitle);
+    return archive_->writeObject(name, metadata, std::span(&faceSet, 1), {});
+}
+
+/// The name, or one with underscores behind it if a body has it.
+std::string AlembicWriter::freeName(std::string name) const
+{
+    const auto isTaken = [&](const SceneBody& body) { return body.name == name; };
+    while (std::any_of(scene_->bodies.begin(), scene_->bodies.end(), isTaken)) name += '_';
+    return name;
+}
+
+AlembicObject AlembicWriter::writeCamera(const SceneCamera& camera)
+{
+    constexpr double kFilmWidth = 3.6;  // [cm], of a 35 mm camera
+    const double filmHeight = kFilmWidth / scene_->aspect;
+    double sine = 0.0, cosine = 0.0;
+    sinCos(camera.fovDegrees * kPi / 360.0, sine, cosine);
+    const double focalLength = 0.5 * filmHeight * cosine / sine;  // [cm]
+    const double toTarget = (camera.eye - camera.target).norm();
+    const double distance = toTarget > 0.0 ? toTarget : 1.0;
+    const std::array<double, 16> core = {
+        10.0 * focalLength,  // focal length [mm]
+        kFilmWidth,
+        0.0,
+        filmHeight,
+        0.0,  // film and its shifts [cm]
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,  // squeeze, overscan on four sides
+        5.6,
+        100.0 * scene_->metresPerUnit * distance,  // f-stop, focus [cm]
+        0.0,
+        0.5 / scene_->framesPerSecond,  // shutter opens, closes [s]
+        1e-3 * distance,
+        1e3 * distance,  // nearest, farthest [shot's unit]
+    };
+    const AlembicProperty property =
+        archive_->writeConstant(scalarLayout(".core", AlembicType::f64, 16), bytesOf(core));
+    const AlembicProperty geometry =
+        archive_->writeCompound(".geom", std::string(kCameraSchema), std::span(&property, 1));
+    const std::string name = freeName(camera.name);
+    const AlembicObject lens = archive_->writeObject(
+        name + "Camera", std::string(kCameraSchema) + std::string(kCameraTitle),
+        std::span(&geometry, 1), {});
+
+    TransformTrack place;
+    addSample(place, channelsOf(worldFromCamera(camera, scene_->zUp)));
+    return writeTransform(name, place, false, {}, std::span(&lens, 1));
 }
 
 AlembicObject AlembicWriter::writeTransform(const std::string& name, const TransformTrack& track,
@@ -264,9 +398,9 @@ AlembicObject AlembicWriter::writeTransform(const std::string& name, const Trans
                                             const std::vector<AlembicProperty>& userProperties,
                                             std::span<const AlembicObject> children)
 {
-    const int sampling = moves ? everyFrame_ : 0;
-    const SampleTrack& inherits = moves ? inheritsEveryFrame_ : SampleTrack(inheritsSample_);
-    const SampleTrack& ops = moves ? opsEveryFrame_ : SampleTrack(opsSample_);
+    const int sampling = moves ? everySample_ : 0;
+    const SampleTrack& inherits = moves ? inheritsEverySample_ : SampleTrack(inheritsSample_);
+    const SampleTrack& ops = moves ? opsEverySample_ : SampleTrack(opsSample_);
 
     std::vector<AlembicProperty> properties = {
         archive_->writeProperty(scalarLayout(".inherits", AlembicType::boolean, 1, sampling),
@@ -297,7 +431,7 @@ AlembicProperty AlembicWriter::writeMovingChannels(const TransformTrack& track)
         if (track.movingChannels >> k & 1u) channels.push_back(k);
     }
     const AlembicSample sample = archive_->writeArray(bytesOf(channels), channels.size());
-    return archive_->writeProperty(arrayLayout(".animChans", AlembicType::u32, 1, everyFrame_),
+    return archive_->writeProperty(arrayLayout(".animChans", AlembicType::u32, 1, everySample_),
                                    SampleTrack(sample));
 }
 

@@ -250,8 +250,8 @@ void addBetween(FrameEncoder& encoder, std::span<const SceneFrame> between)
     if (between.empty()) return;
     std::vector<double> offsets;
     for (const SceneFrame& sample : between) offsets.push_back(sample.offset);
-    encoder.add("between.offset", 1, offsets);
-    addPoses(encoder, "between", between);
+    encoder.add("sub.offset", 1, offsets);
+    addPoses(encoder, "sub", between);
 }
 
 void readState(const FrameDecoder& decoder, std::uint64_t bodyCount, FrameState& state)
@@ -290,15 +290,15 @@ void readPoses(const FrameDecoder& decoder, const std::string& prefix, std::uint
 /// `frame` is the number of the frame before the samples.
 std::vector<SceneFrame> readBetween(const FrameDecoder& decoder, std::uint64_t bodyCount, int frame)
 {
-    const std::uint64_t count = decoder.rowsOf("between.offset");
+    const std::uint64_t count = decoder.rowsOf("sub.offset");
     if (count == 0) return {};
-    const auto offsets = decoder.read<double>("between.offset", count, 1);
+    const auto offsets = decoder.read<double>("sub.offset", count, 1);
     std::vector<SceneFrame> between(count);
     for (std::size_t i = 0; i < count; ++i) {
         between[i].frame = frame;
         between[i].offset = offsets[i];
     }
-    readPoses(decoder, "between", bodyCount, between);
+    readPoses(decoder, "sub", bodyCount, between);
     return between;
 }
 

@@ -10,7 +10,10 @@
 #include "core/base/error.h"
 #include "io/alembic_writer.h"
 #include "io/frame_pattern.h"
+#include "io/gltf_writer.h"
 #include "io/mesh_sequence_writer.h"
+#include "io/pov_writer.h"
+#include "io/usd_writer.h"
 
 namespace scree {
 
@@ -18,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One row per format; a new format is a new row.
+// One row per format; a new format is a new row. Of two endings that fit the first counts.
 struct Format {
     std::string_view ending;
     bool isSequence;  ///< one file per frame
@@ -26,9 +29,10 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {".abc", false, makeAlembicWriter},
-    {".obj", true, makeObjSequenceWriter},
-    {".ply", true, makePlySequenceWriter},
+    {".abc", false, makeAlembicWriter},    {".instances.usda", false, makeUsdInstancesWriter},
+    {".usda", false, makeUsdWriter},       {".glb", false, makeGltfWriter},
+    {".obj", true, makeObjSequenceWriter}, {".ply", true, makePlySequenceWriter},
+    {".pov", true, makePovWriter},
 };
 
 std::string knownEndings()
@@ -74,9 +78,12 @@ void requireExportable(const SceneDescription& scene)
     requireIdentifier("shot", scene.name);
     for (const SceneMesh& mesh : scene.meshes) requireMesh(mesh);
 
+    for (const SceneCamera& camera : scene.cameras) requireIdentifier("camera", camera.name);
+
     std::unordered_set<std::string_view> names;
     for (const SceneBody& body : scene.bodies) {
         requireIdentifier("body", body.name);
+        if (!body.material.empty()) requireIdentifier("material", body.material);
         SCREE_CHECK(body.mesh < scene.meshes.size(), "body " + body.name + " names no mesh");
         if (names.insert(body.name).second) continue;
         throw Error(ErrorKind::badInput,
@@ -118,9 +125,9 @@ void FrameWriter::write(const SceneFrame& frame)
     SCREE_CHECK(scene_ != nullptr && framesLeft_ > 0, "a frame that begin() did not announce");
     SCREE_CHECK(frame.frame == nextFrame_, "expected frame " + std::to_string(nextFrame_) +
                                                ", got " + std::to_string(frame.frame));
-    SCREE_CHECK(frame.offset == offsets_[nextSample_],
-                "expected the sample at " + std::to_string(offsets_[nextSample_]) + ", got " +
-                    std::to_string(frame.offset));
+    SCREE_CHECK(frame.offset == offsets_[nextSample_], "expected the sample at " +
+                                                           std::to_string(offsets_[nextSample_]) +
+                                                           ", got " + std::to_string(frame.offset));
     const std::size_t bodyCount = scene_->bodies.size();
     SCREE_CHECK(frame.worldFromAsset.size() == bodyCount && frame.velocity.size() == bodyCount &&
                     frame.angularVelocity.size() == bodyCount,
@@ -148,15 +155,16 @@ void FrameWriter::finish()
 
 std::unique_ptr<FrameWriter> makeFrameWriter(const fs::path& output)
 {
-    std::string ending = output.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
+    std::string name = output.filename().string();
+    std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     for (const Format& format : kFormats) {
-        if (format.ending != ending) continue;
+        if (name.size() <= format.ending.size() || !name.ends_with(format.ending)) continue;
         if (format.isSequence) {
             expandFramePattern(output.string(), 0);  // explains itself if there is no place
         } else if (hasFramePattern(output.string())) {
-            throw Error(ErrorKind::usage, "\"" + output.string() + "\": one " + ending +
+            throw Error(ErrorKind::usage, "\"" + output.string() + "\": one " +
+                                              std::string(format.ending) +
                                               " file holds all frames; leave out the frame number");
         }
         return format.make(output);

@@ -106,16 +106,17 @@ std::vector<SceneFrame> TakeReader::readSamples(int frame) const
 {
     // Samples before a frame are kept with it, those after it with the next one.
     const FrameState here = readState(frame);
-    const bool looksAhead = offsets().back() > 0.0 && std::filesystem::exists(paths_.frame(frame + 1));
+    const bool looksAhead =
+        offsets().back() > 0.0 && std::filesystem::exists(paths_.frame(frame + 1));
     const FrameState next = looksAhead ? readState(frame + 1) : FrameState();
 
     std::vector<SceneFrame> samples;
     for (const double offset : offsets()) {
         const FrameState& keeper = offset > 0.0 ? next : here;
         const double instant = offset > 0.0 ? offset : 1.0 + offset;
-        const auto kept = std::find_if(
-            keeper.between.begin(), keeper.between.end(),
-            [&](const SceneFrame& sample) { return sample.offset == instant; });
+        const auto kept =
+            std::find_if(keeper.between.begin(), keeper.between.end(),
+                         [&](const SceneFrame& sample) { return sample.offset == instant; });
         if (offset == 0.0)
             samples.push_back(here.scene);
         else if (kept != keeper.between.end())

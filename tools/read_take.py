@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads a frame of a take with NumPy alone: read_take.py takes/seesaw/frames/frame.001001.scree
+"""Reads a take with NumPy alone: read_take.py takes/seesaw/frames/frame.001001.scree
 
 The layout is explained in io/TAKE_FORMAT.md. The checksum at the end is not verified here.
 """
@@ -26,6 +26,17 @@ def read_frame(path):
         values = np.frombuffer(data, dtype.rstrip(b"\0").decode(), rows * columns, offset)
         blocks[name.rstrip(b"\0").decode()] = values.reshape(rows, columns)
     return frame, blocks
+
+
+def read_motion(take):
+    """All samples in order of time, those between frames included: frame (with its fraction),
+    positions, orientations w x y z."""
+    for path in sorted(pathlib.Path(take).glob("frames/*.scree")):
+        frame, blocks = read_frame(path)
+        for i, offset in enumerate(blocks.get("sub.offset", np.empty((0, 1)))[:, 0]):
+            rows = slice(i * len(blocks["asset.position"]), (i + 1) * len(blocks["asset.position"]))
+            yield frame - 1 + offset, blocks["sub.position"][rows], blocks["sub.orientation"][rows]
+        yield frame, blocks["asset.position"], blocks["asset.orientation"]
 
 
 if __name__ == "__main__":

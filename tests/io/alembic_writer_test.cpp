@@ -27,10 +27,11 @@ constexpr int kFirst = 1001;
 constexpr double kTolerance = 1e-12;
 
 void exportFrames(const SceneDescription& scene, const std::vector<SceneFrame>& frames,
-                  const fs::path& output)
+                  const fs::path& output, const std::vector<double>& offsets = {0.0})
 {
     const std::unique_ptr<FrameWriter> writer = makeAlembicWriter(output);
-    writer->begin(scene, frames.front().frame, static_cast<int>(frames.size()));
+    const auto frameCount = static_cast<int>(frames.size() / offsets.size());
+    writer->begin(scene, frames.front().frame, frameCount, offsets);
     for (const SceneFrame& frame : frames) writer->write(frame);
     writer->finish();
 }
@@ -223,9 +224,90 @@ TEST(AlembicWriter, ObjectsPropertiesAndMeshesAreWhereReadersLook)
              ".faceIndices array int32_t samples=1 stored=1 ts=0 items=12",
              "mass scalar float64_t samples=1 stored=1 ts=0 value=2.5",
              "material scalar string samples=1 stored=1 ts=0 value='steel'",
+             "shape scalar string samples=1 stored=1 ts=0 value='tetrahedron'",
+             "bodyId scalar int32_t samples=1 stored=1 ts=0 value=0",
+             "birthFrame scalar int32_t samples=1 stored=1 ts=0 value=1001",
          }) {
         EXPECT_NE(tree.find(line), std::string::npos) << line << "\nin\n" << tree;
     }
+}
+
+TEST(AlembicWriter, SubFrameSamplesStandAtTheirTimes)
+{
+    const test::TemporaryFolder folder;
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("ring")});
+    const std::vector<double> offsets = {-0.25, 0.0, 0.4};
+    std::vector<SceneFrame> frames;
+    for (int i = 0; i < 4; ++i) {
+        for (const double offset : offsets) {
+            frames.push_back(
+                test::frameWith(kFirst + i, {test::tumblingPose(0, i + offset + 0.25)}));
+            frames.back().offset = offset;
+        }
+    }
+    exportFrames(scene, frames, folder / "a.abc", offsets);
+
+    EXPECT_NE(strictTree(folder / "a.abc").find("time sampling 1: cyclic"), std::string::npos);
+    const auto samples = readTransforms(folder / "a.abc")["/test_shot/ring"];
+    ASSERT_EQ(samples.size(), frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_NEAR(samples[i].time, (frames[i].frame + frames[i].offset) / 24.0, 1e-12);
+        const Eigen::Matrix4d expected = matrixOf(frames[i].worldFromAsset[0]);
+        EXPECT_LT((samples[i].local - expected).cwiseAbs().maxCoeff(), kTolerance);
+    }
+}
+
+TEST(AlembicWriter, TheMaterialIsAFaceSetOfAllFaces)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::sceneOf({test::bodyNamed("ring"), test::bodyNamed("bare")});
+    scene.bodies[1].material.clear();
+    exportFrames(scene, tumblingFrames(scene, 1), folder / "a.abc");
+    const std::string tree = strictTree(folder / "a.abc");
+    EXPECT_NE(tree.find("/test_shot/ring/ringShape/steel AbcGeom_FaceSet_v1\n"), std::string::npos);
+    EXPECT_NE(tree.find(".faces array int32_t samples=1 stored=1 ts=0 items=4"), std::string::npos);
+    EXPECT_EQ(tree.find("/test_shot/bare/bareShape/"), std::string::npos);
+}
+
+TEST(AlembicWriter, EveryCornerHasANormalEvenOfATriangleWithoutArea)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::sceneOf({test::bodyNamed("ring")});
+    SceneMesh& mesh = scene.meshes[0];
+    mesh.points.conservativeResize(3, 5);
+    mesh.points.col(4) = mesh.points.col(3);
+    mesh.triangles.conservativeResize(3, 6);
+    mesh.triangles.col(4) << 3, 4, 0;
+    mesh.triangles.col(5) << 1, 1, 2;
+    exportFrames(scene, tumblingFrames(scene, 1), folder / "a.abc");
+    EXPECT_NE(strictTree(folder / "a.abc")
+                  .find("N array float32_t[3] samples=1 stored=1 ts=0 "
+                        "items=18 arrayExtent=1;geoScope=fvr;"),
+              std::string::npos);
+}
+
+TEST(AlembicWriter, AMeshWithoutFacesIsStillAValidCache)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::sceneOf({test::bodyNamed("ring")});
+    scene.meshes[0].triangles.resize(3, 0);
+    exportFrames(scene, tumblingFrames(scene, 2), folder / "a.abc");
+    strictTree(folder / "a.abc");
+}
+
+TEST(AlembicWriter, ACameraStandsWhereTheShotPutsItUnderAFreeName)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::sceneOf({test::bodyNamed("main")});
+    scene.cameras.push_back({"main", Vec3(3.0, 4.0, 5.0), Vec3(3.0, 4.0, -5.0), 40.0});
+    exportFrames(scene, tumblingFrames(scene, 2), folder / "a.abc");
+    EXPECT_NE(strictTree(folder / "a.abc").find("/test_shot/main_/main_Camera AbcGeom_Camera_v1"),
+              std::string::npos);
+    const auto samples = readTransforms(folder / "a.abc")["/test_shot/main_"];
+    ASSERT_EQ(samples.size(), 1u);
+    // It looks along -z already, so only its place is left.
+    const Eigen::Matrix4d expected = matrixOf({Vec3(3.0, 4.0, 5.0), Quat::Identity()});
+    EXPECT_LT((samples[0].world - expected).cwiseAbs().maxCoeff(), kTolerance);
 }
 
 TEST(AlembicWriter, AZUpShotStandsUprightInAYUpReader)

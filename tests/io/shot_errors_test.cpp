@@ -134,9 +134,17 @@ std::vector<BadShot> badShots()
          "version"},
         {"Sleep", kHead + "[solver]\nsleep = true\n",
          "bad.toml:5:1: 'sleep' in [solver] is not supported yet by this version"},
-        {"Subframes", kHead + "[output]\nsubframes = [0.0]\ncontacts = true\n",
-         "bad.toml:5:1: 'subframes' in [output] is not supported yet by this version\n"
-         "bad.toml:6:1: 'contacts' in [output] is not supported yet by this version"},
+        {"Contacts", kHead + "[output]\ncontacts = true\n",
+         "bad.toml:5:1: 'contacts' in [output] is not supported yet by this version"},
+        {"SubframesThatSpanAFrame", kHead + "[output]\nsubframes = [-0.5, 0.0, 0.5]\n",
+         "bad.toml:5:13: 'subframes' must lie within one frame and at least 0.01 frames apart, "
+         "like [-0.25, 0.0, 0.25], not [-0.5, 0.0, 0.5]"},
+        {"SubframesTooClose", kHead + "[output]\nsubframes = [0.001]\n",
+         "bad.toml:5:13: 'subframes' must lie within one frame and at least 0.01 frames apart, "
+         "like [-0.25, 0.0, 0.25], not [0.001]"},
+        {"SubframesThatAreNoList", kHead + "[output]\nsubframes = 0.25\n",
+         "bad.toml:5:13: 'subframes' must be a list of numbers, each above -1 and below 1, not "
+         "0.25"},
         {"ExportOfALaterVersion", kHead + "[output]\nexport = [\"glb\", \"abd\"]\n",
          "bad.toml:5:11: 'export' = \"glb\" is not supported yet; this version knows only abc, "
          "obj, ply\n"

@@ -1,0 +1,62 @@
+#include "io/camera_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/aabb.h"
+#include "core/math/rotation.h"
+
+namespace scree {
+
+namespace {
+
+Aabb boxOf(const Points& points)
+{
+    Aabb box;
+    for (Eigen::Index i = 0; i < points.cols(); ++i) box.include(Vec3(points.col(i)));
+    return box;
+}
+
+}  // namespace
+
+Pose worldFromCamera(const SceneCamera& camera, bool zUp)
+{
+    const Vec3 up = zUp ? Vec3::UnitZ() : Vec3::UnitY();
+    Vec3 backward = camera.eye - camera.target;
+    if (backward.norm() == 0.0) backward = Vec3::UnitZ();
+    backward.normalize();
+    Vec3 right = up.cross(backward);
+    if (right.norm() < 1e-9) right = backward.unitOrthogonal();
+    right.normalize();
+    Mat3 axes;
+    axes << right, backward.cross(right), backward;
+    return {camera.eye, Quat(axes).normalized()};
+}
+
+SceneCamera cameraOfAll(const SceneDescription& scene, const SceneFrame& frame)
+{
+    Aabb moving, all;
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+        const Aabb meshBox = boxOf(scene.meshes[scene.bodies[body].mesh].points);
+        if (meshBox.isEmpty()) continue;
+        const Pose& pose = frame.worldFromAsset[body];
+        const Aabb box = transformed(meshBox, pose.orientation.toRotationMatrix(), pose.position);
+        all.include(box);
+        if (scene.bodies[body].moves) moving.include(box);
+    }
+    Aabb box = moving.isEmpty() ? all : moving;
+    if (box.isEmpty()) box = {-Vec3::Ones(), Vec3::Ones()};
+
+    // Stand back until the ball around the box is inside the narrower of the two fields of view.
+    SceneCamera camera;
+    camera.name = "view";
+    camera.target = box.centre();
+    const double tanVertical = std::tan(camera.fovDegrees * kPi / 360.0);
+    const double half = std::atan(tanVertical * std::min(1.0, scene.aspect));
+    const double radius = std::max(0.5 * box.diagonal(), 1e-6);
+    const Vec3 towardEye = scene.zUp ? Vec3(0.58, -0.70, 0.42) : Vec3(0.58, 0.42, 0.70);
+    camera.eye = camera.target + radius / std::sin(half) * towardEye.normalized();
+    return camera;
+}
+
+}  // namespace scree

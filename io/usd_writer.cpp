@@ -1,0 +1,160 @@
+#include "io/usd_writer.h"
+
+#include <optional>
+#include <tuple>
+
+#include "io/motion_spool.h"
+#include "io/usd_instancer.h"
+#include "io/usd_stage.h"
+
+namespace scree {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class UsdForm { primPerBody, instancer };
+
+class UsdWriter final : public FrameWriter {
+public:
+    UsdWriter(fs::path output, UsdForm form) : output_(std::move(output)), form_(form) {}
+
+    bool holdsSubframes() const override { return true; }
+
+private:
+    void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
+    void writeFrame(const SceneFrame& frame) override;
+    void finishScene() override;
+
+    void writeMovingBodies(UsdText& text);
+    void writeStaticBodies(UsdText& text) const;
+    void openBody(UsdText& text, std::size_t body) const;
+
+    fs::path output_;
+    UsdForm form_;
+    const SceneDescription* scene_ = nullptr;
+    int firstFrame_ = 0, frameCount_ = 0;
+    std::optional<UsdNames> names_;
+    std::optional<AtomicFile> file_;
+    std::optional<MotionSpool> motion_;  // of the bodies that move
+    std::vector<Pose> firstPoses_;       // of all
+};
+
+constexpr const char* kPlaceOps =
+    "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]";
+
+std::string translationText(const MotionSample& sample)
+{
+    return usdTuple(sample.worldFromAsset.position);
+}
+
+std::string orientationText(const MotionSample& sample)
+{
+    return usdTuple(usdQuaternion(sample.worldFromAsset.orientation));
+}
+
+/// An attribute over time; samples with equal text are equal to a reader.
+void writeTrack(UsdText& text, const std::string& attribute, const std::vector<double>& times,
+                std::span<const MotionSample> track, std::string (*valueText)(const MotionSample&))
+{
+    std::vector<std::string> values;
+    values.reserve(track.size());
+    for (const MotionSample& sample : track) values.push_back(valueText(sample));
+    const std::vector<std::size_t> needed = neededTimes(
+        values.size(), [&](std::size_t i, std::size_t j) { return values[i] == values[j]; });
+    if (needed.size() == 1) {
+        text.line(attribute + " = " + values[0]);
+        return;
+    }
+    text.openTimes(attribute);
+    for (const std::size_t i : needed) text.time(times[i], values[i]);
+    text.closeTimes();
+}
+
+void UsdWriter::beginScene(const SceneDescription& scene, int firstFrame, int frameCount)
+{
+    scene_ = &scene;
+    firstFrame_ = firstFrame;
+    frameCount_ = frameCount;
+    names_.emplace(scene);
+    file_.emplace(output_);
+    std::vector<std::size_t> moving;
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+        if (scene.bodies[body].moves) moving.push_back(body);
+    }
+    motion_.emplace(file_->target().parent_path(), std::move(moving));
+}
+
+void UsdWriter::writeFrame(const SceneFrame& frame)
+{
+    if (firstPoses_.empty()) firstPoses_ = frame.worldFromAsset;
+    motion_->append(frame);
+}
+
+void UsdWriter::finishScene()
+{
+    writeUsdHeader(*file_, *names_, *scene_, firstFrame_, firstFrame_ + frameCount_ - 1);
+    UsdText text(*file_);
+    text.openPrim(usdPrim("Xform", names_->root), {"kind = \"assembly\""});
+    writeUsdOldName(text, scene_->name, names_->root);
+    writeUsdMaterials(text, *names_, *scene_);
+    writeUsdMeshes(text, *names_, *scene_);
+    writeUsdCameras(text, *names_, *scene_);
+    writeStaticBodies(text);
+    if (form_ == UsdForm::instancer) {
+        writeUsdInstancer(text, *names_, *scene_, *motion_);
+    } else {
+        writeMovingBodies(text);
+    }
+    text.closePrim();
+    motion_.reset();
+    file_->commit();
+}
+
+void UsdWriter::openBody(UsdText& text, std::size_t body) const
+{
+    const SceneBody& scenes = scene_->bodies[body];
+    text.openPrim(usdPrim("Xform", names_->bodies[body]), usdBodyMetadata(*names_, scenes, true));
+    writeUsdBodyProperties(text, *names_, *scene_, scenes);
+    text.line("custom int userProperties:bodyId = " + numberText(body));
+    writeUsdOldName(text, scenes.name, names_->bodies[body]);
+}
+
+void UsdWriter::writeStaticBodies(UsdText& text) const
+{
+    for (std::size_t body = 0; body < scene_->bodies.size(); ++body) {
+        if (scene_->bodies[body].moves) continue;
+        const Pose& pose = firstPoses_[body];
+        openBody(text, body);
+        const Quat orientation = pose.orientation.normalized();
+        text.line("quatf xformOp:orient = " + usdTuple(usdQuaternion(orientation)));
+        text.line("double3 xformOp:translate = " + usdTuple(pose.position));
+        text.line(kPlaceOps);
+        text.closePrim();
+    }
+}
+
+void UsdWriter::writeMovingBodies(UsdText& text)
+{
+    motion_->visitTracks([&](std::size_t k, std::span<const MotionSample> track) {
+        openBody(text, motion_->bodies()[k]);
+        writeTrack(text, "quatf xformOp:orient", motion_->times(), track, orientationText);
+        writeTrack(text, "double3 xformOp:translate", motion_->times(), track, translationText);
+        text.line(kPlaceOps);
+        text.closePrim();
+    });
+}
+
+}  // namespace
+
+std::unique_ptr<FrameWriter> makeUsdWriter(const fs::path& output)
+{
+    return std::make_unique<UsdWriter>(output, UsdForm::primPerBody);
+}
+
+std::unique_ptr<FrameWriter> makeUsdInstancesWriter(const fs::path& output)
+{
+    return std::make_unique<UsdWriter>(output, UsdForm::instancer);
+}
+
+}  // namespace scree

@@ -1,0 +1,226 @@
+// Samples between frames: where bodies are when a shutter is open, at no cost to the simulation.
+#include "io/subframes.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/diagnostics/state_hash.h"
+#include "core/dynamics/stepper.h"
+#include "core/math/rotation.h"
+#include "io/build_world.h"
+#include "io/file_bytes.h"
+#include "io/shot_parser.h"
+#include "io/take.h"
+#include "io/take_reader.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A block that lands within the shot, one that spins in mid-air, a ground and a block at rest.
+constexpr const char* kShotText = R"(
+scree = 1
+[shot]
+name = "blocks"
+frames = "1001-1006"
+units = "cm"
+[solver]
+substeps = { min = 7, max = 256 }
+[material.wood]
+density = 650
+[shape.block]
+box = { size = [20, 20, 20] }
+[[body]]
+name = "ground"
+plane = { point = [0, 0, 0], normal = [0, 1, 0] }
+material = "wood"
+motion = "static"
+[[body]]
+name = "landing"
+shape = "block"
+material = "wood"
+position = [0, 11, 0]
+rotation = [3, 2, 1]
+velocity = [30, 0, 0]
+[[body]]
+name = "spinner"
+shape = "block"
+material = "wood"
+position = [200, 400, 0]
+velocity = [100, 50, 0]
+spin = [0, 0, 1000]
+[output]
+subframes = [-0.25, 0.25, 0.4]
+)";
+
+constexpr std::size_t kGround = 0, kSpinner = 2;
+constexpr double kGravity = 981.0;  // [cm/s²]
+constexpr double kFrame = 1.0 / 24.0;
+
+Shot shotWith(const std::vector<std::string>& overrides = {})
+{
+    return parseShotText(kShotText, "blocks.toml", overrides);
+}
+
+/// Simulates what the take lacks, as `scree sim` does; stops after `stepLimit` sub-steps if that is
+/// not 0. Returns the state hash of every frame it wrote.
+std::vector<std::uint64_t> simulate(const Shot& shot, const fs::path& folder,
+                                    ExistingTake existing = ExistingTake::refuse, int stepLimit = 0)
+{
+    World world = buildWorld(shot);
+    TakeWriter take(folder, shot, world, "1.2.3", existing);
+    SubframeRecorder recorder(shot, world);
+    Stepper stepper(shot.settings);
+    std::vector<std::uint64_t> hashes;
+    int steps = 0;
+    for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
+        if (take.hasFrame(frame)) continue;
+        FrameStats stats;
+        stats.frame = frame;
+        if (frame > shot.firstFrame) {
+            recorder.begin(world, take.prepareFor(frame, world));
+            stats.report = stepper.advanceFrame(
+                world, 1.0 / shot.framesPerSecond, [&] { return ++steps == stepLimit; },
+                [&](const World& moved, double time) { recorder.afterStep(moved, time); });
+            if (!stats.report.finished) {
+                take.writeCheckpoint(world, recorder.samples());
+                return hashes;
+            }
+        }
+        take.writeFrame(world, stats, recorder.samples());
+        hashes.push_back(stateHash(world));
+    }
+    return hashes;
+}
+
+class SubframesTest : public testing::Test {
+protected:
+    test::TemporaryFolder folder;
+};
+
+TEST_F(SubframesTest, AskingForSamplesChangesNoBitOfTheSimulation)
+{
+    const auto with = simulate(shotWith(), folder / "with");
+    const auto without = simulate(shotWith({"output.subframes=[]"}), folder / "without");
+    EXPECT_EQ(with.size(), 6u);
+    EXPECT_EQ(with, without);
+}
+
+TEST_F(SubframesTest, ARunStoppedAnywhereGoesOnToTheSameBytes)
+{
+    const Shot shot = shotWith();
+    simulate(shot, folder / "whole");
+    // The stops lie before, between and behind the three instants of a frame.
+    for (const int stop : {1, 3, 4, 6, 9, 20}) {
+        const fs::path stopped = folder / ("stopped" + std::to_string(stop));
+        simulate(shot, stopped, ExistingTake::refuse, stop);
+        ASSERT_TRUE(fs::exists(TakePaths{stopped}.checkpoint())) << stop;
+        simulate(shot, stopped, ExistingTake::resume);
+        for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
+            EXPECT_TRUE(readFileBytes(TakePaths{stopped}.frame(frame)) ==
+                        readFileBytes(TakePaths{folder / "whole"}.frame(frame)))
+                << "frame " << frame << " after a stop at sub-step " << stop;
+        }
+    }
+}
+
+TEST_F(SubframesTest, EverySampleOfABodyInFlightLiesOnItsPath)
+{
+    simulate(shotWith(), folder / "take");
+    const TakeReader take(folder / "take");
+    ASSERT_EQ(take.offsets(), (std::vector<double>{-0.25, 0.0, 0.25, 0.4}));
+    for (int frame = 1002; frame < 1006; ++frame) {
+        const std::vector<SceneFrame> samples = take.readSamples(frame);
+        ASSERT_EQ(samples.size(), 4u);
+        for (const SceneFrame& sample : samples) {
+            EXPECT_EQ(sample.frame, frame);
+            const double t = (frame - 1001 + sample.offset) * kFrame;
+            const Pose& pose = sample.worldFromAsset[kSpinner];
+            // Steps of 1/168 s: their parabola in chords is off by g dt²/8 = 0.004 cm, and the
+            // integrator by g t dt/2 at most.
+            EXPECT_NEAR(pose.position.x(), 200.0 + 100.0 * t, 1e-9);
+            EXPECT_NEAR(pose.position.y(), 400.0 + 50.0 * t - 0.5 * kGravity * t * t,
+                        0.005 + 0.5 * kGravity * t / 168.0);
+            // A cube turns evenly; the chord of one step (6°) is off by far less than 1e-4 rad.
+            const Quat turn(Eigen::AngleAxisd(1000.0 * t * kPi / 180.0, Vec3::UnitZ()));
+            EXPECT_LT(pose.orientation.angularDistance(turn), 1e-4);
+        }
+    }
+}
+
+TEST_F(SubframesTest, BeforeTheFirstAndAfterTheLastFrameBodiesCoast)
+{
+    simulate(shotWith(), folder / "take");
+    const TakeReader take(folder / "take");
+    const std::vector<SceneFrame> first = take.readSamples(1001);
+    const Vec3 shift =
+        first[1].worldFromAsset[kSpinner].position - first[0].worldFromAsset[kSpinner].position;
+    EXPECT_NEAR(shift.x(), 100.0 * 0.25 * kFrame, 1e-9);
+    EXPECT_NEAR(first[0].worldFromAsset[kSpinner].orientation.angularDistance(
+                    first[1].worldFromAsset[kSpinner].orientation),
+                1000.0 * 0.25 * kFrame * kPi / 180.0, 1e-9);
+
+    const std::vector<SceneFrame> last = take.readSamples(1006);
+    EXPECT_NEAR(last[3].worldFromAsset[kSpinner].position.x() -
+                    last[1].worldFromAsset[kSpinner].position.x(),
+                100.0 * 0.4 * kFrame, 1e-9);
+}
+
+TEST_F(SubframesTest, WhatStandsStillHasTheSameBitsInEverySample)
+{
+    simulate(shotWith(), folder / "take");
+    const TakeReader take(folder / "take");
+    const Pose still = take.readFrame(1001).worldFromAsset[kGround];
+    for (const SceneFrame& sample : take.readSamples(1004)) {
+        EXPECT_EQ(sample.worldFromAsset[kGround].position, still.position);
+        EXPECT_EQ(sample.worldFromAsset[kGround].orientation.coeffs(), still.orientation.coeffs());
+    }
+}
+
+TEST_F(SubframesTest, ATakeWithoutThemHasNothingButWholeFrames)
+{
+    simulate(shotWith({"output.subframes=[]"}), folder / "take");
+    const TakeReader take(folder / "take");
+    ASSERT_EQ(take.offsets(), std::vector<double>{0.0});
+    const std::vector<SceneFrame> samples = take.readSamples(1003);
+    ASSERT_EQ(samples.size(), 1u);
+    EXPECT_EQ(samples[0].offset, 0.0);
+}
+
+TEST_F(SubframesTest, ADamagedNextFrameIsAnErrorAndNoGuess)
+{
+    simulate(shotWith(), folder / "take");
+    const fs::path next = TakePaths{folder / "take"}.frame(1004);
+    fs::resize_file(next, fs::file_size(next) - 1);
+    EXPECT_THROW(TakeReader(folder / "take").readSamples(1003), Error);
+    EXPECT_NO_THROW(TakeReader(folder / "take").readSamples(1002));
+}
+
+TEST(SampleOffsets, ZeroIsAlwaysAmongThem)
+{
+    EXPECT_EQ(sampleOffsets({}), std::vector<double>{0.0});
+    EXPECT_EQ(sampleOffsets({0.25, -0.25}), (std::vector<double>{-0.25, 0.0, 0.25}));
+    EXPECT_EQ(sampleOffsets({0.0, -0.5}), (std::vector<double>{-0.5, 0.0}));
+}
+
+TEST(SampleOffsets, OnlyThoseThatFitIntoAFrameAreAccepted)
+{
+    EXPECT_TRUE(areSampleOffsets({}));
+    EXPECT_TRUE(areSampleOffsets({-0.5, -0.25, 0.25}));
+    EXPECT_TRUE(areSampleOffsets({0.5, 0.25}));
+    EXPECT_FALSE(areSampleOffsets({-0.5, 0.5}));    // the same instant twice
+    EXPECT_FALSE(areSampleOffsets({0.25, 0.251}));  // times that readers take for equal
+    EXPECT_FALSE(areSampleOffsets({0.25, 0.25}));
+    EXPECT_FALSE(areSampleOffsets({0.995}));
+}
+
+TEST(SampleOffsets, InstantsOfBothNeighboursMeetInOneInterval)
+{
+    EXPECT_EQ(instantsBetween({-0.25, 0.0, 0.25, 0.5}), (std::vector<double>{0.25, 0.5, 0.75}));
+    EXPECT_TRUE(instantsBetween({0.0}).empty());
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,248 @@
+"""Opens exports in Blender (PyPI's bpy) and compares them with the take, which read_take.py reads
+without any of our program's code. Prints what it measured; exit code 1 when a claim does not hold.
+
+    blender_check.py poses EXPORT TAKE       matrices, at whole frames and between
+    blender_check.py shading EXPORT          flat boxes, round tori, names of materials
+    blender_check.py camera EXPORT TAKE      field of view and line of sight of the first camera
+    blender_check.py blur EXPORT TAKE BODY   sweep of a body that spins about z, in Cycles
+"""
+import json
+import math
+import pathlib
+import sys
+import tempfile
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+import blender_open  # noqa: E402
+from read_take import read_motion  # noqa: E402
+
+TOLERANCE = 1e-5  # relative; Blender computes in single precision (6e-8)
+
+
+def open_export(export):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    blender_open.import_export(pathlib.Path(export))
+
+
+def read_info(take):
+    return json.loads((pathlib.Path(take) / "take.json").read_text())
+
+
+Z_UP_FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], float)
+
+
+def expected_turns(export, info):
+    """What Blender puts before and behind a body's matrix. Its USD importer turns the stage; its
+    Alembic importer takes every file for y-up and turns the frames of the meshes as well."""
+    before = Z_UP_FROM_Y_UP if info["up"] == "+y" else np.eye(4)
+    return before, Z_UP_FROM_Y_UP.T if export.endswith(".abc") else np.eye(4)
+
+
+def matrix_of(position, wxyz):
+    w, x, y, z = wxyz
+    matrix = np.eye(4)
+    matrix[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    matrix[:3, 3] = position
+    return matrix
+
+
+def set_time(time):
+    frame = math.floor(time + 1e-9)
+    bpy.context.scene.frame_set(frame, subframe=max(0.0, time - frame))
+    return bpy.context.evaluated_depsgraph_get()
+
+
+def check_poses(export, take):
+    info = read_info(take)
+    open_export(export)
+    names = [body["name"] for body in info["bodies"]]
+    missing = [name for name in names if name not in bpy.data.objects]
+    if missing:
+        return f"missing: {missing}"
+    if bpy.context.scene.render.fps != info["fps"]:
+        bpy.context.scene.render.fps = round(info["fps"])  # the .abc importer leaves it alone
+    before, behind = expected_turns(export, info)
+    worst, compared, between = 0.0, 0, 0
+    for time, positions, orientations in read_motion(take):
+        graph = set_time(time)
+        for name, position, orientation in zip(names, positions, orientations):
+            expected = before @ matrix_of(position, orientation) @ behind
+            found = np.array(bpy.data.objects[name].evaluated_get(graph).matrix_world)
+            scale = max(1.0, np.abs(expected).max())
+            worst = max(worst, np.abs(found - expected).max() / scale)
+            compared += 1
+            between += time != round(time)
+    print(f"compared {compared} matrices, {between} of them between frames; worst {worst:.2e}")
+    shapes = check_points(take, info, behind)
+    if shapes:
+        return shapes
+    if worst > TOLERANCE:
+        return f"a matrix is off by {worst:.2e} of its size"
+    return "" if compared else "nothing was compared"
+
+
+def mesh_of(name):
+    """The mesh of a body, which may be an instance of a collection."""
+    body = bpy.data.objects[name]
+    if body.instance_collection:
+        return next(o.data for o in body.instance_collection.all_objects if o.type == "MESH")
+    return body.data
+
+
+def check_points(take, info, behind):
+    """The artist's points in the frame that the matrices are of."""
+    for body in info["bodies"]:
+        if "plane" in body:
+            continue
+        points, triangles = blender_open.read_ply(pathlib.Path(take) / "shapes" / f"{body['shape']}.ply")
+        mesh = mesh_of(body["name"])
+        found = np.array([v.co for v in mesh.vertices])
+        expected = points @ np.linalg.inv(behind)[:3, :3].T
+        if found.shape != expected.shape or np.abs(found - expected).max() > TOLERANCE * np.abs(expected).max():
+            return f"{body['name']} has other points than its shape"
+        corners = {tuple(sorted(p.vertices)) for p in mesh.polygons}
+        if corners != {tuple(sorted(t)) for t in triangles.tolist()}:
+            return f"{body['name']} has other triangles than its shape"
+    return ""
+
+
+def corner_normals(mesh):
+    values = np.empty(3 * len(mesh.loops), np.float32)
+    mesh.corner_normals.foreach_get("vector", values)
+    return values.reshape(-1, 3)
+
+
+def check_shading(export):
+    """Objects called box… must be flat, objects called ring… smooth."""
+    open_export(export)
+    meshes = {o.name: o for o in bpy.data.objects if o.type == "MESH"}
+    for name, body in meshes.items():
+        mesh = body.data
+        if [m.name.split(".")[0] for m in mesh.materials if m] != ["paint"]:
+            return f"{name} has the materials {[m and m.name for m in mesh.materials]}"
+        normals = corner_normals(mesh)
+        faces = np.array([p.normal for p in mesh.polygons for _ in p.loop_indices])
+        bend = np.degrees(np.arccos(np.clip(np.sum(normals * faces, axis=1), -1, 1))).max()
+        print(f"{name}: normals leave their faces by {bend:.2f} degrees at most")
+        if name.startswith("box") and bend > 0.1:
+            return f"{name} is not flat"
+        if name.startswith("ring") and not 5 < bend < 40:
+            return f"{name} is not smooth"
+    return "" if len(meshes) == 2 else f"expected a box and a ring, found {sorted(meshes)}"
+
+
+def check_camera(export, take):
+    info = read_info(take)
+    open_export(export)
+    wanted = info["cameras"][0]
+    cameras = [o for o in bpy.data.objects if o.type == "CAMERA"]
+    if not cameras:
+        return "no camera"
+    scene, camera = bpy.context.scene, cameras[0]
+    scene.render.resolution_x, scene.render.resolution_y = info["picture_size"]
+    graph = set_time(info["frames"][0])
+
+    # The frame of the picture, one unit in front of the lens.
+    corners = camera.data.view_frame(scene=scene)
+    height = max(c.y for c in corners) - min(c.y for c in corners)
+    fov = math.degrees(2 * math.atan(0.5 * height / abs(corners[0].z)))
+    place = camera.evaluated_get(graph).matrix_world
+    eye = blender_open.to_blender(wanted["eye"], info)
+    target = blender_open.to_blender(wanted["target"], info)
+    sight = place.to_quaternion() @ Vector((0, 0, -1))
+    upward = (place.to_quaternion() @ Vector((0, 1, 0))).z
+    print(f"field of view {fov:.5f} degrees, eye off by {(place.translation - eye).length:.2e}")
+    if abs(fov - wanted["fov"]) > 1e-3:
+        return f"the field of view is {fov}, not {wanted['fov']}"
+    if (place.translation - eye).length > TOLERANCE * eye.length:
+        return f"the eye is at {place.translation}, not at {eye}"
+    if sight.angle(target - eye) > 1e-4:
+        return "it looks elsewhere"
+    return "" if upward > 0 else "it is upside down"
+
+
+def render_alpha(scene):
+    with tempfile.TemporaryDirectory() as folder:
+        scene.render.filepath = folder + "/blur.png"
+        bpy.ops.render.render(write_still=True)
+        image = bpy.data.images.load(scene.render.filepath)
+        width, height = image.size
+        pixels = np.array(image.pixels[:]).reshape(height, width, 4)
+        bpy.data.images.remove(image)
+    return pixels[..., 3]
+
+
+def covered_degrees(alpha, radius):
+    """How much of the circle of `radius` (1 is half the picture) has been passed, of 180°: the
+    body is alike after half a turn."""
+    size = len(alpha)
+    angles = np.radians(np.arange(0, 360, 0.5))
+    x = ((1 + radius * np.cos(angles)) * size / 2).astype(int)
+    y = ((1 + radius * np.sin(angles)) * size / 2).astype(int)
+    return 0.5 * 0.5 * np.count_nonzero(alpha[y, x] > 0.005)
+
+
+def is_part_of(thing, name):
+    """The object itself or, as from USD, a mesh below it."""
+    return thing is not None and (thing.name == name or is_part_of(thing.parent, name))
+
+
+def check_blur(export, take, name):
+    """The body is looked at along its axis: over an open shutter it must cover the angle that it
+    turns by in that time, and without motion blur only its own width."""
+    info = read_info(take)
+    options = blender_open.parse_options([export, "--size", "160x160", "--samples", "128", "--no-denoise"])
+    options.take = pathlib.Path(take)
+    scene = blender_open.open_scene(options)
+    for other in list(bpy.data.objects):
+        if other.type == "MESH" and not is_part_of(other, name):
+            bpy.data.objects.remove(other)
+    frame = (info["frames"][0] + info["frames"][1]) // 2
+    graph = set_time(frame)
+    middle = bpy.data.objects[name].evaluated_get(graph).matrix_world.translation.copy()
+    camera = bpy.data.objects.new("front", bpy.data.cameras.new("front"))
+    camera.data.type, camera.data.ortho_scale = "ORTHO", 2.6
+    camera.location = middle + Vector((0, -10, 0))
+    camera.rotation_euler = (math.pi / 2, 0, 0)
+    bpy.context.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.film_transparent = True
+    scene.render.image_settings.color_mode = "RGBA"
+
+    number = [body["name"] for body in info["bodies"]].index(name)
+    turns = {t: Matrix(matrix_of((0, 0, 0), q[number]).tolist()) for t, _, q in read_motion(take)}
+    opened = turns[frame - 0.25].to_quaternion()
+    closed = turns[frame + 0.25].to_quaternion()
+    expected = math.degrees(opened.rotation_difference(closed).angle)
+
+    covered = {}
+    for shutter in (0.0, 0.5):
+        scene.render.use_motion_blur = shutter > 0
+        scene.render.motion_blur_shutter = max(shutter, 0.01)
+        covered[shutter] = covered_degrees(render_alpha(scene), radius=0.6)
+    swept = covered[0.5] - covered[0.0]
+    print(f"turns {expected:.1f} degrees while the shutter is open, sweeps {swept:.1f}")
+    # Pixels are 1.2° wide at that radius, and the ends are seen for an instant only.
+    return "" if abs(swept - expected) < 4 else "the blur is not the turn"
+
+
+if __name__ == "__main__":
+    checks = {
+        "poses": check_poses,
+        "shading": check_shading,
+        "camera": check_camera,
+        "blur": check_blur,
+    }
+    problem = checks[sys.argv[1]](*sys.argv[2:])
+    if problem:
+        print("WRONG:", problem)
+        sys.exit(1)
