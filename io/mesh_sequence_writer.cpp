@@ -1,7 +1,5 @@
 #include "io/mesh_sequence_writer.h"
 
-#include <array>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -10,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/byte_order.h"
 #include "io/frame_pattern.h"
+#include "io/number_text.h"
 
 namespace scree {
 
@@ -50,14 +49,6 @@ private:
     const SceneDescription* scene_ = nullptr;
 };
 
-template <class Number>
-void appendText(std::string& text, Number value)
-{
-    std::array<char, 32> letters;
-    const auto end = std::to_chars(letters.data(), letters.data() + letters.size(), value).ptr;
-    text.append(letters.data(), end);
-}
-
 void writeObjFrame(AtomicFile& file, const SceneDescription& scene, const SceneFrame& frame)
 {
     std::uint64_t firstPoint = 1;  // OBJ counts from 1
@@ -68,13 +59,13 @@ void writeObjFrame(AtomicFile& file, const SceneDescription& scene, const SceneF
         for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
             const Vec3 xWorld = frame.worldFromAsset[b] * mesh.points.col(v);
             text += 'v';
-            for (const double coordinate : xWorld) appendText(text += ' ', coordinate);
+            for (const double coordinate : xWorld) appendNumber(text += ' ', coordinate);
             text += '\n';
         }
         for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
             text += 'f';
             for (const int corner : mesh.triangles.col(f)) {
-                appendText(text += ' ', firstPoint + static_cast<std::uint64_t>(corner));
+                appendNumber(text += ' ', firstPoint + static_cast<std::uint64_t>(corner));
             }
             text += '\n';
         }

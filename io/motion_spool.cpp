@@ -14,9 +14,6 @@ namespace {
 /// A sample on disk: position, orientation (x y z w), velocity, angular velocity.
 using Record = std::array<double, 13>;
 
-// Memory for a block of tracks. Each block reads a piece from every time, so blocks should be few.
-constexpr std::size_t kBlockBytes = std::size_t{64} << 20;
-
 Record recordOf(const Vec3& position, const Quat& orientation, const Vec3& velocity,
                 const Vec3& angularVelocity)
 {
@@ -40,8 +37,12 @@ MotionSample sampleOf(const Record& record)
 
 }  // namespace
 
-MotionSpool::MotionSpool(const std::filesystem::path& folder, std::vector<std::size_t> bodies)
-    : bodies_(std::move(bodies)), lastOrientation_(bodies_.size(), Quat::Identity()), spool_(folder)
+MotionSpool::MotionSpool(const std::filesystem::path& folder, std::vector<std::size_t> bodies,
+                         std::size_t blockBytes)
+    : bodies_(std::move(bodies)),
+      blockBytes_(blockBytes),
+      lastOrientation_(bodies_.size(), Quat::Identity()),
+      spool_(folder)
 {
 }
 
@@ -78,8 +79,9 @@ void MotionSpool::visitTracks(
 {
     const std::size_t timeCount = times_.size(), bodyCount = bodies_.size();
     if (timeCount == 0) return;
+    // Each block reads a piece from every time, so blocks should be few.
     const std::size_t blockBodies =
-        std::max<std::size_t>(1, kBlockBytes / (timeCount * sizeof(Record)));
+        std::max<std::size_t>(1, blockBytes_ / (timeCount * sizeof(Record)));
     std::vector<Record> block;
     std::vector<MotionSample> track(timeCount);
     for (std::size_t first = 0; first < bodyCount; first += blockBodies) {

@@ -27,8 +27,10 @@ struct MotionSample {
 /// that readers which interpolate them component by component go the short way too.
 class MotionSpool {
 public:
-    /// Keeps the motion of `bodies` (indices into the scene) in a nameless file in `folder`.
-    MotionSpool(const std::filesystem::path& folder, std::vector<std::size_t> bodies);
+    /// Keeps the motion of `bodies` (indices into the scene) in a nameless file in `folder`; takes
+    /// about `blockBytes` of memory when it gives tracks back.
+    MotionSpool(const std::filesystem::path& folder, std::vector<std::size_t> bodies,
+                std::size_t blockBytes = std::size_t{64} << 20);
 
     /// Frames come in the order of their times. Throws Error{inputOutput} when the disk refuses.
     void append(const SceneFrame& frame);
@@ -47,6 +49,7 @@ public:
 
 private:
     std::vector<std::size_t> bodies_;
+    std::size_t blockBytes_;
     std::vector<Quat> lastOrientation_;
     std::vector<double> times_;
     SpoolFile spool_;

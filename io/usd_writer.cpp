@@ -1,7 +1,6 @@
 #include "io/usd_writer.h"
 
 #include <optional>
-#include <tuple>
 
 #include "io/motion_spool.h"
 #include "io/usd_instancer.h"

@@ -32,7 +32,8 @@ Command addExportCommand(CLI::App& program)
     command->add_option("TAKE", options->take, "The take directory")->required();
     command
         ->add_option("-o,--output", options->output,
-                     "out.abc, out.####.obj or out.####.ply: the ending chooses the format")
+                     "The ending chooses the format: out.abc, out.usda, out.instances.usda, out.glb, "
+                     "out.####.obj, out.####.ply or out.####.pov")
         ->required();
     command->add_option("--frames", options->frames, "Only these, without gaps: 1001-1240");
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");

@@ -145,11 +145,9 @@ std::vector<BadShot> badShots()
         {"SubframesThatAreNoList", kHead + "[output]\nsubframes = 0.25\n",
          "bad.toml:5:13: 'subframes' must be a list of numbers, each above -1 and below 1, not "
          "0.25"},
-        {"ExportOfALaterVersion", kHead + "[output]\nexport = [\"glb\", \"abd\"]\n",
-         "bad.toml:5:11: 'export' = \"glb\" is not supported yet; this version knows only abc, "
-         "obj, ply\n"
-         "bad.toml:5:18: 'export' must be a list of words from \"abc\", \"obj\", \"ply\", "
-         "not \"abd\"; did you mean 'abc'?"},
+        {"ExportOfNoKnownFormat", kHead + "[output]\nexport = [\"glb\", \"abd\"]\n",
+         "bad.toml:5:18: 'export' must be a list of words from \"abc\", \"usda\", "
+         "\"instances.usda\", \"glb\", \"obj\", \"ply\", \"pov\", not \"abd\"; did you mean 'abc'?"},
         {"UnknownShape", body("shape = \"blok\"\n"),
          "bad.toml:10:9: no [shape.blok] in the shot; did you mean 'block'? (known: block)"},
         {"UnknownMaterial", kBase + "[[body]]\nname = \"b\"\nshape = \"block\"\nmaterial = \"w\"\n",

