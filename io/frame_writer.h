@@ -52,10 +52,10 @@ private:
     int framesLeft_ = 0;
 };
 
-/// The writer for the ending of `output`: "out.abc", "out.usda" and "out.instances.usda", "out.glb",
-/// "out.####.obj", "out.####.ply", "out.####.pov".
-/// Throws Error{usage} for an unknown ending (the message lists the known ones), for a sequence
-/// without a place for the frame number, and for a single file with one.
+/// The writer for the ending of `output`: "out.abc", "out.usda" and "out.instances.usda",
+/// "out.glb", "out.####.obj", "out.####.ply", "out.####.pov". Throws Error{usage} for an unknown
+/// ending (the message lists the known ones), for a sequence without a place for the frame number,
+/// and for a single file with one.
 std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& output);
 
 }  // namespace scree

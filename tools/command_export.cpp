@@ -31,9 +31,10 @@ Command addExportCommand(CLI::App& program)
     CLI::App* command = program.add_subcommand("export", "Write a cache for another program");
     command->add_option("TAKE", options->take, "The take directory")->required();
     command
-        ->add_option("-o,--output", options->output,
-                     "The ending chooses the format: out.abc, out.usda, out.instances.usda, out.glb, "
-                     "out.####.obj, out.####.ply or out.####.pov")
+        ->add_option(
+            "-o,--output", options->output,
+            "The ending chooses the format: out.abc, out.usda, out.instances.usda, out.glb, "
+            "out.####.obj, out.####.ply or out.####.pov")
         ->required();
     command->add_option("--frames", options->frames, "Only these, without gaps: 1001-1240");
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");

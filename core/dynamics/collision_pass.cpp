@@ -13,7 +13,6 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/contact_point.h"
-#include "core/dynamics/friction.h"
 #include "core/dynamics/integrator.h"
 
 namespace scree {
@@ -33,35 +32,6 @@ PlacedPair place(const World& world, const PairRecord& pair, const StepScratch& 
                      placing == Placing::aFalls ? scratch.driftPose[b] : scratch.fallPose[b]);
 }
 
-/// The deepest interference that is approaching; applies its impulse. False when there is none.
-bool applyDeepest(World& world, const StepSettings& settings, double dt, const PairRecord& pair,
-                  const PlacedPair& placed, const std::vector<Touch>& deepestFirst,
-                  ImpulseCounts& counts)
-{
-    const auto [a, b] = pair.bodies;
-    const double slowest = 1e-10 * settings.gravity.norm() * dt + 1e-15;  // [A29]
-    const PassInertia inertiaA = passInertia(world.mass[a], placed.worldFromA.orientation);
-    const PassInertia inertiaB = passInertia(world.mass[b], placed.worldFromB.orientation);
-    const PlacedPair now =
-        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
-    for (const Touch& touch : deepestFirst) {
-        const ContactPoint contact = placeContact(world, pair, touch, {placed, now, placed},
-                                                  inertiaA.inverseInertia, inertiaB.inverseInertia);
-        if (contact.u.dot(contact.normal) >= -slowest) continue;
-        const PassInertia& inertiaS = touch.sampleOnA ? inertiaA : inertiaB;
-        const PassInertia& inertiaF = touch.sampleOnA ? inertiaB : inertiaA;
-        const Mat3 k =
-            collisionMatrix(inertiaS, contact.rS) + collisionMatrix(inertiaF, contact.rF);
-        const ContactImpulse j =
-            contactImpulse(k, contact.u, contact.normal, pair.restitution, pair.friction);
-        applyImpulse(world.motion[contact.sampleBody], inertiaS, contact.rS, j.impulse);
-        applyImpulse(world.motion[contact.fieldBody], inertiaF, contact.rF, -j.impulse);
-        countImpulse(counts, j.kind);
-        return true;
-    }
-    return false;
-}
-
 /// Re-evolves the pair after every impulse until nothing is both interfering and approaching. [A24]
 void resolvePair(World& world, const StepSettings& settings, double dt, PairRecord& pair,
                  StepScratch& scratch, Placing placing, ImpulseCounts& counts,
@@ -73,9 +43,17 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
         touches.clear();
         pair.proximity.findTouches(placed, pair.tau, touches);
         std::sort(touches.begin(), touches.end(), isDeeper);
-        if (!applyDeepest(world, settings, dt, pair, placed, touches, counts)) return;
-        predictBody(world, settings, dt, pair.bodies.a, scratch);
-        predictBody(world, settings, dt, pair.bodies.b, scratch);
+        const auto [a, b] = pair.bodies;
+        const PassInertia ofA = passInertia(world.mass[a], placed.worldFromA.orientation);
+        const PassInertia ofB = passInertia(world.mass[b], placed.worldFromB.orientation);
+        const PlacedPair now = placePair(world, pair, world.motion[a].worldFromBody(),
+                                         world.motion[b].worldFromBody());
+        const bool applied = applyDeepest(
+            world, pair, {placed, now, placed}, {ofA.inverseInertia, ofB.inverseInertia, ofA, ofB},
+            pair.restitution, slowestApproach(settings, dt), touches, counts);
+        if (!applied) return;
+        predictBody(world, settings, dt, a, scratch);
+        predictBody(world, settings, dt, b, scratch);
     }
     ++loopsAtTheirCap;
 }

@@ -9,7 +9,6 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/contact_point.h"
-#include "core/dynamics/friction.h"
 
 namespace scree {
 namespace {
@@ -27,45 +26,21 @@ struct Tally {
     std::int64_t loopsAtTheirCap = 0;
 };
 
-/// Applies an impulse at the deepest touch that approaches. False when there is none.
-bool applyDeepest(World& world, const StepSettings& settings, double dt, const PairRecord& pair,
-                  const PlacedPair& predicted, const StepScratch& scratch, const Sweep& sweep,
-                  const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
-{
-    const double slowest = 1e-10 * settings.gravity.norm() * dt + 1e-15;  // [A29]
-    const auto inertiaOf = [&](BodyId body) {
-        return sweep.isFrozen && (*sweep.isFrozen)[body] ? PassInertia{} : scratch.inertia[body];
-    };
-    const auto [a, b] = pair.bodies;
-    const PlacedPair now =
-        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
-    for (const Touch& touch : deepestFirst) {
-        const ContactPoint contact =
-            placeContact(world, pair, touch, {now, now, predicted},
-                         scratch.inertia[a].inverseInertia, scratch.inertia[b].inverseInertia);
-        if (contact.u.dot(contact.normal) >= -slowest) continue;
-        const PassInertia inertiaS = inertiaOf(contact.sampleBody);
-        const PassInertia inertiaF = inertiaOf(contact.fieldBody);
-        const Mat3 k =
-            collisionMatrix(inertiaS, contact.rS) + collisionMatrix(inertiaF, contact.rF);
-        const ContactImpulse j =
-            contactImpulse(k, contact.u, contact.normal, sweep.restitution, pair.friction);
-        applyImpulse(world.motion[contact.sampleBody], inertiaS, contact.rS, j.impulse);
-        applyImpulse(world.motion[contact.fieldBody], inertiaF, contact.rF, -j.impulse);
-        countImpulse(counts, j.kind);
-        return true;
-    }
-    return false;
-}
-
 void resolvePair(World& world, const StepSettings& settings, double dt, PairRecord& pair,
                  StepScratch& scratch, const Sweep& sweep, Tally& tally)
 {
     const auto [a, b] = pair.bodies;
-    const auto isStuck = [&](BodyId body) {
-        return !world.mass[body].isMovable() || (sweep.isFrozen && (*sweep.isFrozen)[body]);
+    const auto inertiaOf = [&](BodyId body) {
+        const bool isFrozen = sweep.isFrozen && (*sweep.isFrozen)[body];
+        return isFrozen ? PassInertia{} : scratch.inertia[body];
     };
-    if (isStuck(a) && isStuck(b)) return;
+    const PairInertia inertia{scratch.inertia[a].inverseInertia, scratch.inertia[b].inverseInertia,
+                              inertiaOf(a), inertiaOf(b)};
+    if (!inertia.passA.isMovable() && !inertia.passB.isMovable()) return;
+
+    const PlacedPair now =
+        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
+    const double slowest = slowestApproach(settings, dt);
     thread_local std::vector<Touch> touches;
     for (int n = 0; n < sweep.pairImpulses; ++n) {
         touches.clear();
@@ -73,10 +48,9 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
             placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
         pair.proximity.findTouches(predicted, pair.tau, touches);
         std::sort(touches.begin(), touches.end(), isDeeper);
-        if (!applyDeepest(world, settings, dt, pair, predicted, scratch, sweep, touches,
-                          tally.impulses)) {
-            return;
-        }
+        const bool applied = applyDeepest(world, pair, {now, now, predicted}, inertia,
+                                          sweep.restitution, slowest, touches, tally.impulses);
+        if (!applied) return;
         predictBody(world, settings, dt, a, scratch);
         predictBody(world, settings, dt, b, scratch);
     }

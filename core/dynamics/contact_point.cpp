@@ -1,5 +1,6 @@
 #include "core/dynamics/contact_point.h"
 
+#include "core/dynamics/friction.h"
 #include "core/geometry/surface_normal.h"
 
 namespace scree {
@@ -41,6 +42,32 @@ ContactPoint placeContact(const World& world, const PairRecord& pair, const Touc
                             pointInField(frames.now, touch), pointInField(frames.predicted, touch)};
     contact.normal = poseF.orientation * surfaceNormal(world.shapeOf(contact.fieldBody), approach);
     return contact;
+}
+
+double slowestApproach(const StepSettings& settings, double dt)
+{
+    return 1e-10 * settings.gravity.norm() * dt + 1e-15;
+}
+
+bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
+                  const PairInertia& inertia, double restitution, double slowest,
+                  const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
+{
+    for (const Touch& touch : deepestFirst) {
+        const ContactPoint contact =
+            placeContact(world, pair, touch, frames, inertia.ownInverseA, inertia.ownInverseB);
+        if (contact.u.dot(contact.normal) >= -slowest) continue;
+        const PassInertia& ofS = touch.sampleOnA ? inertia.passA : inertia.passB;
+        const PassInertia& ofF = touch.sampleOnA ? inertia.passB : inertia.passA;
+        const Mat3 k = collisionMatrix(ofS, contact.rS) + collisionMatrix(ofF, contact.rF);
+        const ContactImpulse j =
+            contactImpulse(k, contact.u, contact.normal, restitution, pair.friction);
+        applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, j.impulse);
+        applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -j.impulse);
+        countImpulse(counts, j.kind);
+        return true;
+    }
+    return false;
 }
 
 }  // namespace scree

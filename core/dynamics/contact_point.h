@@ -1,5 +1,8 @@
-// A touch seen from two placed bodies: point, levers and normal in the world.  [A39]
+// A touch seen from two placed bodies – point, levers and normal in the world – and the impulse
+// there. [A39]
 #pragma once
+
+#include <vector>
 
 #include "core/collision/interference.h"
 #include "core/dynamics/scratch.h"
@@ -26,5 +29,20 @@ struct ContactFrames {
 ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
                           const ContactFrames& frames, const Mat3& inverseInertiaA,
                           const Mat3& inverseInertiaB);
+
+/// The inertias of a pair in one configuration: the bodies' own, which tell how fast their points
+/// move, and those of the pass, zero where it may not move a body.
+struct PairInertia {
+    Mat3 ownInverseA, ownInverseB;
+    PassInertia passA, passB;
+};
+
+/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
+double slowestApproach(const StepSettings& settings, double dt);
+
+/// Applies the impulse of the deepest touch that approaches. False when there is none.
+bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
+                  const PairInertia& inertia, double restitution, double slowest,
+                  const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
 
 }  // namespace scree

@@ -36,9 +36,10 @@ public:
     {
         for (BodyId b : rings_) {
             const Pose pose = world.worldFromAsset(b);
-            const std::array<double, 7> row = {
-                pose.position.x(),    pose.position.y(),    pose.position.z(),   pose.orientation.w(),
-                pose.orientation.x(), pose.orientation.y(), pose.orientation.z()};
+            const std::array<double, 7> row = {pose.position.x(),    pose.position.y(),
+                                               pose.position.z(),    pose.orientation.w(),
+                                               pose.orientation.x(), pose.orientation.y(),
+                                               pose.orientation.z()};
             file_.write(reinterpret_cast<const char*>(row.data()), sizeof row);
         }
         ++frames_;
@@ -58,8 +59,8 @@ private:
 
 std::string judge(const std::filesystem::path& trajectory)
 {
-    const std::string command = std::string(SCREE_JUDGE) + " scene=" +
-                                sourceFile("tests/peers/rings_100.json").string() +
+    const std::string command = std::string(SCREE_JUDGE) +
+                                " scene=" + sourceFile("tests/peers/rings_100.json").string() +
                                 " traj=" + trajectory.string() + " tag=rings_100";
     std::string verdict;
     if (FILE* pipe = popen(command.c_str(), "r")) {

@@ -244,10 +244,9 @@ TEST(GltfWriter, TheFormatsOwnValidatorFindsNothing)
     shapeless.meshes[0].triangles.resize(3, 0);
     for (const SceneDescription& scene : {tumbling, still, shapeless}) {
         exported(folder / "x.glb", scene);
-        const test::CommandResult result =
-            test::runCommand(node.command + " " +
-                             test::quoted(test::sourceFile("tests/support/gltf_check.cjs")) + " " +
-                             test::quoted(folder / "x.glb"));
+        const test::CommandResult result = test::runCommand(
+            node.command + " " + test::quoted(test::sourceFile("tests/support/gltf_check.cjs")) +
+            " " + test::quoted(folder / "x.glb"));
         EXPECT_EQ(result.exitCode, 0) << result.output;
         std::printf("%s", result.output.c_str());
     }

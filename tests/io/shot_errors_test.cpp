@@ -147,7 +147,8 @@ std::vector<BadShot> badShots()
          "0.25"},
         {"ExportOfNoKnownFormat", kHead + "[output]\nexport = [\"glb\", \"abd\"]\n",
          "bad.toml:5:18: 'export' must be a list of words from \"abc\", \"usda\", "
-         "\"instances.usda\", \"glb\", \"obj\", \"ply\", \"pov\", not \"abd\"; did you mean 'abc'?"},
+         "\"instances.usda\", \"glb\", \"obj\", \"ply\", \"pov\", not \"abd\"; did you mean "
+         "'abc'?"},
         {"UnknownShape", body("shape = \"blok\"\n"),
          "bad.toml:10:9: no [shape.blok] in the shot; did you mean 'block'? (known: block)"},
         {"UnknownMaterial", kBase + "[[body]]\nname = \"b\"\nshape = \"block\"\nmaterial = \"w\"\n",

@@ -88,13 +88,13 @@ TEST(Threads, TheOptionWinsOverTheEnvironment)
 TEST(Threads, QuotaIsTheSmallestOfAllGroupsAboveAndRoundedUp)
 {
     const test::TemporaryFolder folder;
-    std::filesystem::create_directories(folder / "farm/job");
-    std::ofstream(folder / "self") << "0::/farm/job\n";
-    std::ofstream(folder / "farm/job/cpu.max") << "max 100000\n";
+    std::filesystem::create_directories(folder / "cluster/job");
+    std::ofstream(folder / "self") << "0::/cluster/job\n";
+    std::ofstream(folder / "cluster/job/cpu.max") << "max 100000\n";
     EXPECT_EQ(processorQuota(folder.path(), folder / "self"), std::nullopt);
-    std::ofstream(folder / "farm/cpu.max") << "250000 100000\n";
+    std::ofstream(folder / "cluster/cpu.max") << "250000 100000\n";
     EXPECT_EQ(processorQuota(folder.path(), folder / "self"), 3);
-    std::ofstream(folder / "farm/job/cpu.max") << "50000 100000\n";
+    std::ofstream(folder / "cluster/job/cpu.max") << "50000 100000\n";
     EXPECT_EQ(processorQuota(folder.path(), folder / "self"), 1);
 }
 
