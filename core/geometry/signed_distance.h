@@ -8,7 +8,8 @@
 // reads less than that, the true distance is computed from the few triangles that can be closest in
 // that cell.
 //
-// Cost measured on the 320-triangle ring: grid 10 ns, refined 40–90 ns a point.
+// Cost on the 320-triangle ring (tests/benchmarks/distance_benchmark.cpp): grid 9 ns a point,
+// refined 23 ns anywhere in its box and 74 ns at the surface.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,102 @@
+// Which way the arrows point: includes are read and held against the plan of the rooms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/support.h"
+
+namespace scree::test {
+namespace {
+
+struct Include {
+    std::string file;  // relative to the source tree
+    std::string path;  // as written between quotes or brackets
+    bool isOurs;
+};
+
+std::vector<Include> includesOf(const std::string& room)
+{
+    static const std::regex pattern("^\\s*#include\\s+([\"<])([^\">]+)[\">]");
+    std::vector<Include> includes;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFile(room))) {
+        const std::string ending = entry.path().extension();
+        if (ending != ".h" && ending != ".cpp") continue;
+        std::ifstream file(entry.path());
+        std::smatch match;
+        for (std::string line; std::getline(file, line);) {
+            if (!std::regex_search(line, match, pattern)) continue;
+            includes.push_back({std::filesystem::relative(entry.path(), sourceFile(".")),
+                                match[2].str(), match[1].str() == "\""});
+        }
+    }
+    return includes;
+}
+
+TEST(Rooms, CoreKnowsNobodyAndInputOutputAndRenderKnowOnlyCore)
+{
+    const std::map<std::string, std::set<std::string>> allowed = {
+        {"core", {"core"}}, {"io", {"core", "io"}}, {"render", {"core", "render"}}};
+    for (const auto& [room, known] : allowed) {
+        const std::vector<Include> includes = includesOf(room);
+        EXPECT_GT(includes.size(), 50u) << room;
+        for (const Include& include : includes) {
+            if (!include.isOurs) continue;
+            const std::string target = include.path.substr(0, include.path.find('/'));
+            EXPECT_TRUE(known.count(target)) << include.file << " includes " << include.path;
+        }
+    }
+}
+
+TEST(Rooms, InsideCoreArrowsPointFromDynamicsDownToBase)
+{
+    // A folder knows itself and those before it. A step report names bodies, so diagnostics know
+    // the scene.
+    const std::vector<std::string> order = {"base",      "math",        "geometry", "scene",
+                                            "collision", "diagnostics", "dynamics"};
+    const auto rank = [&](const std::string& folder) {
+        return std::find(order.begin(), order.end(), folder) - order.begin();
+    };
+    for (const Include& include : includesOf("core")) {
+        if (!include.isOurs) continue;
+        const auto folderOf = [](const std::string& path) {
+            const std::size_t start = path.find('/') + 1;
+            return path.substr(start, path.find('/', start) - start);
+        };
+        EXPECT_LE(rank(folderOf(include.path)), rank(folderOf(include.file)))
+            << include.file << " includes " << include.path;
+    }
+}
+
+TEST(Rooms, GuestLibrariesStayInTheSourcesThatInviteThem)
+{
+    const std::map<std::string, std::set<std::string>> invited = {
+        {"openvdb/", {"core/geometry/level_set_build.cpp"}},
+        {"embree3/", {"core/geometry/surface_rays.cpp"}},
+        {"tbb/", {"core/base/parallel.cpp"}},
+        {"assimp/", {"io/mesh_import.cpp"}},
+        {"toml++/", {"io/shot_parser.cpp"}},
+        {"GL/", {"render/rasterizer.cpp", "render/gl_resources.cpp"}},
+        {"png.h", {"render/png_writer.cpp"}}};
+    std::map<std::string, int> seen;
+    for (const std::string room : {"core", "io", "render", "tools"}) {
+        for (const Include& include : includesOf(room)) {
+            for (const auto& [library, files] : invited) {
+                if (include.path.rfind(library, 0) != 0) continue;
+                ++seen[library];
+                EXPECT_TRUE(files.count(include.file))
+                    << include.file << " includes " << include.path;
+            }
+        }
+    }
+    EXPECT_EQ(seen.size(), invited.size());
+}
+
+}  // namespace
+}  // namespace scree::test
