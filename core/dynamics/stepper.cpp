@@ -86,9 +86,11 @@ void describeGraph(const ContactGraph& graph, const StepScratch& scratch, StepRe
 void addStep(const World& world, const StepReport& step, FrameReport& frame)
 {
     StepReport& sum = frame.sum;
-    frame.shortestStep = frame.steps == 0 ? step.dt : std::min(frame.shortestStep, step.dt);
+    if (frame.steps == 0 || step.dt < frame.shortestStep) {
+        frame.shortestStep = step.dt;
+        sum.limitedBy = step.limitedBy;
+    }
     frame.longestStep = std::max(frame.longestStep, step.dt);
-    if (frame.steps == 0 || step.dt <= frame.shortestStep) sum.limitedBy = step.limitedBy;
     ++frame.steps;
     sum.dt += step.dt;
     sum.broadPairs = std::max(sum.broadPairs, step.broadPairs);

@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/random.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/impulse.h"
 #include "core/dynamics/integrator.h"
+#include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
+#include "tests/support/scenes.h"
 
 namespace scree {
 namespace {
@@ -139,6 +143,58 @@ TEST(E15Impulses, WithoutSlipAndFrictionEnoughTheContactSticks)
     const ContactImpulse slipping = contactImpulse(k, {0.6, -1.0, 0.0}, Vec3::UnitY(), 0.0, 0.5);
     EXPECT_EQ(slipping.kind, FrictionCase::sliding);
     EXPECT_NEAR(slipping.impulse.x(), -0.5, 1e-15);
+}
+
+/// Two balls of 1 kg run into a third between them, 2 m/s each; outgoing speeds of the outer two.
+std::array<double, 2> tripleCollision(std::uint64_t seed, Vec3& momentum)
+{
+    static const auto ball = buildMeshShape("ball", makeSphere(0.5, 2));
+    World world;
+    const MaterialId material = test::addMaterial(world, 0.0, 0.8);
+    StepSettings settings = test::experimentSettings();
+    settings.gravity.setZero();
+    settings.seed = seed;
+    test::addBody(world, ball, material, {{-1.1, 0.0, 0.0}, Quat::Identity()}, 1.0,
+                  {2.0, 0.0, 0.0});
+    test::addBody(world, ball, material, {{0.0, 0.0, 0.0}, Quat::Identity()});
+    test::addBody(world, ball, material, {{1.1, 0.0, 0.0}, Quat::Identity()}, 1.0,
+                  {-2.0, 0.0, 0.0});
+    Stepper stepper(settings);
+    for (int k = 0; k < 60; ++k) stepper.step(world, 1.0 / 240.0);
+    momentum = world.motion[0].velocity + world.motion[1].velocity + world.motion[2].velocity;
+    return {world.motion[0].velocity.norm(), world.motion[2].velocity.norm()};
+}
+
+TEST(E15Impulses, ASymmetricTripleCollisionIsSymmetricOverTheSeeds)
+{
+    double left = 0.0, right = 0.0;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        Vec3 momentum;
+        const auto [l, r] = tripleCollision(seed, momentum);
+        left += l;
+        right += r;
+        EXPECT_LE(momentum.norm(), 1e-12);
+    }
+    EXPECT_GT(left, 10.0);
+    EXPECT_LE(std::abs(left - right), 0.02 * 0.5 * (left + right));
+}
+
+TEST(E15Impulses, MirrorImagesGiveMirrorImages)
+{
+    for (std::uint64_t sample = 0; sample < 1000; ++sample) {
+        Draw draw(sample + 500000);
+        const Mat3 root = Mat3::NullaryExpr([&] { return draw.between(-1.0, 1.0); });
+        const Mat3 k = root * root.transpose() + 0.1 * Mat3::Identity();
+        const Mat3 mirror = Vec3(-1.0, 1.0, 1.0).asDiagonal();
+        const Vec3 u = draw.vector(2.0);
+        Vec3 n = draw.direction();
+        if (u.dot(n) > 0.0) n = -n;
+        const double e = draw.between(0.0, 1.0), mu = draw.between(0.0, 2.0);
+        const Vec3 image =
+            contactImpulse(mirror * k * mirror, mirror * u, mirror * n, e, mu).impulse;
+        const Vec3 original = contactImpulse(k, u, n, e, mu).impulse;
+        EXPECT_LE((mirror * image - original).norm(), 1e-12 * (1.0 + original.norm()));
+    }
 }
 
 }  // namespace

@@ -101,6 +101,21 @@ TEST(E1BlockAtRest, AnElasticBlockStaysOnASteepRoughPlaneAtEveryStepLength)
     }
 }
 
+TEST(E1BlockAtRest, OnAMeshSlabWithAGriddedFieldItStaysWithinAMicrometre)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.7, 1.0);
+    const Quat tilt = exponentialMap({0.0, 0.0, -kPi / 6.0});
+    addBody(world, boxShape({6.0, 1.0, 6.0}, 4), material, {tilt * Vec3(0.0, -0.5, 0.0), tilt},
+            0.0);
+    const BodyId block =
+        addBody(world, boxShape(Vec3::Ones(), 2), material, {tilt * Vec3(0.1, 0.5, 0.2), tilt});
+    const World before = world;
+    Stepper stepper(experimentSettings());
+    for (int k = 0; k < 10 * 60; ++k) stepper.step(world, 1.0 / 60.0);
+    EXPECT_LE(largestVertexShift(before, world, block), 1e-6);
+}
+
 TEST(E1BlockAtRest, TheTextbookOrderThrowsTheSameBlockAbout)
 {
     Incline scene = makeIncline(30.0, 0.7, 1.0, 2);
