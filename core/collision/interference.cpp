@@ -112,14 +112,16 @@ EdgeDepth deepestNear(const SignedDistance& field, const EdgeInField& edge, int 
 
 /// Appends the samples of one edge: its deepest point, or, where the depth is flat, the middle and
 /// the ends of the flat part.
-void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double tau,
+/// `atLeast` is what is known of the depth beforehand: nothing along the edge is below it.
+void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double tau, double atLeast,
                 std::vector<EdgeDepth>& found)
 {
-    // Quick reject: distance is 1-Lipschitz along the edge.
     const double phiStart = field.value(edge.start), phiEnd = field.value(edge.at(edge.steps));
     const double limit =
         std::min(tau, std::min(phiStart, phiEnd) - kDeeperThanEnds * field.spacing());
-    if (phiStart + phiEnd > edge.stepLength * edge.steps + 2.0 * limit) return;
+    // Quick reject: distance is 1-Lipschitz along the edge.
+    const double length = edge.stepLength * edge.steps;
+    if (std::max(atLeast, 0.5 * (phiStart + phiEnd - length)) >= limit) return;
 
     double bestPhi = limit + edge.stepLength;
     int best = -1;
@@ -193,13 +195,14 @@ void touchVertex(const OneWay& way, std::int32_t v, double tau, std::vector<Touc
     if (phi < tau) touches.push_back({phi, v, way.sampleOnA, p});
 }
 
-void touchEdge(const OneWay& way, std::int32_t e, double tau, std::vector<Touch>& touches)
+void touchEdge(const OneWay& way, std::int32_t e, double tau, double atLeast,
+               std::vector<Touch>& touches)
 {
     const SurfaceSamples& samples = way.sampled.samples;
     const EdgeInField edge = placeEdge(samples, e, way.pose, way.field.distance);
     thread_local std::vector<EdgeDepth> found;
     found.clear();
-    sampleEdge(way.field.distance, edge, tau, found);
+    sampleEdge(way.field.distance, edge, tau, atLeast, found);
     const auto [a, b] = samples.edges[e];
     const auto firstId = static_cast<std::int32_t>(samples.vertices.cols()) + 3 * e;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -302,7 +305,8 @@ double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
 
 void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
 {
-    const double reach = tau + lookAgainIfMoved(pair, tau);
+    const double moved = lookAgainIfMoved(pair, tau);
+    const double reach = tau + moved;
     if (isEmpty()) return;
     for (const OneWay& way : bothWays(pair)) {
         const NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
@@ -312,14 +316,15 @@ void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touc
         }
         for (const NearSample& e : near.edges) {
             if (e.atLeast >= reach) break;
-            touchEdge(way, e.index, tau, touches);
+            touchEdge(way, e.index, tau, e.atLeast - moved, touches);
         }
     }
 }
 
 bool Proximity::interferes(const PlacedPair& pair, double tau)
 {
-    const double reach = tau + lookAgainIfMoved(pair, tau);
+    const double moved = lookAgainIfMoved(pair, tau);
+    const double reach = tau + moved;
     if (isEmpty()) return false;
     thread_local std::vector<Touch> touches;
     touches.clear();
@@ -332,7 +337,7 @@ bool Proximity::interferes(const PlacedPair& pair, double tau)
         }
         for (const NearSample& e : near.edges) {
             if (e.atLeast >= reach) break;
-            touchEdge(way, e.index, tau, touches);
+            touchEdge(way, e.index, tau, e.atLeast - moved, touches);
             if (!touches.empty()) return true;
         }
     }
@@ -347,7 +352,7 @@ void findTouchesPlainly(const PlacedPair& pair, double tau, std::vector<Touch>& 
             touchVertex(way, v, tau, touches);
         if (!samplesEdges(way)) continue;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(samples.edges.size()); ++e) {
-            touchEdge(way, e, tau, touches);
+            touchEdge(way, e, tau, -std::numeric_limits<double>::infinity(), touches);
         }
     }
 }
