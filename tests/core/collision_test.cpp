@@ -116,5 +116,46 @@ TEST(Interference, AnEdgeAcrossAnEdgeIsFoundAtItsDeepestPoint)
     EXPECT_NEAR(deepest.phi, -depth / std::sqrt(2.0), 1e-5);
 }
 
+/// Whether an edge of A, not one of its vertices, is found inside B.
+bool findsAnEdgeOfA(const Shape& a, const Shape& b, const Pose& worldFromAssetA,
+                    const Pose& worldFromAssetB)
+{
+    std::vector<Touch> touches;
+    findTouchesPlainly({&a, &b, worldFromAssetA * inverse(a.bodyFromAsset),
+                        worldFromAssetB * inverse(b.bodyFromAsset)},
+                       1e-7, touches);
+    return std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
+        return touch.sampleOnA && touch.sample >= a.samples.vertices.cols();
+    });
+}
+
+TEST(Interference, AnEdgeShortAgainstTheFieldOfALargeBodyWasNeverSampled)
+{
+    // The edge of 0.2 m is two lattice steps long in this field; the search once began at the
+    // second.
+    const auto small = boxShape(Vec3::Constant(0.2), 1), large = boxShape({4.0, 1.0, 1.0}, 1);
+    ASSERT_GT(0.2, 2.0 * large->distance.spacing());
+    ASSERT_LT(0.2, 4.0 * large->distance.spacing());
+    const Quat onEdge = exponentialMap({kPi / 4.0, 0.0, 0.0});
+    const Quat across = exponentialMap({0.0, kPi / 2.0, 0.0});
+    const double height = 0.6 * std::sqrt(2.0) - 0.03;
+    EXPECT_TRUE(findsAnEdgeOfA(*small, *large, {{0.0, height, 0.0}, across * onEdge},
+                               {Vec3::Zero(), onEdge}));
+}
+
+TEST(Interference, AnEdgeCutIntoABodyUnseenBesideAVertexThatJustTouchedIt)
+{
+    // A bar runs from half a millimetre above a cube's top face down through it and out of its
+    // side.
+    const auto cube = boxShape(Vec3::Ones(), 1);
+    const Vec3 start(0.3, 0.5005, 0.0), end(0.8, 0.2, 0.0);
+    const double length = (end - start).norm();
+    const auto bar = boxShape({length, 0.1, 0.1}, 1);
+    const double down = -arcTangent((start.y() - end.y()) / (end.x() - start.x()));
+    const Quat turn = exponentialMap({0.0, 0.0, down});
+    const Vec3 middle = 0.5 * (start + end) + turn * Vec3(0.0, 0.05, 0.0);
+    EXPECT_TRUE(findsAnEdgeOfA(*bar, *cube, {middle, turn}, {}));
+}
+
 }  // namespace
 }  // namespace scree::test
