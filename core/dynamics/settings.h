@@ -21,10 +21,17 @@ struct SubstepLimits {
     double safety = 0.5;  ///< [-]; 1 is twice as fast and misses more, small is slow and safe
 };
 
+/// Which passes a step is made of.
+enum class Method {
+    paper,  ///< [GBF03] to the letter: the reference
+    scree,  ///< the same pipeline on gaps: contacts known before they touch, impulses remembered
+};
+
 /// How hard each phase works. Defaults follow [GBF03].
 struct StepSettings {
     Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
     std::uint64_t seed = 1;            ///< of the order of processing
+    Method method = Method::paper;
 
     int collisionIterations = 5;     ///< sweeps over pairs [-]; too few: fast heaps overlap
     int collisionPairImpulses = 20;  ///< per visit of a pair [-]
@@ -36,6 +43,8 @@ struct StepSettings {
     bool pushOut = true;           ///< first-order removal of overlap that is left
     int pushOutLevelIterations = 4;  ///< gradual: fraction l/n of the depth in iteration l [-]
     int pushOutPairImpulses = 5;     ///< per visit of a pair [-]
+    int gapSweeps =
+        8;  ///< of method `scree`, over all contacts of a large heap [-]; too few: it sinks
     OrientationUpdate orientation = OrientationUpdate::secondOrder;
 
     SubstepLimits substeps;

@@ -55,7 +55,7 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
             world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
         tighten(limit, timeToPass(alpha * thinner, s, bothFall ? 0.0 : g), StepLimit::relativeSpeed,
                 faster);
-        if (g > 0.0) {
+        if (g > 0.0 && settings.method == Method::paper) {
             tighten(limit, std::sqrt(settings.hoverLimit * thinner / g), StepLimit::hover, faster);
         }
     }

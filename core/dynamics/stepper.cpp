@@ -9,6 +9,10 @@
 #include "core/dynamics/collision_pass.h"
 #include "core/dynamics/contact_graph.h"
 #include "core/dynamics/contact_pass.h"
+#include "core/dynamics/gap_bounce.h"
+#include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_levels.h"
+#include "core/dynamics/gap_motion.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
@@ -138,7 +142,9 @@ void describeState(const World& world, const Vec3& gravity, FrameReport& report)
 }  // namespace
 
 Stepper::Stepper(const StepSettings& settings)
-    : settings_(settings), scratch_(std::make_unique<StepScratch>())
+    : settings_(settings),
+      scratch_(std::make_unique<StepScratch>()),
+      gaps_(std::make_unique<GapScratch>())
 {
 }
 
@@ -146,6 +152,7 @@ Stepper::~Stepper() = default;
 
 StepReport Stepper::step(World& world, double dt)
 {
+    if (settings_.method == Method::scree) return stepGaps(world, dt);
     findPairs(world, settings_, dt, *scratch_);
     return stepFoundPairs(world, dt);
 }
@@ -212,6 +219,57 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     return report;
 }
 
+StepReport Stepper::stepGaps(World& world, double dt)
+{
+    StepReport report;
+    report.dt = dt;
+    GapScratch& scratch = *gaps_;
+    {
+        const PhaseTimer timer(report, Phase::contactGraph);
+        buildRows(world, settings_, dt, scratch);
+    }
+    // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
+    // never mistaken for what has just landed.
+    GapLevels levels;
+    {
+        const PhaseTimer timer(report, Phase::collision);
+        report.collisionImpulses = resolveImpacts(settings_, dt, scratch, report.loopsAtTheirCap);
+        levels = buildGapLevels(settings_, dt, scratch);
+    }
+    {
+        const PhaseTimer timer(report, Phase::contact);
+        addGravityToGaps(settings_, dt, scratch);
+        const bool isRemembered = !world.contactMemory.contacts.empty();
+        report.contactImpulses = resolveGaps(settings_, dt, levels, isRemembered, scratch).impulses;
+    }
+    if (settings_.shockPropagation) {
+        const PhaseTimer timer(report, Phase::shock);
+        propagateShockUp(world, settings_, dt, levels, scratch);
+    }
+    {
+        const PhaseTimer timer(report, Phase::position);
+        writeVelocities(world, dt, scratch);
+        moveBodies(world, settings_, dt, scratch);
+    }
+    findNonFinite(world, Phase::position, report);
+    if (report.nonFinite.empty() && settings_.pushOut) {
+        const PhaseTimer timer(report, Phase::pushOut);
+        report.pushes = separateGaps(world, scratch);
+    }
+    for (const GapRow& row : scratch.rows) {
+        if (-row.gap <= report.deepestAfterPushOut) continue;
+        report.deepestBeforePushOut = report.deepestAfterPushOut = -row.gap;
+        report.deepestA = row.a;
+        report.deepestB = row.b;
+    }
+    report.levels = static_cast<int>(levels.rows.size());
+    report.broadPairs = static_cast<std::int64_t>(scratch.pairs.size());
+    report.touchingPairs = static_cast<std::int64_t>(scratch.order.size());
+    report.contactPairs = static_cast<std::int64_t>(scratch.rows.size());
+    ++world.clock.subStep;
+    return report;
+}
+
 FrameReport Stepper::advanceFrame(World& world, double frameDuration,
                                   const std::function<bool()>& stopRequested,
                                   const std::function<void(const World&, double)>& afterStep)
@@ -226,7 +284,8 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
             findPairs(world, settings_, remaining, *scratch_);
             length = chooseStep(world, settings_, frameDuration, remaining, *scratch_);
         }
-        StepReport report = stepFoundPairs(world, length.dt);
+        StepReport report = settings_.method == Method::scree ? stepGaps(world, length.dt)
+                                                              : stepFoundPairs(world, length.dt);
         report.limitedBy = length.limitedBy;
         report.seconds[static_cast<int>(Phase::stepLimit)] +=
             limitReport.seconds[static_cast<int>(Phase::stepLimit)];

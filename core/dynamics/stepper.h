@@ -11,6 +11,7 @@
 namespace scree {
 
 struct StepScratch;
+struct GapScratch;
 
 class Stepper {
 public:
@@ -35,9 +36,11 @@ public:
 private:
     /// The step proper, with the pairs that may meet already in scratch.
     StepReport stepFoundPairs(World& world, double dt);
+    StepReport stepGaps(World& world, double dt);
 
     StepSettings settings_;
     std::unique_ptr<StepScratch> scratch_;
+    std::unique_ptr<GapScratch> gaps_;
 };
 
 }  // namespace scree

@@ -121,6 +121,7 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
     const bool withEdges =
         settings.edgeSamples.value_or(longestEdge(shape->mesh) > 0.5 * shape->innerThickness);
     shape->samples = makeSurfaceSamples(shape->mesh, withEdges);
+    shape->features = ContactFeatures(shape->mesh);
 
     const double spacing = chooseSpacing(name, settings, shape->box, shape->innerThickness);
     GridNodes nodes = layOutNodes(shape->box, spacing);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "core/geometry/contact_features.h"
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/signed_distance.h"
 #include "core/geometry/surface_rays.h"
@@ -54,9 +55,10 @@ struct Shape {
     double innerThickness = 0.0;  ///< first percentile of the inscribed-ball diameter [m]  [A16]
     bool usesTrueNormals = false;
 
-    SignedDistance distance;  ///< grid, exact refinement, or plane
-    SurfaceSamples samples;   ///< empty for a plane
-    SurfaceRays rays;         ///< empty for a plane
+    SignedDistance distance;   ///< grid, exact refinement, or plane
+    SurfaceSamples samples;    ///< empty for a plane
+    ContactFeatures features;  ///< empty for a plane
+    SurfaceRays rays;          ///< empty for a plane
 };
 
 /// Builds mass, field, samples and rays from a closed mesh in the artist's frame, lengths in

@@ -251,6 +251,13 @@ double SignedDistance::exact(const Vec3& point) const
     return signedValue(closestInCell(point), point);
 }
 
+SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
+{
+    const Closest closest = closestInCell(point);
+    return {signedValue(closest, point), closest.point, closest.feature == TriangleFeature::face,
+            closest.face->normal[6]};
+}
+
 SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
 {
     if (isPlane_) return {point.y(), Vec3::UnitY()};
@@ -271,7 +278,8 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
     const std::size_t cell = cellIndex(point);
     for (std::uint32_t i = candidateStart_[cell]; i < candidateStart_[cell + 1]; ++i) {
         const Face& face = faces_[candidates_[i]];
-        if (std::abs(face.normal[6].dot(point - face.corner[0])) > tolerance) continue;
+        const double height = face.normal[6].dot(point - face.corner[0]);
+        if (std::abs(height) > tolerance) continue;
         const ClosestOnTriangle closest =
             closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]);
         if ((point - closest.point).norm() > tolerance) continue;
@@ -279,7 +287,7 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
         for (int k = 0; k < 3; ++k) {
             if ((point - face.corner[k]).norm() <= tolerance) angle = face.angle[k];
         }
-        faces.push_back({face.normal[6], angle});
+        faces.push_back({face.normal[6], angle, height});
     }
 }
 

@@ -61,6 +61,16 @@ public:
     };
     Sloped sloped(const Vec3& point) const;
 
+    /// The closest point of the surface and what it lies on.
+    struct Nearest {
+        double value;  ///< signed distance [m]
+        Vec3 point;    ///< [m]
+        bool onFace;   ///< inside a face: else on an edge or a corner
+        Vec3 normal;   ///< of the face [-]
+    };
+    /// Only for points where |gridValue| < refinementBand().
+    Nearest nearest(const Vec3& point) const;
+
     /// The exact signed distance, from the triangles of the cell; only for points where |gridValue|
     /// < refinementBand().
     double exact(const Vec3& point) const;
@@ -71,6 +81,7 @@ public:
     struct NearFace {
         Vec3 normal;
         double angle;
+        double height;  ///< of the point above the face's plane [m]
     };
     /// Appends the faces of the cell that pass within `tolerance` of the point (at most a few).
     void facesNear(const Vec3& point, double tolerance, std::vector<NearFace>& faces) const;

@@ -11,6 +11,7 @@
 
 #include "core/geometry/shape.h"
 #include "core/scene/body.h"
+#include "core/scene/contact_memory.h"
 
 namespace scree {
 
@@ -56,6 +57,7 @@ public:
     std::vector<BodyInfo> info;
     std::vector<BodyId> order;  ///< a permutation of the bodies: the order of processing  [A21]
     Clock clock;
+    ContactMemory contactMemory;  ///< of method `scree`; empty for `paper`
 
 private:
     std::vector<std::shared_ptr<const Shape>> shapes_;

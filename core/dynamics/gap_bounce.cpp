@@ -1,0 +1,213 @@
+// Symbols: s gap, u normal velocity (approaching < 0), g relative acceleration along the normal,
+//          t time of impact within the step, e restitution.
+//
+// The paper bounces a body where it is when its prediction interferes: up to v dt too early, and an
+// elastic bounce loses v dt of height. Here the gap says when the surfaces meet. The speed there
+// decides the impulse, and the body moves with its old velocity until then, so that a bounce is
+// right to rounding at any step length.  [A28]
+//
+// No threshold velocity decides what bounces. But a bounce that is over before the step ends cannot
+// be shown: if gravity would bring the body back within the rest of the step, it does not bounce.
+// Heaps that come to rest do it here, at speeds of g dt.
+#include "core/dynamics/gap_bounce.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dynamics/contact_point.h"
+#include "core/dynamics/friction.h"
+#include "core/dynamics/gap_contact.h"
+
+namespace scree {
+namespace {
+
+constexpr int kMostPairSweeps = 100;
+
+/// What the impacts of this step have done to a body so far.
+struct Impacts {
+    Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
+    double earliest = std::numeric_limits<double>::infinity();
+};
+
+struct Impact {
+    GapRow* row;
+    Vec3 velocity;         // relative, at the moment of impact
+    double time;           // within the step
+    double velocityAfter;  // normal velocity that makes it leave as it must
+};
+
+class ImpactPass {
+public:
+    ImpactPass(const StepSettings& settings, double dt, GapScratch& scratch)
+        : settings_(settings),
+          dt_(dt),
+          slowest_(slowestApproach(settings, dt)),
+          scratch_(scratch),
+          impacts_(scratch.bodies.size())
+    {
+    }
+
+    ImpulseCounts run(std::int64_t& loopsAtTheirCap)
+    {
+        ImpulseCounts counts;
+        for (int sweep = 0; sweep < settings_.collisionIterations; ++sweep) {
+            const std::int64_t before = counts.total();
+            // There and back: a blow runs along a row of touching bodies whichever way it lies.
+            for (std::size_t i : scratch_.order) resolvePair(scratch_.pairs[i], counts);
+            for (std::size_t p = scratch_.order.size(); p-- > 0;) {
+                resolvePair(scratch_.pairs[scratch_.order[p]], counts);
+            }
+            if (counts.total() == before) return counts;
+        }
+        ++loopsAtTheirCap;
+        return counts;
+    }
+
+private:
+    Vec3 gravityOf(const GapBody& body) const
+    {
+        return body.inverseMass > 0.0 ? settings_.gravity : Vec3::Zero();
+    }
+
+    /// False when the row is not going to be hit within the step.
+    bool impactOf(GapRow& row, Impact& impact) const
+    {
+        const GapBody& a = scratch_.bodies[row.a];
+        const GapBody& b = scratch_.bodies[row.b];
+        const Vec3 relative = velocityAt(row, a, b);
+        const Vec3 gravity = gravityOf(a) - gravityOf(b);
+        const double u = relative.dot(row.normal);
+        const double g = gravity.dot(row.normal);
+        const double s = std::max(row.gap, 0.0);
+        const double end = s + shiftAt(row, a, b) + dt_ * (u + 0.5 * g * dt_);
+        if (end >= 0.0) return false;
+        const double root = u * u - 2.0 * g * s;
+        if (root < 0.0) return false;
+        // Once hit, what it hits again in the same step was not a fall: the parabola is used up.
+        if (row.wasHit) {
+            if (u >= -slowest_) return false;
+            impact = {&row, relative, 0.0, -row.restitution * u};
+            return true;
+        }
+        const double closing = -u + std::sqrt(root);
+        if (s > 0.0 && closing <= 0.0) return false;  // only the shifts bring them together
+        const double time = s > 0.0 ? std::min(2.0 * s / closing, dt_) : 0.0;
+        const double speed = u + g * time;
+        if (speed >= -slowest_) return false;
+        // What lies on something that lies on the ground falls back on it with all of gravity, even
+        // if both are free to fall.
+        const double pull = row.isCarried ? settings_.gravity.norm() : -g;
+        if (2.0 * row.restitution * -speed <= pull * (dt_ - time)) return false;
+        impact = {&row, relative + time * gravity, time, u - (1.0 + row.restitution) * speed};
+        return true;
+    }
+
+    void resolvePair(const GapPair& pair, ImpulseCounts& counts)
+    {
+        for (int n = 0; n < settings_.collisionPairImpulses; ++n) {
+            hits_.clear();
+            Impact impact{};
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                if (impactOf(scratch_.rows[r], impact)) hits_.push_back(impact);
+            }
+            if (hits_.empty()) return;
+            for (const Impact& hit : hits_) hit.row->wasHit = true;
+            if (hits_.size() == 1) {
+                applyOne(hits_[0], counts);
+            } else {
+                applyTogether(counts);
+            }
+        }
+    }
+
+    void applyOne(const Impact& impact, ImpulseCounts& counts)
+    {
+        const GapRow& row = *impact.row;
+        const GapBody& a = scratch_.bodies[row.a];
+        const GapBody& b = scratch_.bodies[row.b];
+        const Mat3 k = collisionMatrix({a.inverseMass, a.inverseInertia}, row.rA) +
+                       collisionMatrix({b.inverseMass, b.inverseInertia}, row.rB);
+        const ContactImpulse j =
+            contactImpulse(k, impact.velocity, row.normal, row.restitution, row.friction);
+        applyImpulses(row, j.impulse, impact.time);
+        countImpulse(counts, j.kind);
+    }
+
+    /// A face that lands flat is hit at all its corners at once. One by one they would make it
+    /// spin. With friction, Newton's rule at several places can add energy, again and again;
+    /// without it cannot, and that is what is left then.
+    void applyTogether(ImpulseCounts& counts)
+    {
+        double earliest = dt_;
+        for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
+        if (solveTogether(true) > 0.0) solveTogether(false);
+        for (const GapRow& row : rows_) {
+            applyImpulses(row, row.worldImpulse(), earliest);
+            ++counts.sticking;
+        }
+    }
+
+    /// Fills rows_ with the impulses of hits_; answers their work [J].
+    double solveTogether(bool withFriction)
+    {
+        rows_.clear();
+        for (const Impact& impact : hits_) {
+            rows_.push_back(*impact.row);
+            rows_.back().impulse = Vec3::Zero();
+            rows_.back().target = impact.velocityAfter;
+            if (!withFriction) rows_.back().friction = 0.0;
+        }
+        const GapBody &a = scratch_.bodies[rows_[0].a], &b = scratch_.bodies[rows_[0].b];
+        GapBody afterA = a, afterB = b;
+        for (int sweep = 0; sweep < kMostPairSweeps; ++sweep) {
+            double residual = 0.0;
+            for (GapRow& row : rows_) residual = std::max(residual, visitRow(row, afterA, afterB));
+            if (residual < 1e-12 * settings_.gravity.norm() * dt_ + 1e-15) break;
+        }
+        double work = 0.0;
+        for (const GapRow& row : rows_) {
+            const Vec3 mean = 0.5 * (velocityAt(row, a, b) + velocityAt(row, afterA, afterB));
+            work += row.worldImpulse().dot(mean);
+        }
+        return work;
+    }
+
+    void applyImpulses(const GapRow& row, const Vec3& impulse, double time)
+    {
+        applyTo(scratch_.bodies[row.a], row.rA, impulse, impacts_[row.a], time);
+        applyTo(scratch_.bodies[row.b], row.rB, -impulse, impacts_[row.b], time);
+    }
+
+    void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts, double time)
+    {
+        if (body.inverseMass == 0.0) return;
+        const Vec3 dv = body.inverseMass * impulse;
+        const Vec3 dw = body.inverseInertia * r.cross(impulse);
+        body.velocity += dv;
+        body.spin += dw;
+        body.angularImpulse += r.cross(impulse);
+        impacts.velocity += dv;
+        impacts.spin += dw;
+        impacts.earliest = std::min(impacts.earliest, time);
+        body.shift = -impacts.earliest * impacts.velocity;
+        body.turn = -impacts.earliest * impacts.spin;
+    }
+
+    const StepSettings& settings_;
+    double dt_, slowest_;
+    GapScratch& scratch_;
+    std::vector<Impacts> impacts_;
+    std::vector<Impact> hits_;
+    std::vector<GapRow> rows_;
+};
+
+}  // namespace
+
+ImpulseCounts resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
+                             std::int64_t& loopsAtTheirCap)
+{
+    return ImpactPass(settings, dt, scratch).run(loopsAtTheirCap);
+}
+
+}  // namespace scree

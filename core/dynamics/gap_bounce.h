@@ -1,0 +1,14 @@
+// Phase 1 of method `scree`: impacts, at the moment within the step at which the surfaces meet.
+// [GBF03 “Collisions”], [A22–A26; algorithm 14.1]
+#pragma once
+
+#include "core/dynamics/gap_rows.h"
+
+namespace scree {
+
+/// Gives every impact of the coming step its impulse. Velocities are those before gravity, and stay
+/// so. Bodies get shifts that let them move with the old velocity up to the impact.
+ImpulseCounts resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
+                             std::int64_t& loopsAtTheirCap);
+
+}  // namespace scree

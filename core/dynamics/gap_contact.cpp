@@ -1,0 +1,187 @@
+// Symbols: u relative velocity at a row, K response of the pair, beta share of the last direction.
+//
+// Impulses are accumulated and clamped as totals, not one by one: a row may give back what turned
+// out to be too much, and the sweeps have a fixed point. They start from what held the heap in the
+// last step; a heap at rest is at the fixed point already.
+//
+// What was tried on a stack of 40 cubes at one step a frame: plain projected Gauss–Seidel falls
+// with 200 sweeps; with conjugate directions it drifts 9 mm with 100; begun from the weights handed
+// down level by level, 0.4 mm with 370. A block that lies on one ten thousand times lighter needs
+// shock besides.
+#include "core/dynamics/gap_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/gap_levels.h"
+
+namespace scree {
+namespace {
+
+/// Visits of rows that a step may spend beyond its ordinary sweeps: a small problem is solved to
+/// the end, a large one gets the sweeps of the settings.
+constexpr std::size_t kSpareVisits = 60000;
+constexpr int kMostSweeps = 400;
+
+void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
+{
+    if (a.inverseMass > 0.0) applyTo(a, row.rA, impulse);
+    if (b.inverseMass > 0.0) applyTo(b, row.rB, -impulse);
+}
+
+/// Weighs normal and friction impulses of heavy and light pairs alike: by the energy they move.
+double energyOf(const GapRow& row, const Vec3& impulse)
+{
+    return row.inverseNormalMass * impulse.x() * impulse.x() +
+           (impulse.y() * impulse.y() + impulse.z() * impulse.z()) / row.slideMass;
+}
+
+/// One sweep up and one down; answers the largest change of a normal velocity [m/s].
+double sweep(GapScratch& scratch)
+{
+    double residual = 0.0;
+    const auto solve = [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            GapRow& row = scratch.rows[r];
+            residual =
+                std::max(residual, visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]));
+        }
+    };
+    for (std::size_t i : scratch.order) solve(i);
+    for (std::size_t place = scratch.order.size(); place-- > 0;) solve(scratch.order[place]);
+    return residual;
+}
+
+/// Goes on along the conjugate direction: what a sweep has changed is a gradient (Silcowitz, Niebe
+/// and Erleben 2010). Answers the energy of that change.
+double goOn(GapScratch& scratch, double energyBefore)
+{
+    double energy = 0.0;
+    for (const GapRow& row : scratch.rows) energy += energyOf(row, row.impulse - row.before);
+    const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
+    for (GapRow& row : scratch.rows) {
+        const Vec3 gradient = row.impulse - row.before;
+        if (beta > 1.0) {
+            row.way = Vec3::Zero();  // the active set has changed: start again
+            continue;
+        }
+        const Vec3 step = beta * row.way;
+        row.way = step + gradient;
+        if (step.isZero(0.0)) continue;
+        row.impulse += step;
+        applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b],
+                 step.x() * row.normal + step.y() * row.tangent + step.z() * row.secondTangent());
+    }
+    return energy;
+}
+
+void countImpulses(const GapScratch& scratch, ImpulseCounts& counts)
+{
+    for (const GapRow& row : scratch.rows) {
+        if (row.impulse.x() == 0.0) continue;
+        const double tangential = std::hypot(row.impulse.y(), row.impulse.z());
+        const bool slides = tangential >= row.friction * row.impulse.x() * (1.0 - 1e-9);
+        ++(slides ? counts.sliding : counts.sticking);
+    }
+}
+
+}  // namespace
+
+double visitRow(GapRow& row, GapBody& a, GapBody& b)
+{
+    const double un = velocityAt(row, a, b).dot(row.normal);
+    const double before = row.impulse.x();
+    const double normal = std::max(0.0, before - (un - row.target) / row.inverseNormalMass);
+    double changed = 0.0;
+    if (normal != before) {
+        row.impulse.x() = normal;
+        changed = std::abs(normal - before) * row.inverseNormalMass;
+        applyRow(row, a, b, (normal - before) * row.normal);
+    }
+    if (normal == 0.0 && row.impulse.y() == 0.0 && row.impulse.z() == 0.0) return changed;
+
+    const Vec3 u = velocityAt(row, a, b);
+    const Vec3 s = row.secondTangent();
+    const double ut = u.dot(row.tangent), us = u.dot(s);
+    const double* k = row.frictionMass;
+    double t1 = row.impulse.y() - (k[0] * ut + k[1] * us);
+    double t2 = row.impulse.z() - (k[1] * ut + k[2] * us);
+    const double limit = row.friction * normal;
+    if (t1 * t1 + t2 * t2 > limit * limit) {
+        // Projecting the sticking impulse would turn friction away from the sliding direction.
+        t1 = row.impulse.y() - row.slideMass * ut;
+        t2 = row.impulse.z() - row.slideMass * us;
+        const double length = std::sqrt(t1 * t1 + t2 * t2);
+        if (length > limit) {
+            t1 *= limit / length;
+            t2 *= limit / length;
+        }
+    }
+    const Vec3 change = (t1 - row.impulse.y()) * row.tangent + (t2 - row.impulse.z()) * s;
+    row.impulse.y() = t1;
+    row.impulse.z() = t2;
+    applyRow(row, a, b, change);
+    return changed;
+}
+
+void addGravityToGaps(const StepSettings& settings, double dt, GapScratch& scratch)
+{
+    // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
+    // g dt²/2 too far.
+    std::vector<char> isStopped(scratch.bodies.size(), 0);
+    const auto gravityOf = [&](const GapBody& body) {
+        return body.inverseMass > 0.0 ? settings.gravity : Vec3::Zero();
+    };
+    for (const GapRow& row : scratch.rows) {
+        const GapBody& a = scratch.bodies[row.a];
+        const GapBody& b = scratch.bodies[row.b];
+        const double g = (gravityOf(a) - gravityOf(b)).dot(row.normal);
+        const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
+                           dt * (velocityAt(row, a, b).dot(row.normal) + 0.5 * dt * g);
+        if (end < 0.0 || row.impulse.x() > 0.0) isStopped[row.a] = isStopped[row.b] = 1;
+    }
+    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
+        GapBody& body = scratch.bodies[i];
+        body.velocityBefore = body.velocity;
+        body.spinBefore = body.spin;
+        if (body.inverseMass == 0.0) continue;
+        body.velocity += dt * settings.gravity;
+        if (!isStopped[i]) body.shift -= 0.5 * dt * dt * settings.gravity;
+    }
+    for (GapRow& row : scratch.rows) {
+        const GapBody& a = scratch.bodies[row.a];
+        const GapBody& b = scratch.bodies[row.b];
+        row.target = -std::max(std::max(row.gap, 0.0) + shiftAt(row, a, b), 0.0) / dt;
+    }
+}
+
+GapTally resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+                     bool isRemembered, GapScratch& scratch)
+{
+    if (isRemembered) {
+        for (GapRow& row : scratch.rows) {
+            applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b], row.worldImpulse());
+        }
+    } else {
+        handWeightDown(settings, dt, levels, scratch);
+    }
+    for (GapRow& row : scratch.rows) row.way = Vec3::Zero();
+
+    GapTally tally;
+    const double enough = 1e-9 * settings.gravity.norm() * dt + 1e-15;
+    const auto spare = static_cast<int>(kSpareVisits / (scratch.rows.size() + 1));
+    const int most = std::max(settings.gapSweeps, std::min(spare, kMostSweeps));
+    double energy = 0.0;
+    while (true) {
+        for (GapRow& row : scratch.rows) row.before = row.impulse;
+        tally.residual = sweep(scratch);
+        ++tally.sweeps;
+        if (tally.residual <= enough || tally.sweeps >= most) break;
+        energy = goOn(scratch, energy);
+    }
+    countImpulses(scratch, tally.impulses);
+    return tally;
+}
+
+}  // namespace scree

@@ -1,0 +1,27 @@
+// Phases 3 and 4 of method `scree`: the impulses that keep every gap from closing past zero, with
+// friction; and shock propagation where they are not enough.
+// [GBF03 “Contact”, “Shock Propagation”], [A39–A48; algorithm 14.1]
+#pragma once
+
+#include "core/dynamics/gap_levels.h"
+
+namespace scree {
+
+struct GapTally {
+    ImpulseCounts impulses;
+    int sweeps = 0;
+    double residual = 0.0;  ///< largest change of a normal velocity in the last sweep [m/s]
+};
+
+/// One visit. Answers how much it changed the normal velocity [m/s].
+double visitRow(GapRow& row, GapBody& a, GapBody& b);
+
+/// Sets the targets of all rows from their gaps and what impacts have shifted, and adds gravity.
+void addGravityToGaps(const StepSettings& settings, double dt, GapScratch& scratch);
+
+/// Sweeps over all rows until velocities stay as they are, or the sweeps are used up. Begins with
+/// the impulses that rows remember, or, when nothing is remembered, with the weights of the levels.
+GapTally resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+                     bool isRemembered, GapScratch& scratch);
+
+}  // namespace scree

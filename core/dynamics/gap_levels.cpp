@@ -1,0 +1,190 @@
+// Levels by the individual fall: a row is an edge when one of its bodies, falling alone, would
+// close it. A gap says so without moving anything.
+#include "core/dynamics/gap_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dynamics/gap_contact.h"
+
+namespace scree {
+namespace {
+
+/// Sweeps up and down over the rows of one level; its rows are few and near each other.
+constexpr int kLevelSweeps = 30;
+
+/// A row that closes this share of the smaller body past zero in a step calls for shock.
+constexpr double kVisible = 1e-5;
+
+/// The bodies of a level's rows that its solve must not move, as they were.
+class HeldBodies {
+public:
+    explicit HeldBodies(GapScratch& scratch) : scratch_(scratch), isHeld_(scratch.bodies.size(), 0)
+    {
+    }
+    bool isHeld(BodyId body) const { return isHeld_[body] != 0; }
+    void hold(BodyId body)
+    {
+        if (isHeld_[body]) return;
+        isHeld_[body] = 1;
+        GapBody& b = scratch_.bodies[body];
+        held_.push_back({body, b});
+        b.inverseMass = 0.0;
+        b.inverseInertia.setZero();
+    }
+    void release()
+    {
+        for (const Held& held : held_) {
+            scratch_.bodies[held.body] = held.before;
+            isHeld_[held.body] = 0;
+        }
+        held_.clear();
+    }
+
+private:
+    struct Held {
+        BodyId body;
+        GapBody before;
+    };
+    GapScratch& scratch_;
+    std::vector<Held> held_;
+    std::vector<char> isHeld_;
+};
+
+void solveRows(GapScratch& scratch, const std::vector<std::size_t>& rows, double enough)
+{
+    for (int sweep = 0; sweep < kLevelSweeps; ++sweep) {
+        double residual = 0.0;
+        const auto visit = [&](std::size_t r) {
+            GapRow& row = scratch.rows[r];
+            residual =
+                std::max(residual, visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]));
+        };
+        for (std::size_t r : rows) visit(r);
+        for (std::size_t i = rows.size(); i-- > 0;) visit(rows[i]);
+        if (residual < enough) break;
+    }
+}
+
+double solvedEnough(const StepSettings& settings, double dt)
+{
+    return 1e-9 * settings.gravity.norm() * dt;
+}
+
+bool closesVisibly(const World& world, double dt, const GapScratch& scratch)
+{
+    for (const GapRow& row : scratch.rows) {
+        const GapBody& a = scratch.bodies[row.a];
+        const GapBody& b = scratch.bodies[row.b];
+        const double closing = dt * (velocityAt(row, a, b).dot(row.normal) - row.target);
+        if (closing >= 0.0) continue;
+        if (-closing > kVisible * smallerRadius(world, row.a, row.b)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+GapLevels buildGapLevels(const StepSettings& settings, double dt, const GapScratch& scratch)
+{
+    const std::size_t count = scratch.bodies.size();
+    std::vector<char> isFixed(count);
+    for (std::size_t i = 0; i < count; ++i) isFixed[i] = scratch.bodies[i].inverseMass == 0.0;
+    std::vector<SupportEdge> edges;
+    for (const GapRow& row : scratch.rows) {
+        const GapBody& a = scratch.bodies[row.a];
+        const GapBody& b = scratch.bodies[row.b];
+        const double drift = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
+                             dt * velocityAt(row, a, b).dot(row.normal);
+        const double fall = dt * dt * settings.gravity.dot(row.normal);
+        if (a.inverseMass > 0.0 && drift + fall < 0.0) edges.push_back({row.b, row.a});
+        if (b.inverseMass > 0.0 && drift - fall < 0.0) edges.push_back({row.a, row.b});
+    }
+    GapLevels levels;
+    levels.graph = computeLevels(count, edges, isFixed);
+    for (std::size_t r = 0; r < scratch.rows.size(); ++r) {
+        const GapRow& row = scratch.rows[r];
+        const auto level = static_cast<std::size_t>(
+            std::max(levels.graph.level[row.a], levels.graph.level[row.b]));
+        if (levels.rows.size() <= level) levels.rows.resize(level + 1);
+        levels.rows[level].push_back(r);
+    }
+    return levels;
+}
+
+void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
+                    GapScratch& scratch)
+{
+    HeldBodies held(scratch);
+    for (std::size_t level = levels.rows.size(); level-- > 0;) {
+        const std::vector<std::size_t>& rows = levels.rows[level];
+        const auto hold = [&](BodyId body) {
+            GapBody& b = scratch.bodies[body];
+            if (b.inverseMass == 0.0 || levels.graph.level[body] == static_cast<int>(level)) return;
+            held.hold(body);
+            b.velocity = b.velocityBefore;
+            b.spin = b.spinBefore;
+        };
+        for (std::size_t r : rows) {
+            hold(scratch.rows[r].a);
+            hold(scratch.rows[r].b);
+        }
+        for (std::size_t r : rows) {
+            scratch.rows[r].impulse = Vec3::Zero();
+            prepareRow(scratch, scratch.rows[r]);
+        }
+        solveRows(scratch, rows, solvedEnough(settings, dt));
+        std::vector<char> wasHeldA, wasHeldB;
+        for (std::size_t r : rows) {
+            wasHeldA.push_back(held.isHeld(scratch.rows[r].a));
+            wasHeldB.push_back(held.isHeld(scratch.rows[r].b));
+        }
+        held.release();
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            GapRow& row = scratch.rows[rows[i]];
+            prepareRow(scratch, row);
+            const Vec3 impulse = row.worldImpulse();
+            if (wasHeldA[i]) applyTo(scratch.bodies[row.a], row.rA, impulse);
+            if (wasHeldB[i]) applyTo(scratch.bodies[row.b], row.rB, -impulse);
+        }
+    }
+}
+
+bool propagateShockUp(const World& world, const StepSettings& settings, double dt,
+                      const GapLevels& levels, GapScratch& scratch)
+{
+    if (!closesVisibly(world, dt, scratch)) return false;
+    HeldBodies held(scratch);
+    std::vector<Vec3> remembered;
+    for (std::size_t level = 0; level < levels.rows.size(); ++level) {
+        const std::vector<std::size_t>& rows = levels.rows[level];
+        const auto holdIfSupported = [&](BodyId body) {
+            if (scratch.bodies[body].inverseMass == 0.0 || !levels.graph.isSupported[body]) return;
+            if (levels.graph.level[body] != static_cast<int>(level)) held.hold(body);
+        };
+        remembered.clear();
+        for (std::size_t r : rows) {
+            holdIfSupported(scratch.rows[r].a);
+            holdIfSupported(scratch.rows[r].b);
+            remembered.push_back(scratch.rows[r].impulse);
+        }
+        for (std::size_t r : rows) prepareRow(scratch, scratch.rows[r]);
+        solveRows(scratch, rows, solvedEnough(settings, dt));
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            GapRow& row = scratch.rows[rows[i]];
+            const Vec3 withShock = row.worldImpulse();
+            row.impulse = remembered[i];
+            const Vec3 extra = withShock - row.worldImpulse();
+            GapBody& a = scratch.bodies[row.a];
+            GapBody& b = scratch.bodies[row.b];
+            if (a.inverseMass > 0.0) a.angularImpulse += row.rA.cross(extra);
+            if (b.inverseMass > 0.0) b.angularImpulse -= row.rB.cross(extra);
+        }
+        held.release();
+        for (std::size_t r : rows) prepareRow(scratch, scratch.rows[r]);
+    }
+    return true;
+}
+
+}  // namespace scree

@@ -1,0 +1,32 @@
+// Who rests on whom, told from gaps; and the two passes that use it: weight downward, shock upward.
+// [GBF03 “Contact Graph”, “Shock Propagation”], [A36–A38, A45–A47; algorithm 14.1]
+#pragma once
+
+#include "core/dynamics/contact_graph.h"
+#include "core/dynamics/gap_rows.h"
+
+namespace scree {
+
+/// The same levels as those of the paper's graph, and the rows of each.
+struct GapLevels {
+    GraphLevels graph;
+    std::vector<std::vector<std::size_t>> rows;  ///< by level: rows whose higher body is in it
+};
+
+/// With the velocities before gravity.
+GapLevels buildGapLevels(const StepSettings& settings, double dt, const GapScratch& scratch);
+
+/// Impulses from nothing, level by level from the top: what rests is held up by what is below as if
+/// that could not give way, and hands its weight down. Exact for a stack, and a beginning for a
+/// heap. Velocities must have felt gravity and no contact yet.
+void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
+                    GapScratch& scratch);
+
+/// One sweep up the levels: what rests is made to rest on what is below as if that could not give
+/// way. Only where the solved velocities would still overlap bodies visibly; false when nowhere.
+/// The impulses that rows remember stay those of the symmetric problem: begun from shock's, the
+/// next step of a heap blew up.
+bool propagateShockUp(const World& world, const StepSettings& settings, double dt,
+                      const GapLevels& levels, GapScratch& scratch);
+
+}  // namespace scree

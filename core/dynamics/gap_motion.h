@@ -1,0 +1,18 @@
+// The end of a step of method `scree`: velocities back into the world, everything moved, and what
+// still overlaps drawn apart.  [GBF03 “Time Integration”], [A17–A19, A52; algorithm 14.1]
+#pragma once
+
+#include "core/dynamics/gap_rows.h"
+
+namespace scree {
+
+/// Velocities and angular momenta of the world from the solved rows; remembers the impulses.
+void writeVelocities(World& world, double dt, const GapScratch& scratch);
+
+/// Moves every body with its new velocity and its shift.
+void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch);
+
+/// Draws overlaps apart, in positions only. Answers the number of rows that pushed.
+std::int64_t separateGaps(World& world, GapScratch& scratch);
+
+}  // namespace scree

@@ -1,0 +1,244 @@
+#include "core/dynamics/gap_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/dynamics/integrator.h"
+
+namespace scree {
+namespace {
+
+/// A place that has moved less than this share of the smaller body since the last step may take
+/// over an impulse although its features have changed.
+constexpr double kSamePlace = 0.05;
+
+void readBodies(const World& world, GapScratch& scratch)
+{
+    scratch.bodies.resize(world.bodyCount());
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const PassInertia inertia = passInertia(world.mass[i], world.motion[i].orientation);
+        GapBody& body = scratch.bodies[i];
+        body.velocity = world.motion[i].velocity;
+        body.spin = inertia.inverseInertia * world.motion[i].angularMomentum;
+        body.inverseMass = inertia.inverseMass;
+        body.inverseInertia = inertia.inverseInertia;
+        body.angularImpulse = body.shift = body.turn = Vec3::Zero();
+    }
+}
+
+double surfaceSpeed(const World& world, const GapScratch& scratch, BodyId body)
+{
+    const Shape& shape = world.shapeOf(body);
+    if (shape.isPlane) return 0.0;
+    return scratch.bodies[body].spin.norm() * shape.boundingRadius;
+}
+
+/// Gaps that may close within the step.
+double reachOf(const World& world, const StepSettings& settings, const GapScratch& scratch,
+               BodyPair bodies, double dt)
+{
+    const GapBody& a = scratch.bodies[bodies.a];
+    const GapBody& b = scratch.bodies[bodies.b];
+    const double speed = (a.velocity - b.velocity).norm() + surfaceSpeed(world, scratch, bodies.a) +
+                         surfaceSpeed(world, scratch, bodies.b);
+    return dt * (speed + dt * settings.gravity.norm()) +
+           1e-3 * smallerRadius(world, bodies.a, bodies.b);
+}
+
+void findGapPairs(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+{
+    scratch.boxes.resize(world.bodyCount());
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        const Shape& shape = world.shapeOf(body);
+        const Pose pose = world.motion[i].worldFromBody();
+        if (shape.isPlane) {
+            scratch.boxes[i] = shape.box;
+            continue;
+        }
+        const double travel =
+            dt * (scratch.bodies[i].velocity.norm() + surfaceSpeed(world, scratch, body) +
+                  dt * settings.gravity.norm());
+        scratch.boxes[i] =
+            transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position)
+                .grown(travel + 1e-3 * shape.boundingRadius);
+    }
+    const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
+
+    // Both lists are sorted: pairs that stay keep what they know.
+    std::vector<GapPair> pairs(found.size());
+    std::size_t old = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        while (old < scratch.pairs.size() && scratch.pairs[old].bodies < found[i]) ++old;
+        if (old < scratch.pairs.size() && scratch.pairs[old].bodies == found[i]) {
+            pairs[i] = std::move(scratch.pairs[old++]);
+        }
+        pairs[i].bodies = found[i];
+    }
+    scratch.pairs = std::move(pairs);
+}
+
+Vec3 anyTangent(const Vec3& normal)
+{
+    const Vec3 aside = std::abs(normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
+    return normal.cross(aside).normalized();
+}
+
+/// Hands the remembered impulses of one pair to its rows: by feature, and what is left to the
+/// nearest row that got none.
+void warmStart(const World& world, double scale, const RememberedContact* begin,
+               const RememberedContact* end, GapRow* firstRow, GapRow* lastRow,
+               const std::vector<GapContact>& contacts)
+{
+    const BodyId a = firstRow->a;
+    const double smaller = smallerRadius(world, firstRow->a, firstRow->b);
+    const Mat3 worldFromA = world.motion[a].orientation.toRotationMatrix();
+    thread_local std::vector<char> isTaken, isGiven;
+    isTaken.assign(static_cast<std::size_t>(end - begin), 0);
+    isGiven.assign(static_cast<std::size_t>(lastRow - firstRow), 0);
+    const auto give = [&](std::size_t r, std::size_t m) {
+        GapRow& row = firstRow[r];
+        const Vec3 impulse = scale * begin[m].impulse;
+        row.impulse = {std::max(impulse.dot(row.normal), 0.0), impulse.dot(row.tangent),
+                       impulse.dot(row.secondTangent())};
+        isTaken[m] = isGiven[r] = 1;
+    };
+    for (std::size_t r = 0; r < isGiven.size(); ++r) {
+        for (std::size_t m = 0; m < isTaken.size(); ++m) {
+            if (!isTaken[m] && begin[m].feature == contacts[r].feature) {
+                give(r, m);
+                break;
+            }
+        }
+    }
+    for (std::size_t m = 0; m < isTaken.size(); ++m) {
+        if (isTaken[m]) continue;
+        const Vec3 place = worldFromA * begin[m].place;
+        double nearest = kSamePlace * smaller;
+        std::size_t taker = isGiven.size();
+        for (std::size_t r = 0; r < isGiven.size(); ++r) {
+            const double distance = (firstRow[r].rA - place).norm();
+            if (isGiven[r] || distance >= nearest) continue;
+            nearest = distance;
+            taker = r;
+        }
+        if (taker < isGiven.size()) give(taker, m);
+    }
+}
+
+}  // namespace
+
+double smallerRadius(const World& world, BodyId a, BodyId b)
+{
+    double smaller = std::numeric_limits<double>::infinity();
+    for (BodyId body : {a, b}) {
+        const Shape& shape = world.shapeOf(body);
+        if (!shape.isPlane) smaller = std::min(smaller, shape.boundingRadius);
+    }
+    return smaller;
+}
+
+void prepareRow(const GapScratch& scratch, GapRow& row)
+{
+    const GapBody& a = scratch.bodies[row.a];
+    const GapBody& b = scratch.bodies[row.b];
+    const auto response = [&](const Vec3& along, const Vec3& across) {
+        double k = (a.inverseMass + b.inverseMass) * along.dot(across);
+        if (a.inverseMass > 0.0)
+            k += row.rA.cross(along).dot(a.inverseInertia * row.rA.cross(across));
+        if (b.inverseMass > 0.0)
+            k += row.rB.cross(along).dot(b.inverseInertia * row.rB.cross(across));
+        return k;
+    };
+    row.tangent = anyTangent(row.normal);
+    const Vec3 t = row.tangent, s = row.secondTangent();
+    row.inverseNormalMass = response(row.normal, row.normal);
+    const double tt = response(t, t), ts = response(t, s), ss = response(s, s);
+    const double determinant = tt * ss - ts * ts;
+    row.frictionMass[0] = ss / determinant;
+    row.frictionMass[1] = -ts / determinant;
+    row.frictionMass[2] = tt / determinant;
+    const double half = 0.5 * (tt - ss);
+    row.slideMass = 1.0 / (0.5 * (tt + ss) + std::sqrt(half * half + ts * ts));
+}
+
+void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+{
+    readBodies(world, scratch);
+    findGapPairs(world, settings, dt, scratch);
+    parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            GapPair& pair = scratch.pairs[i];
+            pair.contacts.clear();
+            const auto [a, b] = pair.bodies;
+            const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
+                                    world.motion[a].worldFromBody(),
+                                    world.motion[b].worldFromBody()};
+            pair.near.findContacts(placed, reachOf(world, settings, scratch, pair.bodies, dt),
+                                   pair.contacts);
+        }
+    });
+
+    std::size_t count = 0;
+    scratch.order.clear();
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
+        scratch.pairs[i].begin = count;
+        count += scratch.pairs[i].contacts.size();
+        scratch.pairs[i].end = count;
+        if (scratch.pairs[i].end > scratch.pairs[i].begin) scratch.order.push_back(i);
+    }
+    scratch.rows.resize(count);
+
+    const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
+    const double scale = world.contactMemory.dt > 0.0 ? dt / world.contactMemory.dt : 0.0;
+    parallelFor(scratch.order.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t place = begin; place < end; ++place) {
+            const GapPair& pair = scratch.pairs[scratch.order[place]];
+            const auto [a, b] = pair.bodies;
+            const Material& ofA = world.materialOf(a);
+            const Material& ofB = world.materialOf(b);
+            const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
+            const auto known =
+                std::equal_range(memory.begin(), memory.end(), RememberedContact{a, b},
+                                 [](const RememberedContact& p, const RememberedContact& q) {
+                                     return p.a < q.a || (p.a == q.a && p.b < q.b);
+                                 });
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                const GapContact& contact = pair.contacts[r - pair.begin];
+                GapRow& row = scratch.rows[r];
+                row.a = a;
+                row.b = b;
+                row.rA = contact.rA;
+                row.rB = contact.rA + bFromA;
+                row.normal = contact.normal;
+                row.gap = contact.gap;
+                row.friction = std::max(ofA.friction, ofB.friction);  // [A27]
+                row.restitution = std::min(ofA.restitution, ofB.restitution);
+                row.target = 0.0;
+                row.wasHit = false;
+                row.impulse = Vec3::Zero();
+                row.isCarried = known.first != known.second;
+                prepareRow(scratch, row);
+            }
+            if (known.first == known.second) continue;
+            warmStart(world, scale, &*known.first, &*known.first + (known.second - known.first),
+                      &scratch.rows[pair.begin],
+                      &scratch.rows[pair.begin] + (pair.end - pair.begin), pair.contacts);
+        }
+    });
+
+    // Bottom to top: what carries is solved before what is carried.
+    const Vec3 up = -settings.gravity;
+    std::vector<double> height(scratch.pairs.size(), 0.0);
+    for (std::size_t i : scratch.order) {
+        const GapRow& row = scratch.rows[scratch.pairs[i].begin];
+        height[i] = up.dot(world.motion[row.a].position + row.rA);
+    }
+    std::sort(scratch.order.begin(), scratch.order.end(), [&](std::size_t p, std::size_t q) {
+        return height[p] < height[q] || (height[p] == height[q] && p < q);
+    });
+}
+
+}  // namespace scree

@@ -1,0 +1,95 @@
+// The contacts of one step of method `scree` as rows of one problem, and the bodies as its
+// unknowns.  [algorithm 14.1]
+//
+// A row is rebuilt from its geometry at every visit: levers and normal fit into three cache lines,
+// the Jacobian and its products would need nine, and a heap of a thousand rings would no longer
+// stay in the second-level cache.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/collision/near_features.h"
+#include "core/dynamics/scratch.h"
+
+namespace scree {
+
+/// A body as the solver sees it. Velocities are those of the phase that runs.
+struct GapBody {
+    Vec3 velocity, spin;              ///< [m/s], [rad/s]
+    double inverseMass;               ///< [1/kg]; 0: cannot be moved
+    Mat3 inverseInertia;              ///< world
+    Vec3 velocityBefore, spinBefore;  ///< gravity
+    Vec3 angularImpulse;              ///< of the impacts of this step [kg m²/s]
+    Vec3 shift, turn;  ///< added to the motion of this step: not everything moves for all
+                       ///< of it with its final velocity [m], [rad]
+};
+
+struct GapRow {
+    BodyId a, b;
+    Vec3 rA, rB;           ///< contact point from either centre, world [m]
+    Vec3 normal, tangent;  ///< from B to A; the second tangent is normal × tangent
+    double gap;            ///< [m]
+    double friction, restitution;
+    double target;     ///< normal velocity that closes the gap within the step [m/s], ≤ 0
+    Vec3 before, way;  ///< of the sweep: impulse before it, and the conjugate direction
+    Vec3 impulse;      ///< along normal, tangent and second tangent, on A [N s]
+    double inverseNormalMass;
+    double frictionMass[3];  ///< inverse of the tangential 2×2 block: tt, ts, ss
+    double slideMass;        ///< 1 / largest eigenvalue of that block
+    bool wasHit;             ///< by an impact of this step
+    bool isCarried;          ///< its pair had an impulse in the last step
+
+    Vec3 secondTangent() const { return normal.cross(tangent); }
+    Vec3 worldImpulse() const
+    {
+        return impulse.x() * normal + impulse.y() * tangent + impulse.z() * secondTangent();
+    }
+};
+
+/// The pairs of a step and what they remember.
+struct GapPair {
+    BodyPair bodies;
+    NearFeatures near;
+    std::vector<GapContact> contacts;
+    std::size_t begin = 0, end = 0;  ///< its rows
+};
+
+struct GapScratch {
+    BroadPhase broadPhase;
+    std::vector<Aabb> boxes;
+    std::vector<GapPair> pairs;  ///< sorted by bodies
+    std::vector<GapBody> bodies;
+    std::vector<GapRow> rows;        ///< pair by pair
+    std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top
+};
+
+/// Finds all contacts that may close within dt and lays them out as rows, with the impulses that
+/// the world remembers.
+void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
+
+/// Bounding radius of the smaller body of a pair [m].
+double smallerRadius(const World& world, BodyId a, BodyId b);
+
+/// Relative velocity of the two surfaces at a row, A's against B's.
+inline Vec3 velocityAt(const GapRow& row, const GapBody& a, const GapBody& b)
+{
+    return a.velocity + a.spin.cross(row.rA) - b.velocity - b.spin.cross(row.rB);
+}
+
+/// What the shifts of the two bodies add to the gap.
+inline double shiftAt(const GapRow& row, const GapBody& a, const GapBody& b)
+{
+    return row.normal.dot(a.shift + a.turn.cross(row.rA) - b.shift - b.turn.cross(row.rB));
+}
+
+/// Everything of a row that follows from its geometry.
+void prepareRow(const GapScratch& scratch, GapRow& row);
+
+inline void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse)
+{
+    body.velocity += body.inverseMass * impulse;
+    body.spin += body.inverseInertia * r.cross(impulse);
+}
+
+}  // namespace scree

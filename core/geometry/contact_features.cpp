@@ -1,0 +1,110 @@
+#include "core/geometry/contact_features.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace scree {
+namespace {
+
+/// Sine of the bend below which an edge lies inside a flat region.
+constexpr double kFlat = 1e-3;
+
+struct EdgeFaces {
+    std::array<int, 2> face = {-1, -1};
+};
+
+Vec3 faceNormal(const TriMesh& mesh, int face)
+{
+    const Vec3 a = mesh.points.col(mesh.triangles(0, face));
+    const Vec3 b = mesh.points.col(mesh.triangles(1, face));
+    const Vec3 c = mesh.points.col(mesh.triangles(2, face));
+    return (b - a).cross(c - a).normalized();
+}
+
+void addDirection(std::vector<Vec3>& directions, const Vec3& direction)
+{
+    for (const Vec3& known : directions) {
+        if ((known - direction).squaredNorm() < kFlat * kFlat) return;
+    }
+    directions.push_back(direction);
+}
+
+/// The corner of a face that is not on the edge.
+Vec3 oppositeCorner(const TriMesh& mesh, int face, const std::pair<int, int>& ends)
+{
+    for (int k = 0; k < 3; ++k) {
+        const int corner = mesh.triangles(k, face);
+        if (corner != ends.first && corner != ends.second) return mesh.points.col(corner);
+    }
+    return mesh.points.col(ends.first);
+}
+
+}  // namespace
+
+ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
+{
+    std::map<std::pair<int, int>, EdgeFaces> faces;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k) {
+            const auto ends = std::minmax(mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f));
+            EdgeFaces& both = faces[ends];
+            both.face[both.face[0] < 0 ? 0 : 1] = static_cast<int>(f);
+        }
+    }
+
+    std::vector<std::vector<Vec3>> around(points_.cols()), normals(points_.cols());
+    std::vector<Sphere> edgeSpheres;
+    for (const auto& [ends, both] : faces) {
+        const Vec3 start = points_.col(ends.first), end = points_.col(ends.second);
+        const double length = (end - start).norm();
+        const Vec3 direction = (end - start) / length;
+        around[ends.first].push_back(direction);
+        around[ends.second].push_back(-direction);
+
+        ConvexEdge edge{{ends.first, ends.second}, start, direction, length, {}, {}};
+        for (int side = 0; side < 2; ++side) {
+            edge.faceNormal[side] = faceNormal(mesh, both.face[side]);
+            const Vec3 across = oppositeCorner(mesh, both.face[side], ends) - start;
+            edge.intoFace[side] = (across - across.dot(direction) * direction).normalized();
+            addDirection(normals[ends.first], edge.faceNormal[side]);
+            addDirection(normals[ends.second], edge.faceNormal[side]);
+        }
+        // Convex: each face falls away behind the plane of the other.
+        if (edge.intoFace[1].dot(edge.faceNormal[0]) > -kFlat) continue;
+        edges_.push_back(edge);
+        edgeSpheres.push_back({0.5 * (start + end), 0.5 * length});
+    }
+
+    neighbourStart_.assign(points_.cols() + 1, 0);
+    for (std::size_t v = 0; v < around.size(); ++v) {
+        neighbours_.insert(neighbours_.end(), around[v].begin(), around[v].end());
+        neighbourStart_[v + 1] = static_cast<std::uint32_t>(neighbours_.size());
+    }
+    // A point with faces in one or two directions lies inside a flat region or a straight edge:
+    // whatever touches it also touches the region's true corners or edges.
+    std::vector<Sphere> cornerSpheres;
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+        if (normals[v].size() < 3) continue;
+        corners_.push_back(static_cast<std::int32_t>(v));
+        cornerSpheres.push_back({points_.col(v), 0.0});
+    }
+    cornerTree_ = SphereTree(cornerSpheres);
+    edgeTree_ = SphereTree(edgeSpheres);
+}
+
+bool ContactFeatures::cornerSupports(std::int32_t corner, const Vec3& normal) const
+{
+    for (std::uint32_t i = neighbourStart_[corner]; i < neighbourStart_[corner + 1]; ++i) {
+        if (neighbours_[i].dot(normal) < -kSupportSlack) return false;
+    }
+    return true;
+}
+
+bool edgeSupports(const ConvexEdge& edge, const Vec3& normal)
+{
+    return edge.intoFace[0].dot(normal) >= -kSupportSlack &&
+           edge.intoFace[1].dot(normal) >= -kSupportSlack;
+}
+
+}  // namespace scree

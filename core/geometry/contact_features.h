@@ -1,0 +1,64 @@
+// What of a mesh can support another body: its corners and its convex edges, each with what tells
+// from which directions it can be touched. Method `scree` makes its contacts of these.  [A7, A8]
+//
+// Two solids that do not overlap are nearest to each other at a corner and a face, or at two edges;
+// so corners of each against the other and pairs of convex edges say all there is to say about
+// closely spaced bodies, however coarse the mesh. Samples in a field say less: two facets whose
+// edges cross overlap with no sample between them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/sphere_tree.h"
+#include "core/geometry/tri_mesh.h"
+
+namespace scree {
+
+/// An edge where the surface bends outward. Object frame.
+struct ConvexEdge {
+    std::array<int, 2> ends;         ///< corner indices
+    Vec3 start, direction;           ///< unit direction from start [m], [-]
+    double length;                   ///< [m]
+    std::array<Vec3, 2> faceNormal;  ///< of its two faces
+    std::array<Vec3, 2> intoFace;    ///< unit, in each face, away from the edge
+};
+
+class ContactFeatures {
+public:
+    ContactFeatures() = default;
+    /// From a solid mesh without equal points, in its object frame.
+    explicit ContactFeatures(const TriMesh& mesh);
+
+    const Points& points() const { return points_; }  ///< 3×#V, all of the mesh
+    /// Those where at least three faces of different directions meet.
+    const std::vector<std::int32_t>& corners() const { return corners_; }
+    const std::vector<ConvexEdge>& edges() const { return edges_; }
+    const SphereTree& cornerTree() const { return cornerTree_; }  ///< over corners()
+    const SphereTree& edgeTree() const { return edgeTree_; }      ///< over edges()
+
+    /// Whether the mesh around a corner lies on the positive side of the plane through it with this
+    /// normal, give or take kSupportSlack: whether something that comes along −normal … +normal can
+    /// meet the corner before it meets what surrounds it.
+    bool cornerSupports(std::int32_t corner, const Vec3& normal) const;
+
+private:
+    Points points_;
+    std::vector<std::int32_t> corners_;
+    std::vector<std::uint32_t> neighbourStart_;  // #V + 1
+    std::vector<Vec3> neighbours_;               // unit directions from the corner along its edges
+    std::vector<ConvexEdge> edges_;
+    SphereTree cornerTree_, edgeTree_;
+};
+
+/// Sine of the angle by which surroundings may stand in front of a feature that still counts: the
+/// far corners of a block that rocks on an edge are its next supports and must be known before they
+/// touch. Anything from 0.2 to 0.5 does.
+inline constexpr double kSupportSlack = 0.3;
+
+/// The same for an edge; `normal` points into its solid.
+bool edgeSupports(const ConvexEdge& edge, const Vec3& normal);
+
+}  // namespace scree
