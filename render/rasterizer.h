@@ -13,8 +13,10 @@ namespace scree {
 
 /// Quality against time. Sizes are upper limits; memory follows the largest picture drawn.
 struct RasterSettings {
-    int samples = 4;          ///< a pixel, 4 or 1 [-]: 1 is twice as fast, with stairs at edges
-    int shadowTexels = 2048;  ///< along an edge of the sun's map; fewer: coarse, softer shadows
+    int samples = 1;          ///< a pixel, 1 or 4 [-]: 4 also smooths what is inside of surfaces,
+                              ///< and takes twice as long
+    bool smoothEdges = true;  ///< with one sample: stairs are straightened (edge_smoothing.h)
+    int shadowTexels = 1536;  ///< along an edge of the sun's map; fewer: coarse, softer shadows
     int skyTexels = 512;      ///< along an edge of the sky's map, for light between bodies
     bool groundLines = true;  ///< a faint grid on planes, to judge distances by
     /// Direction to the sun, with +y up; turned for scenes whose up axis is z.
