@@ -32,10 +32,6 @@
 namespace scree {
 namespace {
 
-// Haze on planes begins and ends at these multiples of the distance from eye to target: measured
-// from the eye, so that it stands still while the heap moves.
-constexpr double kHazeBegin = 1.1, kHazeEnd = 6.0;
-
 // Texels of the sky's map, of which the near blur is 2.2, and the free margin around the bodies, as
 // far as the wide blur reaches: shares of a typical body's radius.
 constexpr double kSkyTexelShare = 0.16, kSkyMarginShare = 4.0;
@@ -62,31 +58,6 @@ ShadedMesh unitSquare()
     return mesh;
 }
 
-bool isFinite(const Pose& pose)
-{
-    return pose.position.allFinite() && pose.orientation.coeffs().allFinite();
-}
-
-/// Where a plane's square stands and faces, in its asset frame.
-PlaneSurface planeOf(const SceneMesh& mesh)
-{
-    const Vec3 a = mesh.points.col(mesh.triangles(0, 0)), b = mesh.points.col(mesh.triangles(1, 0)),
-               c = mesh.points.col(mesh.triangles(2, 0));
-    return {mesh.points.rowwise().mean(), (b - a).cross(c - a).normalized()};
-}
-
-/// Columns: two directions along the plane, the first as close as can be to a world axis, with the
-/// normal between them.
-Mat3 planeAxes(const Vec3& normal)
-{
-    Eigen::Index least = 0;
-    normal.cwiseAbs().minCoeff(&least);
-    const Vec3 u = (Vec3::Unit(least) - normal[least] * normal).normalized();
-    Mat3 axes;
-    axes << u, normal, u.cross(normal);
-    return axes;
-}
-
 /// From clip space, -1 … 1, to a texture and its depths, 0 … 1.
 Mat4 textureFromWorld(const DepthMapFit& fit)
 {
@@ -94,14 +65,6 @@ Mat4 textureFromWorld(const DepthMapFit& fit)
     half.topLeftCorner<3, 3>() *= 0.5;
     half.topRightCorner<3, 1>().setConstant(0.5);
     return half * fit.clipFromWorld;
-}
-
-double median(std::vector<double> values)
-{
-    if (values.empty()) return 1.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle > 0.0 ? *middle : 1.0;
 }
 
 }  // namespace
@@ -116,6 +79,11 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    void setLooks(const std::vector<Look>& looks)
+    {
+        SCREE_CHECK(looks.size() == looks_.size(), "one look per body is needed");
+        looks_ = looks;
+    }
     Image draw(const SceneFrame& frame, const Camera& camera, int width, int height);
 
 private:
@@ -143,6 +111,7 @@ private:
     View measure(const SceneFrame& frame, const Camera& camera, double aspect) const;
     void placeBodies(const SceneFrame& frame, const View& view);
     void drawBodies() const;
+    void drawWires(const View& view) const;
     void drawPlane(std::size_t index, const View& view);
     void drawScreen() const;
     void drawDepthsOfBodies(const SceneFrame& frame, const View& view, const Mat4& clipFromWorld,
@@ -162,7 +131,7 @@ private:
 
     OSMesaContext mesa_ = nullptr;
     std::array<std::uint32_t, 16> mesaWindow_{};  // OSMesa insists on one; nothing is drawn into it
-    Program bodyProgram_, planeProgram_, backgroundProgram_, resolveProgram_;
+    Program bodyProgram_, lineProgram_, planeProgram_, backgroundProgram_, resolveProgram_;
     std::vector<MeshBuffers> meshes_;
     std::vector<ShadedMesh> casters_;  // parallel to meshes_, without normals
     MeshBuffers square_;
@@ -180,9 +149,8 @@ Rasterizer::Context::Context(const SceneDescription& scene, const std::vector<Lo
     SCREE_CHECK(looks.size() == scene.bodies.size(), "one look per body is needed");
     SCREE_CHECK(settings.samples == 1 || settings.samples == 4, "samples a pixel: 1 or 4");
     pointsPerEdge_ = settings.samples == 4 ? 2 : 1;
-    const Vec3 sun = settings.towardSun.normalized();
-    up_ = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
-    towardSun_ = scene.zUp ? Vec3(sun.x(), -sun.z(), sun.y()) : sun;
+    up_ = upOf(scene);
+    towardSun_ = sunOf(scene, settings);
     openMesa();
     makePrograms();
     uploadScene(scene);
@@ -209,7 +177,9 @@ void Rasterizer::Context::openMesa()
 
 void Rasterizer::Context::makePrograms()
 {
-    const std::string light = shader::kLight, surface = light + shader::kSurfaceLight;
+    const std::string light = lightConstantsInGlsl() + shader::kLight;
+    const std::string surface = light + shader::kSurfaceLight;
+    lineProgram_ = Program(shader::kBodyVertex, shader::kLineFragment);
     bodyProgram_ = Program(shader::kBodyVertex, surface + shader::kBodyFragment);
     planeProgram_ = Program(shader::kBodyVertex, surface + shader::kPlaneFragment);
     backgroundProgram_ = Program(shader::kScreenVertex, light + shader::kBackgroundFragment);
@@ -219,12 +189,13 @@ void Rasterizer::Context::makePrograms()
 void Rasterizer::Context::uploadScene(const SceneDescription& scene)
 {
     std::vector<char> isPlaneMesh;
+    std::vector<double> radii;
     for (const SceneMesh& mesh : scene.meshes) {
         isPlaneMesh.push_back(isPlane(mesh));
         casters_.push_back(isPlaneMesh.back() ? ShadedMesh{} : shadeMesh(mesh));
         meshes_.push_back(isPlaneMesh.back() ? MeshBuffers{} : uploadMesh(casters_.back()));
+        radii.push_back(casters_.back().radius);
     }
-    std::vector<double> radii, movingRadii;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& body = scene.bodies[i];
         if (isPlaneMesh[body.mesh]) {
@@ -232,10 +203,8 @@ void Rasterizer::Context::uploadScene(const SceneDescription& scene)
             continue;
         }
         meshes_[body.mesh].bodies.push_back(i);
-        radii.push_back(meshes_[body.mesh].ball.radius);
-        if (body.moves) movingRadii.push_back(radii.back());
     }
-    typicalRadius_ = median(movingRadii.empty() ? radii : movingRadii);
+    typicalRadius_ = typicalRadius(scene, radii);
     square_ = uploadMesh(unitSquare());
 }
 
@@ -304,6 +273,19 @@ void Rasterizer::Context::drawBodies() const
         (mesh.isClosed ? glEnable : glDisable)(GL_CULL_FACE);
         mesh.draw();
     }
+}
+
+/// The edges of all triangles, a little in front of the surfaces they are of.
+void Rasterizer::Context::drawWires(const View& view) const
+{
+    lineProgram_.use();
+    lineProgram_.set("clipFromWorld", view.clipFromWorld);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glEnable(GL_POLYGON_OFFSET_LINE);
+    glPolygonOffset(-1.0f, -1.0f);
+    drawBodies();
+    glDisable(GL_POLYGON_OFFSET_LINE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
 /// The triangle that covers the whole picture, for programs made with kScreenVertex.
@@ -403,15 +385,14 @@ void Rasterizer::Context::drawPicture(const View& view)
     // Bodies first: they hide much of the planes, and both hide much of the background.
     setLight(bodyProgram_, view);
     drawBodies();
+    if (settings_.wireframe) drawWires(view);
 
-    // Choose lines a power of ten apart, some ten of them across the picture.
     setLight(planeProgram_, view);
-    const double spacing = std::pow(10.0, std::floor(std::log10(view.distance / 5.0)));
+    const double spacing = gridSpacing(view.distance), period = kStrongLinePeriod;
     planeProgram_.set("haze", kHazeBegin * view.distance, kHazeEnd * view.distance);
     for (std::size_t i = 0; i < planes_.size(); ++i) {
         const Mat3 axes = planeAxes(view.planes[i].normal);
         const Vec3 u = axes.col(0) / spacing, v = axes.col(2) / spacing;
-        const double period = 5.0;  // of the stronger lines
         planeProgram_.set("gridU", settings_.groundLines ? u : Vec3(Vec3::Zero()));
         planeProgram_.set("gridV", settings_.groundLines ? v : Vec3(Vec3::Zero()));
         planeProgram_.set("gridOrigin",
@@ -493,6 +474,11 @@ Rasterizer::Rasterizer(const SceneDescription& scene, const std::vector<Look>& l
 }
 
 Rasterizer::~Rasterizer() = default;
+
+void Rasterizer::setLooks(const std::vector<Look>& looks)
+{
+    context_->setLooks(looks);
+}
 
 Image Rasterizer::draw(const SceneFrame& frame, const Camera& camera, int width, int height)
 {

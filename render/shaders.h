@@ -50,6 +50,12 @@ void main()
 }
 )glsl";
 
+inline constexpr const char* kLineFragment = R"glsl(
+out vec4 pixel;
+
+void main() { pixel = vec4(0.09, 0.09, 0.10, 1.0); }
+)glsl";
+
 /// The mean of the points of each pixel. Squaring undoes the encoding well enough to average light.
 inline constexpr const char* kResolveFragment = R"glsl(
 uniform sampler2D points;
@@ -70,17 +76,10 @@ void main()
 }
 )glsl";
 
-/// What bodies, planes and background share.
+/// What bodies, planes and background share; stage.h gives the constants of the light.
 inline constexpr const char* kLight = R"glsl(
 uniform vec3 eye, up, toSun;
 out vec4 pixel;
-
-const vec3 kSun = 1.02 * vec3(1.0, 0.92, 0.80);
-const vec3 kZenith = vec3(0.10, 0.15, 0.22);
-const vec3 kHorizon = vec3(0.30, 0.34, 0.39);
-const vec3 kNadir = vec3(0.10, 0.105, 0.115);
-const vec3 kSkyLight = vec3(0.22, 0.27, 0.35);
-const vec3 kGroundLight = vec3(0.15, 0.125, 0.10);
 
 vec3 background(vec3 direction)
 {
