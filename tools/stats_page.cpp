@@ -75,7 +75,8 @@ function draw(plot) {
   const pen = canvas.getContext('2d');
   pen.scale(ratio, ratio);
   const left = 58, right = width - 8, top = 8, bottom = height - 20;
-  const values = plot.series.map(([, f]) => stats.map(f)), all = values.flat().filter(isFinite);
+  // Where nothing was simulated, as in the first frame, there is nothing to plot.
+  const values = plot.series.map(([, f]) => stats.map(s => s.substeps ? f(s) : NaN)), all = values.flat().filter(isFinite);
   let least = Math.min(0, ...all), most = Math.max(...all, least + 1e-12);
   const x = i => left + (right - left) * (stats.length > 1 ? i / (stats.length - 1) : 0.5);
   const y = v => bottom - (bottom - top) * (v - least) / (most - least);

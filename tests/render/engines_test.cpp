@@ -86,7 +86,14 @@ TEST(Engines, AWrongLightAMissingBodyAndAnInsideOutMeshAreSeen)
 {
     const test::PreviewScene right = heap();
     test::PreviewScene missing = heap(), insideOut = heap();
-    missing.frame.worldFromAsset.back().position.setConstant(
+    // The ring nearest to the eye: others may be hidden in the heap.
+    std::size_t nearest = right.scene.bodies.size() - 1;
+    const auto distance = [&](std::size_t body) {
+        return (right.frame.worldFromAsset[body].position - right.camera.eye).norm();
+    };
+    for (std::size_t body = 0; body < right.scene.bodies.size(); ++body)
+        if (right.scene.bodies[body].moves && distance(body) < distance(nearest)) nearest = body;
+    missing.frame.worldFromAsset[nearest].position.setConstant(
         std::numeric_limits<double>::quiet_NaN());
     insideOut.scene.meshes[1].triangles.row(0).swap(insideOut.scene.meshes[1].triangles.row(1));
     RasterSettings otherRaster;

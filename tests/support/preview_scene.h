@@ -45,13 +45,15 @@ inline PreviewScene strewnHeap(const TriMesh& mesh, double size, int count)
     SceneMesh square{"ground", Points(3, 4), Triangles(3, 2)};
     square.points << -5, -5, 5, 5, 0, 0, 0, 0, -5, 5, 5, -5;
     square.triangles << 0, 0, 1, 2, 2, 3;
-    const TriMesh pole = makeCylinder(0.25 * size, 8.0 * size, 20, 21);
+    const double reach = 0.85 * size * std::cbrt(count), height = 0.5 * reach;
+    const TriMesh pole = makeCylinder(0.25 * size, 0.9 * reach, 20, 21);
     heap.scene.meshes = {
         square, {"strewn", mesh.points, mesh.triangles}, {"pole", pole.points, pole.triangles}};
     heap.add(0, {}, {Vec3::Constant(0.4), 0.9}, false);
-    const double reach = 0.85 * size * std::cbrt(count), height = 0.5 * reach;
-    for (int i = 0; i < 25; ++i) {
-        const Vec3 place(0.4 * reach * (i % 5 - 2), 4.0 * size, 0.4 * reach * (i / 5 - 2));
+    const int row = count < 500 ? 2 : 5;
+    for (int i = 0; i < row * row; ++i) {
+        const Vec3 steps(i % row - 0.5 * (row - 1), 0.0, i / row - 0.5 * (row - 1));
+        const Vec3 place = 1.6 * reach / (row - 1) * steps + 0.45 * reach * Vec3::UnitY();
         heap.add(2, {place, Quat::Identity()}, {{0.35, 0.40, 0.48}, 0.6}, false);
     }
     for (int i = 0; i < count; ++i) {
@@ -61,7 +63,7 @@ inline PreviewScene strewnHeap(const TriMesh& mesh, double size, int count)
         heap.add(1, {Vec3(x, y, z), strewnTurn(i)}, {{0.72, 0.53, 0.30}, 0.4}, true);
     }
     heap.looks = variedLooks(heap.scene, heap.looks);
-    const Aabb box{{-reach, 0.0, -reach}, {reach, 8.0 * size, reach}};
+    const Aabb box{{-reach, 0.0, -reach}, {reach, 0.9 * reach, reach}};
     heap.camera = frameAll(box, threeQuarterView(false), Vec3::UnitY(), 16.0 / 9.0);
     return heap;
 }
