@@ -142,8 +142,7 @@ public:
     {
         // Without a camera of its own the view follows from all frames, not from those asked for: a
         // frame rendered alone looks as it does in the sequence.
-        TakePainter painter(take_, take_.frames(), options_.camera, size_,
-                            paintSettings(options_, take_.info()));
+        TakePainter painter(take_, options_.camera, size_, paintSettings(options_, take_.info()));
         Progress progress(console_, progressMode_, "render", static_cast<int>(frames_.size()));
         std::atomic<std::size_t> next = 0;
         std::mutex progressLock;

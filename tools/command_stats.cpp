@@ -27,7 +27,7 @@ std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count)
     const std::vector<int> frames = spreadFrames(take.frames(), count);
     const std::array<int, 2> shotSize = take.info().pictureSize;
     const int height = std::max(1, kThumbnailWidth * shotSize[1] / shotSize[0]);
-    TakePainter painter(take, take.frames(), "", {kThumbnailWidth, height});
+    TakePainter painter(take, "", {kThumbnailWidth, height});
     std::vector<Thumbnail> thumbnails(frames.size());
     parallelFor(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)

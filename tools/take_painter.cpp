@@ -17,8 +17,8 @@
 namespace scree {
 namespace {
 
-/// Frames that are looked at to find a view of everything: more would cost and show no more.
-constexpr int kViewFrames = 12;
+/// Frames that are looked at to find how fast bodies get.
+constexpr int kScaleFrames = 24;
 
 /// Half the time that the shutter is open where the take has no samples that tell [frames].
 constexpr double kHalfShutter = 0.25;
@@ -87,8 +87,7 @@ std::vector<Look> looksOf(const TakeInfo& info, const SceneDescription& scene)
 
 /// Around everything that movable bodies do, or around all bodies when none moves; planes not at
 /// all.
-Aabb actionBox(const TakeReader& take, const SceneDescription& scene,
-               const std::vector<int>& frames)
+Aabb actionBox(const TakeReader& take, const SceneDescription& scene)
 {
     std::vector<Aabb> meshBoxes(scene.meshes.size());
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
@@ -96,7 +95,7 @@ Aabb actionBox(const TakeReader& take, const SceneDescription& scene,
             meshBoxes[mesh].include(Vec3(scene.meshes[mesh].points.col(i)));
 
     Aabb moving, all;
-    for (const int number : spreadFrames(frames, kViewFrames)) {
+    for (const int number : take.frames()) {
         const SceneFrame frame = take.readFrame(number);
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
             if (take.info().bodies[body].isPlane) continue;
@@ -111,8 +110,8 @@ Aabb actionBox(const TakeReader& take, const SceneDescription& scene,
     return all.isEmpty() ? Aabb{-Vec3::Ones(), Vec3::Ones()} : all;
 }
 
-Camera chooseCamera(const TakeReader& take, const SceneDescription& scene,
-                    const std::vector<int>& frames, const std::string& name, double aspect)
+Camera chooseCamera(const TakeReader& take, const SceneDescription& scene, const std::string& name,
+                    double aspect)
 {
     const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
     std::string known;
@@ -124,10 +123,18 @@ Camera chooseCamera(const TakeReader& take, const SceneDescription& scene,
     if (!name.empty())
         throw Error(ErrorKind::usage, "the shot has no camera \"" + name + "\"" +
                                           (known.empty() ? "" : "; it has " + known));
-    return frameAll(actionBox(take, scene, frames), threeQuarterView(scene.zUp), up, aspect);
+    const SceneCamera view = viewOfAction(take, scene, aspect);
+    return {view.eye, view.target, up, view.fovDegrees};
 }
 
 }  // namespace
+
+SceneCamera viewOfAction(const TakeReader& take, const SceneDescription& scene, double aspect)
+{
+    const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
+    const Camera view = frameAll(actionBox(take, scene), threeQuarterView(scene.zUp), up, aspect);
+    return {"view", view.eye, view.target, view.fovDegrees};
+}
 
 LookKind parseLook(const std::string& word)
 {
@@ -168,25 +175,24 @@ private:
     std::unique_ptr<PictureEngine> engine_;
 };
 
-TakePainter::TakePainter(const TakeReader& take, const std::vector<int>& frames,
-                         const std::string& cameraName, const std::array<int, 2>& size,
-                         const PaintSettings& settings)
+TakePainter::TakePainter(const TakeReader& take, const std::string& cameraName,
+                         const std::array<int, 2>& size, const PaintSettings& settings)
     : take_(take), scene_(take.describe()), size_(size), settings_(settings)
 {
     const double aspect = static_cast<double>(size[0]) / size[1];
-    camera_ = chooseCamera(take, scene_, frames, cameraName, aspect);
+    camera_ = chooseCamera(take, scene_, cameraName, aspect);
     materialLooks_ = looksOf(take.info(), scene_);
-    if (settings.look == LookKind::speed) chooseScale(frames);
+    if (settings.look == LookKind::speed) chooseScale();
     if (settings.look == LookKind::sleep)
         legend_.entries = {{kMovingLook.color.cast<float>(), "moves"},
                            {kStillLook.color.cast<float>(), "stands still"}};
 }
 
 /// One scale for the whole shot: a colour means the same speed in every picture.
-void TakePainter::chooseScale(const std::vector<int>& frames)
+void TakePainter::chooseScale()
 {
     double fastest = 1e-3;
-    for (const int number : spreadFrames(frames, kViewFrames))
+    for (const int number : spreadFrames(take_.frames(), kScaleFrames))
         for (const Vec3& velocity : take_.readFrame(number).velocity)
             if (velocity.allFinite()) fastest = std::max(fastest, velocity.norm());
     fastest_ = roundedUp(fastest);

@@ -34,13 +34,16 @@ struct PaintSettings {
 /// "shaded", "wireframe", "speed", "sleep" or "id"; throws Error{usage} naming the nearest one.
 LookKind parseLook(const std::string& word);
 
+/// A camera that sees all that movable bodies do in the take, or all bodies when none moves; it
+/// never cuts anything off. For shots that have no camera.
+SceneCamera viewOfAction(const TakeReader& take, const SceneDescription& scene, double aspect);
+
 class TakePainter {
 public:
-    /// `cameraName` empty: the shot's first camera, or without one a view of all the movable bodies
-    /// do in `frames`. Throws Error{usage} for a name that the take does not have.
-    TakePainter(const TakeReader& take, const std::vector<int>& frames,
-                const std::string& cameraName, const std::array<int, 2>& size,
-                const PaintSettings& settings = {});
+    /// `cameraName` empty: the shot's first camera, or without one viewOfAction(). Throws
+    /// Error{usage} for a name that the take does not have.
+    TakePainter(const TakeReader& take, const std::string& cameraName,
+                const std::array<int, 2>& size, const PaintSettings& settings = {});
 
     /// `burnedIn` is written into the lower left corner; empty for none. Several threads may paint
     /// at once; each then has an engine of its own.
@@ -54,7 +57,7 @@ private:
 
     std::unique_ptr<PictureEngine> makeEngine() const;
     std::vector<Look> looksIn(const SceneFrame& frame) const;
-    void chooseScale(const std::vector<int>& frames);
+    void chooseScale();
 
     const TakeReader& take_;
     SceneDescription scene_;
