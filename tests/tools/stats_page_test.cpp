@@ -58,7 +58,7 @@ TEST(StatsPage, DrawsItsPlotsInABrowser)
     const CommandResult shown = runCommand(
         "timeout 60 " + browser.output.substr(0, browser.output.find('\n')) +
         " --headless --no-sandbox --disable-gpu --user-data-dir=" + quoted(folder / "profile") +
-        " --dump-dom " + quoted("file://" + (folder / "stats.html").string()));
+        " --dump-dom " + "file://" + quoted(folder / "stats.html"));
     // The script sets this when it has come to its end: how many plots have a canvas.
     EXPECT_NE(shown.output.find("data-ready=\"7\""), std::string::npos)
         << shown.output.substr(0, 400);
