@@ -92,6 +92,8 @@ struct ShotCamera {
 
 struct ShotRender {
     std::array<int, 2> size = {1280, 720};
+    bool burnIn = true;  ///< figures written into the pictures
+    int motionBlur = 1;  ///< moments a picture is the mean of
 };
 
 struct ShotOutput {

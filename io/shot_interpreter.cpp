@@ -413,6 +413,10 @@ private:
         }
         if (const ShotNode* render = tree_.find("render")) {
             shot_.render.size = toInts<2>(*render->find("size"));
+            if (const ShotNode* burnIn = render->find("burnin"))
+                shot_.render.burnIn = burnIn->boolean;
+            if (const ShotNode* moments = render->find("motion_blur"))
+                shot_.render.motionBlur = static_cast<int>(moments->integer);
         }
         if (const ShotNode* output = tree_.find("output")) {
             for (const ShotNode& word : output->find("export")->items) {

@@ -630,8 +630,16 @@ const std::vector<ShotKey> kLookKeys = {
      .help = "Width and height."},
     {.path = "render.burnin",
      .type = boolean,
-     .isPlanned = true,
-     .help = "Shot, frame and bodies written into the picture."},
+     .help = "Whether shot, frame, time, bodies and worst overlap are written into the pictures: "
+             "yes unless said otherwise. `scree render --burnin` and `--no-burnin` overrule it."},
+    {.path = "render.motion_blur",
+     .type = integer,
+     .unit = "moments",
+     .min = 1,
+     .max = 1000,
+     .help = "Pictures are the mean of so many moments while the shutter is open: from the first "
+             "to the last of output.subframes, or a quarter of a frame either way. 1, or none, is "
+             "no blur; below 8, fast bodies show as several."},
     {.path = "output",
      .type = table,
      .byDefault = "{}",

@@ -87,6 +87,8 @@ void readPictures(const Json& json, TakeInfo& info)
         info.cameras.push_back({camera.at("name"), vectorFromJson(camera.at("eye")),
                                 vectorFromJson(camera.at("target")), camera.at("fov")});
     info.pictureSize = {json.at("picture_size").at(0), json.at("picture_size").at(1)};
+    info.burnIn = json.value("burnin", true);
+    info.motionBlur = json.value("motion_blur", 1);
 }
 
 void describePictures(const Shot& shot, TakeInfo& info)
@@ -99,6 +101,8 @@ void describePictures(const Shot& shot, TakeInfo& info)
         info.cameras.push_back({camera.name, camera.eye / shot.metresPerUnit,
                                 camera.target / shot.metresPerUnit, camera.fovDegrees});
     info.pictureSize = shot.render.size;
+    info.burnIn = shot.render.burnIn;
+    info.motionBlur = shot.render.motionBlur;
 }
 
 TakeInfo infoFromJson(const Json& json)
@@ -179,6 +183,8 @@ std::string encodeTakeInfo(const TakeInfo& info)
         {"looks", listToJson(info.looks)},
         {"cameras", listToJson(info.cameras)},
         {"picture_size", info.pictureSize},
+        {"burnin", info.burnIn},
+        {"motion_blur", info.motionBlur},
         {"subframes", info.offsets},
         {"shot", info.resolvedShot},
     };

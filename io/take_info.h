@@ -70,6 +70,8 @@ struct TakeInfo {
     std::vector<TakeLook> looks;
     std::vector<TakeCamera> cameras;
     std::array<int, 2> pictureSize = {1280, 720};
+    bool burnIn = true;                   ///< figures written into the pictures
+    int motionBlur = 1;                   ///< moments a picture is the mean of
     std::vector<double> offsets = {0.0};  ///< of the samples around every frame (io/subframes.h)
 };
 

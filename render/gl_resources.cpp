@@ -41,13 +41,6 @@ void attachBuffer(GLuint buffer, GLenum format, GLenum attachment, int width, in
 }
 
 /// Makes the names of a target that is new.
-void makeNames(DrawnTexture& target)
-{
-    if (target.size > 0) return;
-    glGenTextures(1, &target.texture);
-    glGenFramebuffers(1, &target.framebuffer);
-}
-
 void makeNames(PictureTarget& target)
 {
     if (target.width > 0) return;
@@ -160,35 +153,36 @@ void Program::set(const char* name, int x, int y) const
 
 // ----------------------------------------------------------------------------------------- targets
 
-void resizeDepths(DrawnTexture& target, int size, bool compares)
+/// Puts values into a texture, which is made or given another size as needed.
+void upload(MapTexture& target, int size, GLint kept, GLenum given,
+            const std::vector<float>& values)
 {
-    if (target.size == size) return;
-    makeNames(target);
-    target.size = size;
+    if (target.texture == 0) glGenTextures(1, &target.texture);
     glBindTexture(GL_TEXTURE_2D, target.texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT,
-                 GL_UNSIGNED_INT, nullptr);
-    setSampling({1.0f, 1.0f, 1.0f, 1.0f});
-    if (compares)
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, target.texture, 0);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-    requireComplete("a depth map");
+    if (target.size == size)
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size, size, given, GL_FLOAT, values.data());
+    else
+        glTexImage2D(GL_TEXTURE_2D, 0, kept, size, size, 0, given, GL_FLOAT, values.data());
+    target.size = size;
 }
 
-void resizeMoments(DrawnTexture& target, int size)
+void uploadDepths(MapTexture& target, const DepthMap& map)
 {
-    if (target.size == size) return;
-    makeNames(target);
-    target.size = size;
-    glBindTexture(GL_TEXTURE_2D, target.texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, size, size, 0, GL_RG, GL_FLOAT, nullptr);
+    upload(target, map.size, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, map.depths);
+    setSampling({1.0f, 1.0f, 1.0f, 1.0f});
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+}
+
+void uploadMoments(MapTexture& target, const DepthMoments& moments)
+{
+    upload(target, moments.size, GL_RG32F, GL_RG, moments.values);
     setSampling({100.0f, 10000.0f, 0.0f, 0.0f});  // beyond the map everything is far below
-    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);
-    requireComplete("a map of heights");
+}
+
+void uploadBounds(MapTexture& target, const DepthBounds& bounds)
+{
+    upload(target, bounds.size, GL_RG32F, GL_RG, bounds.values);
+    setSampling({1.0f, 1.0f, 0.0f, 0.0f});  // beyond the map nothing is
 }
 
 void resizePicture(PictureTarget& target, int width, int height, int pointsPerEdge)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scene/shaded_mesh.h"
+#include "render/depth_map.h"
 #include "render/look.h"
 #include "render/view_fit.h"
 
@@ -39,20 +40,19 @@ private:
     unsigned id_ = 0;
 };
 
-/// A square texture and the framebuffer that draws into it.
-struct DrawnTexture {
+/// A square texture that is filled from memory.
+struct MapTexture {
     unsigned texture = 0;
-    unsigned framebuffer = 0;
     int size = 0;
 };
 
-/// Makes the target or gives it another size. `compares`: reading it gives the share of
-/// neighbouring texels that are at least as deep as asked, 1 outside the map; otherwise it gives
-/// the depth.
-void resizeDepths(DrawnTexture& target, int size, bool compares);
+/// Depths; reading them gives the share of neighbouring texels that are at least as deep as asked,
+/// 1 outside the map.
+void uploadDepths(MapTexture& target, const DepthMap& map);
 
-/// The same for two numbers a texel; outside the map they say that everything is far below.
-void resizeMoments(DrawnTexture& target, int size);
+/// Two numbers a texel; outside the map they say that everything is far below.
+void uploadMoments(MapTexture& target, const DepthMoments& moments);
+void uploadBounds(MapTexture& target, const DepthBounds& bounds);
 
 /// Where a picture is drawn: one or two by two points for each pixel, and then the pixels
 /// themselves.

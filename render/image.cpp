@@ -163,6 +163,13 @@ Image downscaled(const Image& image, int width, int height)
     return withFewerRows(withFewerColumns(image, width), height);
 }
 
+void addShare(Image& image, const Image& source, float share)
+{
+    SCREE_CHECK(image.values.size() == source.values.size(), "pictures of different sizes");
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        image.values[i] += share * source.values[i];
+}
+
 void paste(Image& target, const Image& source, int x, int y)
 {
     const int firstX = std::max(0, -x), endX = std::min(source.width, target.width - x);

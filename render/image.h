@@ -46,6 +46,9 @@ Image fromSrgbBytes(int width, int height, std::span<const std::uint8_t> bytes);
 /// covers.
 Image downscaled(const Image& image, int width, int height);
 
+/// Adds `share` times `source`, which has the same size, to every pixel.
+void addShare(Image& image, const Image& source, float share);
+
 /// Copies `source` with its top left corner to (x, y); what falls outside `target` is dropped.
 void paste(Image& target, const Image& source, int x, int y);
 

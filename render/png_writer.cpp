@@ -73,7 +73,8 @@ bool encode(PngEncoder& encoder, int width, int height, std::span<std::uint8_t*>
     png_set_IHDR(png, encoder.info, static_cast<png_uint_32>(width),
                  static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-    png_set_sRGB(png, encoder.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    // With gAMA and cHRM for readers that do not know sRGB.
+    png_set_sRGB_gAMA_and_cHRM(png, encoder.info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (!texts.empty())
         png_set_text(png, encoder.info, texts.data(), static_cast<int>(texts.size()));
     png_write_info(png, encoder.info);

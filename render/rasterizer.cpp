@@ -1,10 +1,9 @@
-// Four passes make a picture: depths seen from the sun, depths seen from the sky and their blurred
-// moments, the picture itself at several points a pixel, and their mean. What a pass computes per
-// pixel is in shaders.h; how far each map reaches is in view_fit.h.
+// Depths seen from the sun and from the sky are drawn by depth_map.h; OpenGL then makes the
+// picture. What is computed for a pixel is in shaders.h; how far each map reaches is in view_fit.h.
 //
-// Edges are smoothed by drawing at twice the width and height. OpenGL's multisampling shades less
-// but took twice as long on a heap of 1000 rings: the software rasteriser has no short way for
-// small triangles with several samples, and it left highlights and shadow edges unsmoothed.
+// A pixel is one point, and its edges are smoothed afterwards (edge_smoothing.h), or the picture is
+// drawn at twice the width and height. OpenGL's multisampling was slower than either on a heap of
+// 1000 rings: the software rasteriser has no short way for small triangles with several samples.
 //
 // All positions given to OpenGL are measured from the camera's target.
 #include "render/rasterizer.h"
@@ -24,6 +23,8 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/scene/shaded_mesh.h"
+#include "render/depth_map.h"
+#include "render/edge_smoothing.h"
 #include "render/gl_resources.h"
 #include "render/shaders.h"
 #include "render/view_fit.h"
@@ -31,16 +32,21 @@
 namespace scree {
 namespace {
 
-// Haze on planes begins and ends at these multiples of the distance from eye to target: measured
-// from the eye, so that it stands still while the heap moves.
-constexpr double kHazeBegin = 1.1, kHazeEnd = 6.0;
-
 // Texels of the sky's map, of which the near blur is 2.2, and the free margin around the bodies, as
 // far as the wide blur reaches: shares of a typical body's radius.
 constexpr double kSkyTexelShare = 0.16, kSkyMarginShare = 4.0;
 constexpr int kWideBlurStride = 4;  // texels between taps of the wide blur
 
-enum TextureUnit { kShadowUnit, kNearHeightsUnit, kWideHeightsUnit, kFilterUnit };
+// Depth a triangle may span over a texel before it shades itself, in texels.
+constexpr double kSlopeBias = 1.5;
+
+enum TextureUnit {
+    kShadowUnit,
+    kShadowBoundsUnit,
+    kNearHeightsUnit,
+    kWideHeightsUnit,
+    kFilterUnit
+};
 
 /// A square from -1 to 1 in x and z whose normal is +y.
 ShadedMesh unitSquare()
@@ -52,31 +58,6 @@ ShadedMesh unitSquare()
     return mesh;
 }
 
-bool isFinite(const Pose& pose)
-{
-    return pose.position.allFinite() && pose.orientation.coeffs().allFinite();
-}
-
-/// Where a plane's square stands and faces, in its asset frame.
-PlaneSurface planeOf(const SceneMesh& mesh)
-{
-    const Vec3 a = mesh.points.col(mesh.triangles(0, 0)), b = mesh.points.col(mesh.triangles(1, 0)),
-               c = mesh.points.col(mesh.triangles(2, 0));
-    return {mesh.points.rowwise().mean(), (b - a).cross(c - a).normalized()};
-}
-
-/// Columns: two directions along the plane, the first as close as can be to a world axis, with the
-/// normal between them.
-Mat3 planeAxes(const Vec3& normal)
-{
-    Eigen::Index least = 0;
-    normal.cwiseAbs().minCoeff(&least);
-    const Vec3 u = (Vec3::Unit(least) - normal[least] * normal).normalized();
-    Mat3 axes;
-    axes << u, normal, u.cross(normal);
-    return axes;
-}
-
 /// From clip space, -1 … 1, to a texture and its depths, 0 … 1.
 Mat4 textureFromWorld(const DepthMapFit& fit)
 {
@@ -84,14 +65,6 @@ Mat4 textureFromWorld(const DepthMapFit& fit)
     half.topLeftCorner<3, 3>() *= 0.5;
     half.topRightCorner<3, 1>().setConstant(0.5);
     return half * fit.clipFromWorld;
-}
-
-double median(std::vector<double> values)
-{
-    if (values.empty()) return 1.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle > 0.0 ? *middle : 1.0;
 }
 
 }  // namespace
@@ -106,6 +79,11 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    void setLooks(const std::vector<Look>& looks)
+    {
+        SCREE_CHECK(looks.size() == looks_.size(), "one look per body is needed");
+        looks_ = looks;
+    }
     Image draw(const SceneFrame& frame, const Camera& camera, int width, int height);
 
 private:
@@ -133,15 +111,17 @@ private:
     View measure(const SceneFrame& frame, const Camera& camera, double aspect) const;
     void placeBodies(const SceneFrame& frame, const View& view);
     void drawBodies() const;
+    void drawWires(const View& view) const;
     void drawPlane(std::size_t index, const View& view);
     void drawScreen() const;
-    void drawSunDepths(const View& view);
-    void drawSkyHeights(const View& view);
-    void blur(const DrawnTexture& source, const DrawnTexture& target, bool readsDepth, int strideX,
-              int strideY) const;
+    void drawDepthsOfBodies(const SceneFrame& frame, const View& view, const Mat4& clipFromWorld,
+                            double slopeBias);
+    void drawSunDepths(const SceneFrame& frame, const View& view);
+    void drawSkyHeights(const SceneFrame& frame, const View& view);
     void setLight(const Program& program, const View& view) const;
     void drawPicture(const View& view);
-    Image resolve();
+    void averagePoints();
+    Image readPicture();
 
     RasterSettings settings_;
     std::vector<Look> looks_;
@@ -151,13 +131,15 @@ private:
 
     OSMesaContext mesa_ = nullptr;
     std::array<std::uint32_t, 16> mesaWindow_{};  // OSMesa insists on one; nothing is drawn into it
-    Program depthProgram_, blurProgram_, bodyProgram_, planeProgram_, backgroundProgram_,
-        resolveProgram_;
+    Program bodyProgram_, lineProgram_, planeProgram_, backgroundProgram_, resolveProgram_;
     std::vector<MeshBuffers> meshes_;
+    std::vector<ShadedMesh> casters_;  // parallel to meshes_, without normals
     MeshBuffers square_;
     std::vector<PlaneBody> planes_;
-    DrawnTexture sunDepths_, skyDepths_, blurred_, nearHeights_, wideHeights_;
+    DepthMap depths_;  // scratch
+    MapTexture sunDepths_, sunBounds_, nearHeights_, wideHeights_;
     PictureTarget picture_;
+    std::vector<std::uint8_t> bytes_;  // scratch
 };
 
 Rasterizer::Context::Context(const SceneDescription& scene, const std::vector<Look>& looks,
@@ -167,9 +149,8 @@ Rasterizer::Context::Context(const SceneDescription& scene, const std::vector<Lo
     SCREE_CHECK(looks.size() == scene.bodies.size(), "one look per body is needed");
     SCREE_CHECK(settings.samples == 1 || settings.samples == 4, "samples a pixel: 1 or 4");
     pointsPerEdge_ = settings.samples == 4 ? 2 : 1;
-    const Vec3 sun = settings.towardSun.normalized();
-    up_ = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
-    towardSun_ = scene.zUp ? Vec3(sun.x(), -sun.z(), sun.y()) : sun;
+    up_ = upOf(scene);
+    towardSun_ = sunOf(scene, settings);
     openMesa();
     makePrograms();
     uploadScene(scene);
@@ -196,9 +177,9 @@ void Rasterizer::Context::openMesa()
 
 void Rasterizer::Context::makePrograms()
 {
-    const std::string light = shader::kLight, surface = light + shader::kSurfaceLight;
-    depthProgram_ = Program(shader::kBodyVertex, shader::kDepthFragment);
-    blurProgram_ = Program(shader::kScreenVertex, shader::kBlurFragment);
+    const std::string light = lightConstantsInGlsl() + shader::kLight;
+    const std::string surface = light + shader::kSurfaceLight;
+    lineProgram_ = Program(shader::kBodyVertex, shader::kLineFragment);
     bodyProgram_ = Program(shader::kBodyVertex, surface + shader::kBodyFragment);
     planeProgram_ = Program(shader::kBodyVertex, surface + shader::kPlaneFragment);
     backgroundProgram_ = Program(shader::kScreenVertex, light + shader::kBackgroundFragment);
@@ -208,11 +189,13 @@ void Rasterizer::Context::makePrograms()
 void Rasterizer::Context::uploadScene(const SceneDescription& scene)
 {
     std::vector<char> isPlaneMesh;
+    std::vector<double> radii;
     for (const SceneMesh& mesh : scene.meshes) {
         isPlaneMesh.push_back(isPlane(mesh));
-        meshes_.push_back(isPlaneMesh.back() ? MeshBuffers{} : uploadMesh(shadeMesh(mesh)));
+        casters_.push_back(isPlaneMesh.back() ? ShadedMesh{} : shadeMesh(mesh));
+        meshes_.push_back(isPlaneMesh.back() ? MeshBuffers{} : uploadMesh(casters_.back()));
+        radii.push_back(casters_.back().radius);
     }
-    std::vector<double> radii, movingRadii;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& body = scene.bodies[i];
         if (isPlaneMesh[body.mesh]) {
@@ -220,10 +203,8 @@ void Rasterizer::Context::uploadScene(const SceneDescription& scene)
             continue;
         }
         meshes_[body.mesh].bodies.push_back(i);
-        radii.push_back(meshes_[body.mesh].ball.radius);
-        if (body.moves) movingRadii.push_back(radii.back());
     }
-    typicalRadius_ = median(movingRadii.empty() ? radii : movingRadii);
+    typicalRadius_ = typicalRadius(scene, radii);
     square_ = uploadMesh(unitSquare());
 }
 
@@ -294,6 +275,19 @@ void Rasterizer::Context::drawBodies() const
     }
 }
 
+/// The edges of all triangles, a little in front of the surfaces they are of.
+void Rasterizer::Context::drawWires(const View& view) const
+{
+    lineProgram_.use();
+    lineProgram_.set("clipFromWorld", view.clipFromWorld);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glEnable(GL_POLYGON_OFFSET_LINE);
+    glPolygonOffset(-1.0f, -1.0f);
+    drawBodies();
+    glDisable(GL_POLYGON_OFFSET_LINE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
 /// The triangle that covers the whole picture, for programs made with kScreenVertex.
 void Rasterizer::Context::drawScreen() const
 {
@@ -319,58 +313,40 @@ void Rasterizer::Context::drawPlane(std::size_t index, const View& view)
     square_.draw();
 }
 
-void Rasterizer::Context::drawSunDepths(const View& view)
+void Rasterizer::Context::drawDepthsOfBodies(const SceneFrame& frame, const View& view,
+                                             const Mat4& clipFromWorld, double slopeBias)
 {
-    resizeDepths(sunDepths_, view.sun.size, true);
-    glBindFramebuffer(GL_FRAMEBUFFER, sunDepths_.framebuffer);
-    glViewport(0, 0, sunDepths_.size, sunDepths_.size);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    depthProgram_.use();
-    depthProgram_.set("clipFromWorld", view.sun.clipFromWorld);
-    glEnable(GL_DEPTH_CLAMP);
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(1.5f, 2.0f);
-    drawBodies();
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glDisable(GL_DEPTH_CLAMP);
+    for (std::size_t mesh = 0; mesh < meshes_.size(); ++mesh) {
+        for (const std::size_t body : meshes_[mesh].bodies) {
+            const Pose& pose = frame.worldFromAsset[body];
+            if (!isFinite(pose)) continue;
+            Mat4 worldFromAsset = Mat4::Identity();
+            worldFromAsset.topLeftCorner<3, 3>() = pose.orientation.toRotationMatrix();
+            worldFromAsset.topRightCorner<3, 1>() = pose.position - view.origin;
+            drawDepths(depths_, casters_[mesh], clipFromWorld * worldFromAsset, slopeBias);
+        }
+    }
+}
+
+void Rasterizer::Context::drawSunDepths(const SceneFrame& frame, const View& view)
+{
+    clearDepths(depths_, view.sun.size);
+    drawDepthsOfBodies(frame, view, view.sun.clipFromWorld, kSlopeBias);
+    uploadDepths(sunDepths_, depths_);
+    uploadBounds(sunBounds_, boundDepths(depths_));
 }
 
 /// Depths seen from above, then their moments under a narrow and a wide blur.
-void Rasterizer::Context::drawSkyHeights(const View& view)
+void Rasterizer::Context::drawSkyHeights(const SceneFrame& frame, const View& view)
 {
-    const int size = view.sky.size;
-    resizeDepths(skyDepths_, size, false);
-    for (DrawnTexture* target : {&blurred_, &nearHeights_, &wideHeights_})
-        resizeMoments(*target, size);
-    glBindFramebuffer(GL_FRAMEBUFFER, skyDepths_.framebuffer);
-    glViewport(0, 0, size, size);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    depthProgram_.use();
-    depthProgram_.set("clipFromWorld", view.sky.clipFromWorld);
-    glEnable(GL_DEPTH_CLAMP);
-    drawBodies();
-    for (std::size_t i = 0; i < planes_.size(); ++i) drawPlane(i, view);
-    glDisable(GL_DEPTH_CLAMP);
-
-    glDisable(GL_DEPTH_TEST);
-    blurProgram_.use();
-    blur(skyDepths_, blurred_, true, 1, 0);
-    blur(blurred_, nearHeights_, false, 0, 1);
-    blur(nearHeights_, blurred_, false, kWideBlurStride, 0);
-    blur(blurred_, wideHeights_, false, 0, kWideBlurStride);
-    glEnable(GL_DEPTH_TEST);
-}
-
-void Rasterizer::Context::blur(const DrawnTexture& source, const DrawnTexture& target,
-                               bool readsDepth, int strideX, int strideY) const
-{
-    glActiveTexture(GL_TEXTURE0 + kFilterUnit);
-    glBindTexture(GL_TEXTURE_2D, source.texture);
-    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    blurProgram_.set("source", kFilterUnit);
-    blurProgram_.set("readsDepth", readsDepth ? 1 : 0);
-    blurProgram_.set("stride", strideX, strideY);
-    drawScreen();
+    clearDepths(depths_, view.sky.size);
+    drawDepthsOfBodies(frame, view, view.sky.clipFromWorld, 0.0);
+    for (const PlaneSurface& plane : view.planes)
+        if (plane.normal.dot(view.camera.eye - plane.point) > 0.0)  // else it is not seen either
+            drawPlaneDepths(depths_, plane, view.sky.clipFromWorld);
+    const DepthMoments near = blurred(momentsOf(depths_), 1);
+    uploadMoments(nearHeights_, near);
+    uploadMoments(wideHeights_, blurred(near, kWideBlurStride));
 }
 
 /// Selects a program and tells it of lights and maps.
@@ -383,6 +359,7 @@ void Rasterizer::Context::setLight(const Program& program, const View& view) con
     program.set("up", up_);
     program.set("toSun", towardSun_);
     program.set("shadowMap", kShadowUnit);
+    program.set("shadowBounds", kShadowBoundsUnit);
     program.set("shadowFromWorld", textureFromWorld(view.sun));
     program.set("shadowTexel", view.sun.texel);
     program.set("nearHeights", kNearHeightsUnit);
@@ -395,6 +372,7 @@ void Rasterizer::Context::setLight(const Program& program, const View& view) con
 void Rasterizer::Context::drawPicture(const View& view)
 {
     for (const auto& [unit, texture] : {std::pair(kShadowUnit, sunDepths_.texture),
+                                        std::pair(kShadowBoundsUnit, sunBounds_.texture),
                                         std::pair(kNearHeightsUnit, nearHeights_.texture),
                                         std::pair(kWideHeightsUnit, wideHeights_.texture)}) {
         glActiveTexture(GL_TEXTURE0 + unit);
@@ -407,15 +385,14 @@ void Rasterizer::Context::drawPicture(const View& view)
     // Bodies first: they hide much of the planes, and both hide much of the background.
     setLight(bodyProgram_, view);
     drawBodies();
+    if (settings_.wireframe) drawWires(view);
 
-    // Choose lines a power of ten apart, some ten of them across the picture.
     setLight(planeProgram_, view);
-    const double spacing = std::pow(10.0, std::floor(std::log10(view.distance / 5.0)));
+    const double spacing = gridSpacing(view.distance), period = kStrongLinePeriod;
     planeProgram_.set("haze", kHazeBegin * view.distance, kHazeEnd * view.distance);
     for (std::size_t i = 0; i < planes_.size(); ++i) {
         const Mat3 axes = planeAxes(view.planes[i].normal);
         const Vec3 u = axes.col(0) / spacing, v = axes.col(2) / spacing;
-        const double period = 5.0;  // of the stronger lines
         planeProgram_.set("gridU", settings_.groundLines ? u : Vec3(Vec3::Zero()));
         planeProgram_.set("gridV", settings_.groundLines ? v : Vec3(Vec3::Zero()));
         planeProgram_.set("gridOrigin",
@@ -428,28 +405,33 @@ void Rasterizer::Context::drawPicture(const View& view)
     drawScreen();
 }
 
-/// Averages the points of each pixel and turns OpenGL's rows, bottom first, round.
-Image Rasterizer::Context::resolve()
+/// Averages the points of each pixel into the framebuffer that is then read.
+void Rasterizer::Context::averagePoints()
 {
-    const int width = picture_.width, height = picture_.height;
     glActiveTexture(GL_TEXTURE0 + kFilterUnit);
     glBindTexture(GL_TEXTURE_2D, picture_.pointColors);
     glBindFramebuffer(GL_FRAMEBUFFER, picture_.pixels);
-    glViewport(0, 0, width, height);
+    glViewport(0, 0, picture_.width, picture_.height);
     glDisable(GL_DEPTH_TEST);
     resolveProgram_.use();
     resolveProgram_.set("points", kFilterUnit);
     resolveProgram_.set("pointsPerEdge", pointsPerEdge_);
     drawScreen();
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(width) * height * 4);
-    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+}
 
+/// Fetches the picture and turns OpenGL's rows, bottom first, round.
+Image Rasterizer::Context::readPicture()
+{
+    const int width = picture_.width, height = picture_.height;
+    bytes_.resize(static_cast<std::size_t>(width) * height * 4);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
     Image image(width, height);
-    for (int y = 0; y < height; ++y) {
-        const std::uint8_t* row =
-            bytes.data() + static_cast<std::size_t>(height - 1 - y) * width * 4;
-        for (int x = 0; x < width; ++x, row += 4)
-            image.set(x, y, {decodeSrgb(row[0]), decodeSrgb(row[1]), decodeSrgb(row[2])});
+    float* value = image.values.data();
+    for (int y = height - 1; y >= 0; --y) {
+        const std::uint8_t* byte = bytes_.data() + static_cast<std::size_t>(y) * width * 4;
+        for (int x = 0; x < width; ++x, byte += 4, value += 3)
+            for (int channel = 0; channel < 3; ++channel)
+                value[channel] = decodeSrgb(byte[channel]);
     }
     return image;
 }
@@ -473,13 +455,15 @@ Image Rasterizer::Context::draw(const SceneFrame& frame, const Camera& camera, i
     placeBodies(frame, view);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
-    drawSunDepths(view);
-    drawSkyHeights(view);
+    drawSunDepths(frame, view);
+    drawSkyHeights(frame, view);
     resizePicture(picture_, width, height, pointsPerEdge_);
     drawPicture(view);
-    Image image = resolve();
+    if (pointsPerEdge_ > 1) averagePoints();
+    Image image = readPicture();
     const GLenum error = glGetError();
     SCREE_CHECK(error == GL_NO_ERROR, "OpenGL error " + std::to_string(error));
+    if (pointsPerEdge_ == 1 && settings_.smoothEdges) smoothEdges(image);
     return image;
 }
 
@@ -490,6 +474,11 @@ Rasterizer::Rasterizer(const SceneDescription& scene, const std::vector<Look>& l
 }
 
 Rasterizer::~Rasterizer() = default;
+
+void Rasterizer::setLooks(const std::vector<Look>& looks)
+{
+    context_->setLooks(looks);
+}
 
 Image Rasterizer::draw(const SceneFrame& frame, const Camera& camera, int width, int height)
 {

@@ -4,40 +4,34 @@
 #include <memory>
 #include <vector>
 
-#include "core/scene/scene_description.h"
-#include "render/camera.h"
-#include "render/image.h"
-#include "render/look.h"
+#include "render/picture_engine.h"
+#include "render/stage.h"
 
 namespace scree {
 
 /// Quality against time. Sizes are upper limits; memory follows the largest picture drawn.
-struct RasterSettings {
-    int samples = 4;          ///< a pixel, 4 or 1 [-]: 1 is twice as fast, with stairs at edges
-    int shadowTexels = 2048;  ///< along an edge of the sun's map; fewer: coarse, softer shadows
+struct RasterSettings : StageSettings {
+    int samples = 1;          ///< a pixel, 1 or 4 [-]: 4 also smooths what is inside of surfaces,
+                              ///< and takes twice as long
+    bool smoothEdges = true;  ///< with one sample: stairs are straightened (edge_smoothing.h)
+    int shadowTexels = 1536;  ///< along an edge of the sun's map; fewer: coarse, softer shadows
     int skyTexels = 512;      ///< along an edge of the sky's map, for light between bodies
-    bool groundLines = true;  ///< a faint grid on planes, to judge distances by
-    /// Direction to the sun, with +y up; turned for scenes whose up axis is z.
-    Vec3 towardSun = {-0.30, 0.80, 0.55};
 };
 
-/// Draws frames of one scene. A picture depends on its arguments alone: not on the pictures before
-/// and not on the number of threads, which is threadCount() when the first Rasterizer of the
-/// process is made, unless the environment says otherwise (LP_NUM_THREADS).
-///
-/// Planes (meshes of two triangles) are drawn as what they stand for, half spaces without end.
-/// Bodies with a pose that is not finite are left out.
-class Rasterizer {
+/// The number of threads is threadCount() when the first Rasterizer of the process is made, unless
+/// the environment says otherwise (LP_NUM_THREADS). Several may draw at once, each in a thread of
+/// its own, and use processors better than one after the other.
+class Rasterizer : public PictureEngine {
 public:
     /// `looks` is parallel to scene.bodies. Throws Error{internal} when there is no OpenGL 3.3.
     Rasterizer(const SceneDescription& scene, const std::vector<Look>& looks,
                const RasterSettings& settings = {});
-    ~Rasterizer();
+    ~Rasterizer() override;
     Rasterizer(const Rasterizer&) = delete;
     Rasterizer& operator=(const Rasterizer&) = delete;
 
-    /// One picture. One thread at a time; which thread does not matter.
-    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height);
+    void setLooks(const std::vector<Look>& looks) override;
+    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height) override;
 
 private:
     class Context;

@@ -119,7 +119,8 @@ void drawText(Image& image, int x, int y, int scale, const std::string& text, co
 void burnIn(Image& image, const std::string& text)
 {
     if (text.empty()) return;
-    const int scale = std::max(1, (image.height + 180) / 360);
+    int scale = std::max(1, (image.height + 180) / 360);
+    while (scale > 1 && textWidth(text, scale) + 8 * scale > image.width) --scale;
     const int border = 4 * scale;
     const int stripHeight = kTextHeight * scale + 2 * border;
     const int top = image.height - stripHeight;

@@ -1,11 +1,14 @@
 // Take → preview pictures.
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <mutex>
 
 #include "core/base/parallel.h"
 #include "io/frame_pattern.h"
+#include "render/legend.h"
 #include "render/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
@@ -20,16 +23,20 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RenderOptions {
-    std::string take, frames, output, camera, size, progress = "auto";
-    std::optional<int> threads;
-    bool skipExisting = false, noBurnIn = false;
+    std::string take, frames, output, camera, size, progress = "auto", engine = "osmesa",
+                                                    look = "shaded", chunk;
+    std::optional<int> threads, samples, motionBlur;
+    bool skipExisting = false, burnIn = false, noBurnIn = false, slate = false;
 };
 
-/// Shot, frame, bodies, worst overlap: what a supervisor asks of a picture.
+/// Shot, frame, time, bodies, worst overlap: what a supervisor asks of a picture.
 std::string burnInText(const TakeReader& take, int frame, const std::map<int, FrameSummary>& stats)
 {
-    std::string text = take.info().name + "  " + std::to_string(frame) + "  " +
-                       std::to_string(take.info().bodies.size()) + " bodies";
+    const TakeInfo& info = take.info();
+    char time[64];
+    std::snprintf(time, sizeof time, "%.2f s", (frame - info.firstFrame) / info.framesPerSecond);
+    std::string text = info.name + "  " + std::to_string(frame) + "  " + time + "  " +
+                       std::to_string(info.bodies.size()) + " bodies";
     if (const auto found = stats.find(frame); found != stats.end()) {
         char overlap[64];
         std::snprintf(overlap, sizeof overlap, "  overlap %.2f%%",
@@ -37,6 +44,48 @@ std::string burnInText(const TakeReader& take, int frame, const std::map<int, Fr
         text += overlap;
     }
     return text;
+}
+
+/// What a PNG says of where it comes from.
+PngText originText(const TakeReader& take, int frame, const std::map<int, FrameSummary>& stats)
+{
+    PngText text = {{"Software", "scree"},
+                    {"Source", take.info().name + " frame " + std::to_string(frame)},
+                    {"Shot", take.info().name},
+                    {"Frame", std::to_string(frame)}};
+    if (const auto found = stats.find(frame); found != stats.end())
+        text.emplace_back("State hash", found->second.stateHash);
+    return text;
+}
+
+std::vector<std::string> slateLines(const TakeReader& take, const std::vector<int>& frames,
+                                    const std::array<int, 2>& size)
+{
+    const TakeInfo& info = take.info();
+    char rate[64];
+    std::snprintf(rate, sizeof rate, "%g frames per second", info.framesPerSecond);
+    return {info.name,
+            "frames " + describeFrames(frames),
+            rate,
+            std::to_string(size[0]) + " x " + std::to_string(size[1]),
+            std::to_string(info.bodies.size()) + " bodies",
+            "scree " + info.programVersion,
+            "shot " + toHex(info.shotHash)};
+}
+
+/// The share of the frames that "2/8" asks for: the second of eight runs of neighbours.
+std::vector<int> chunkOf(const std::vector<int>& frames, const std::string& text)
+{
+    if (text.empty()) return frames;
+    int index = 0, count = 0, length = 0;
+    if (std::sscanf(text.c_str(), "%6d/%6d%n", &index, &count, &length) != 2 ||
+        length != static_cast<int>(text.size()) || count < 1 || index < 1 || index > count)
+        throw Error(ErrorKind::usage,
+                    "--chunk " + text + ": it must be I/N with 1 <= I <= N, like 2/8");
+    const std::size_t begin = frames.size() * (index - 1) / count;
+    const std::size_t end = frames.size() * index / count;
+    return {frames.begin() + static_cast<std::ptrdiff_t>(begin),
+            frames.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
 /// A picture older than its frame shows something that is gone.
@@ -47,46 +96,91 @@ bool isUpToDate(const fs::path& picture, const fs::path& frame)
            fs::last_write_time(picture, code) >= fs::last_write_time(frame, code) && !code;
 }
 
-int runRender(const RenderOptions& options, Console& console)
+PaintSettings paintSettings(const RenderOptions& options, const TakeInfo& info)
 {
-    const ProgressMode progressMode = parseProgressMode(options.progress);
-    setThreadCount(threadsToUse(options.threads));
-    const TakeReader take(options.take);
-    const std::vector<int> frames = chooseFrames(options.frames, take.frames());
-    if (frames.empty())
-        throw Error(ErrorKind::missingInput, "\"" + options.take + "\" has no frames");
-    const std::string pattern =
-        options.output.empty()
-            ? (take.paths().root / "images" / (take.info().name + ".####.png")).string()
-            : options.output;
-    if (frames.size() > 1 || hasFramePattern(pattern)) expandFramePattern(pattern, frames[0]);
-    createFolderOf(pattern);
-    const std::array<int, 2> size =
-        options.size.empty() ? take.info().pictureSize : parseSize(options.size);
-    std::map<int, FrameSummary> stats;
-    for (const FrameSummary& frame : take.stats()) stats[frame.frame] = frame;
-
-    // Without a camera of its own the view follows from all frames, not from those asked for: a
-    // frame rendered alone looks as it does in the sequence.
-    TakePainter painter(take, take.frames(), options.camera, size);
-    Progress progress(console, progressMode, "render", static_cast<int>(frames.size()));
-    for (const int frame : frames) {
-        const auto started = std::chrono::steady_clock::now();
-        const fs::path picture =
-            hasFramePattern(pattern) ? expandFramePattern(pattern, frame) : pattern;
-        if (!options.skipExisting || !isUpToDate(picture, take.paths().frame(frame))) {
-            const std::string text =
-                options.noBurnIn ? std::string() : burnInText(take, frame, stats);
-            writePng(picture, painter.paint(frame, text),
-                     {{"Software", "scree"},
-                      {"Source", take.info().name + " frame " + std::to_string(frame)}});
-        }
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
-        progress.frameDone(frame, taken.count());
-    }
-    std::printf("%s\n", pattern.c_str());
-    return kExitDone;
+    PaintSettings settings;
+    settings.isRayTraced = options.engine == "embree";
+    settings.samples = options.samples.value_or(0);
+    settings.look = parseLook(options.look);
+    settings.motionBlur = options.motionBlur.value_or(info.motionBlur);
+    if (!settings.isRayTraced && options.samples && *options.samples != 1 && *options.samples != 4)
+        throw Error(ErrorKind::usage, "--samples: osmesa takes 1 or 4, embree any number");
+    return settings;
 }
+
+/// Paints frames, several at once, and writes each as soon as it is there.
+class RenderRun {
+public:
+    RenderRun(const RenderOptions& options, Console& console)
+        : options_(options),
+          console_(console),
+          progressMode_(parseProgressMode(options.progress)),
+          take_((setThreadCount(threadsToUse(options.threads)), options.take))
+    {
+        const std::vector<int> asked = chooseFrames(options.frames, take_.frames());
+        if (asked.empty())
+            throw Error(ErrorKind::missingInput, "\"" + options.take + "\" has no frames");
+        frames_ = chunkOf(asked, options.chunk);
+        pattern_ =
+            options.output.empty()
+                ? (take_.paths().root / "images" / (take_.info().name + ".####.png")).string()
+                : options.output;
+        if (asked.size() > 1 || options.slate || hasFramePattern(pattern_))
+            expandFramePattern(pattern_, asked[0]);
+        createFolderOf(pattern_);
+        size_ = options.size.empty() ? take_.info().pictureSize : parseSize(options.size);
+        for (const FrameSummary& frame : take_.stats()) stats_[frame.frame] = frame;
+        hasBurnIn_ = options.burnIn || (take_.info().burnIn && !options.noBurnIn);
+        // The slate belongs to the whole: of a farm's chunks only the first one writes it.
+        if (options.slate && !frames_.empty() && frames_[0] == asked[0])
+            writePng(expandFramePattern(pattern_, asked[0] - 1),
+                     makeSlate(size_[0], size_[1], slateLines(take_, asked, size_)),
+                     {{"Software", "scree"}});
+    }
+
+    int run()
+    {
+        // Without a camera of its own the view follows from all frames, not from those asked for: a
+        // frame rendered alone looks as it does in the sequence.
+        TakePainter painter(take_, options_.camera, size_, paintSettings(options_, take_.info()));
+        Progress progress(console_, progressMode_, "render", static_cast<int>(frames_.size()));
+        std::atomic<std::size_t> next = 0;
+        std::mutex progressLock;
+        // Encoding of one picture goes on beside the drawing of the next.
+        parallelFor(painter.usefulThreads(), 1, [&](std::size_t, std::size_t) {
+            for (std::size_t i = next++; i < frames_.size(); i = next++) {
+                const auto started = std::chrono::steady_clock::now();
+                paint(painter, frames_[i]);
+                const std::chrono::duration<double> taken =
+                    std::chrono::steady_clock::now() - started;
+                const std::lock_guard lock(progressLock);
+                progress.frameDone(frames_[i], taken.count() / painter.usefulThreads());
+            }
+        });
+        std::printf("%s\n", pattern_.c_str());
+        return kExitDone;
+    }
+
+private:
+    void paint(TakePainter& painter, int frame) const
+    {
+        const fs::path picture =
+            hasFramePattern(pattern_) ? expandFramePattern(pattern_, frame) : pattern_;
+        if (options_.skipExisting && isUpToDate(picture, take_.paths().frame(frame))) return;
+        const std::string text = hasBurnIn_ ? burnInText(take_, frame, stats_) : std::string();
+        writePng(picture, painter.paint(frame, text), originText(take_, frame, stats_));
+    }
+
+    const RenderOptions& options_;
+    Console& console_;
+    ProgressMode progressMode_;
+    TakeReader take_;
+    std::vector<int> frames_;
+    std::string pattern_;
+    std::array<int, 2> size_ = {};
+    std::map<int, FrameSummary> stats_;
+    bool hasBurnIn_ = true;
+};
 
 }  // namespace
 
@@ -103,10 +197,29 @@ Command addRenderCommand(CLI::App& program)
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->add_flag("--skip-existing", options->skipExisting,
                       "Leave pictures that are newer than their frame");
-    command->add_flag("--no-burnin", options->noBurnIn, "Nothing written into the pictures");
+    command->add_option("--chunk", options->chunk,
+                        "I/N: the I-th of N runs of frames, for N machines of a farm");
+    command->add_option("--engine", options->engine, "osmesa, or embree: ray-traced [osmesa]")
+        ->check(CLI::IsMember({"osmesa", "embree"}));
+    command
+        ->add_option("--samples", options->samples,
+                     "A pixel: 1 or 4 with osmesa [1], any number with embree [8]")
+        ->check(CLI::Range(1, 65536));
+    command
+        ->add_option("--motion-blur", options->motionBlur,
+                     "Mean of so many moments while the shutter is open [1: none]")
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--look", options->look,
+                        "Colours tell: shaded, wireframe, speed, sleep or id [shaded]");
+    CLI::Option* burnIn = command->add_flag("--burnin", options->burnIn,
+                                            "Shot, frame, time, bodies and overlap in the picture");
+    command->add_flag("--no-burnin", options->noBurnIn, "Nothing written into the pictures")
+        ->excludes(burnIn);
+    command->add_flag("--slate", options->slate,
+                      "A card that says what follows, one frame before the first");
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
     command->footer("Example:\n  scree render takes/rings_100 --frames 1001-1240x2 --size 640x360");
-    return {command, [options](Console& console) { return runRender(*options, console); }};
+    return {command, [options](Console& console) { return RenderRun(*options, console).run(); }};
 }
 
 }  // namespace scree

@@ -33,7 +33,7 @@ std::vector<LabelledImage> paintTake(const SheetOptions& options)
     const std::array<int, 2> shotSize = take.info().pictureSize;
     const int width = options.layout.cellWidth;
     const int height = std::max(1, width * shotSize[1] / shotSize[0]);
-    TakePainter painter(take, take.frames(), options.camera, {width, height});
+    TakePainter painter(take, options.camera, {width, height});
     std::vector<LabelledImage> pictures;
     for (const int frame : frames)
         pictures.push_back({painter.paint(frame), std::to_string(frame)});

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "io/frame_writer.h"
 #include "tools/command_line.h"
+#include "tools/take_painter.h"
 
 namespace scree {
 
@@ -22,7 +23,9 @@ void exportTake(const TakeReader& take, const std::vector<int>& frames,
 
     const std::unique_ptr<FrameWriter> writer = makeFrameWriter(output);
     createFolderOf(output);
-    const SceneDescription scene = take.describe();
+    SceneDescription scene = take.describe();
+    // A cache shows what the previews show, from where they show it.
+    if (scene.cameras.empty()) scene.cameras.push_back(viewOfAction(take, scene, scene.aspect));
     Progress shown(console, progress, "export", frameCount);
     const bool withSubframes = writer->holdsSubframes();
     writer->begin(scene, frames.front(), frameCount,

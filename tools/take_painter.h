@@ -1,33 +1,74 @@
-// Take → pictures: looks from the take's materials, a camera by name or one that sees everything.
+// Take → pictures: looks from the take's materials or from what bodies do, a camera by name or one
+// that sees everything, motion blur from the take's sub-frame samples.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "io/take_reader.h"
 #include "render/camera.h"
-#include "render/rasterizer.h"
+#include "render/legend.h"
+#include "render/picture_engine.h"
 
 namespace scree {
 
+/// What colours tell.
+enum class LookKind {
+    shaded,     ///< the materials, each body a little different
+    wireframe,  ///< the same with the edges of all triangles
+    speed,      ///< how fast the origin of a body moves
+    sleep,      ///< whether a body moves at all
+    id          ///< which body it is: neighbours in the list look unlike each other
+};
+
+struct PaintSettings {
+    bool isRayTraced = false;  ///< Embree instead of OSMesa
+    int samples = 0;           ///< a pixel [-]; 0: as the engine likes
+    LookKind look = LookKind::shaded;
+    int motionBlur = 0;  ///< moments a picture is the mean of [-]; below 2: no blur
+};
+
+/// "shaded", "wireframe", "speed", "sleep" or "id"; throws Error{usage} naming the nearest one.
+LookKind parseLook(const std::string& word);
+
+/// A camera that sees all that movable bodies do in the take, or all bodies when none moves; it
+/// never cuts anything off. For shots that have no camera.
+SceneCamera viewOfAction(const TakeReader& take, const SceneDescription& scene, double aspect);
+
 class TakePainter {
 public:
-    /// `cameraName` empty: the shot's first camera, or without one a view of all the movable bodies
-    /// do in `frames`. Throws Error{usage} for a name that the take does not have.
-    TakePainter(const TakeReader& take, const std::vector<int>& frames,
-                const std::string& cameraName, const std::array<int, 2>& size);
+    /// `cameraName` empty: the shot's first camera, or without one viewOfAction(). Throws
+    /// Error{usage} for a name that the take does not have.
+    TakePainter(const TakeReader& take, const std::string& cameraName,
+                const std::array<int, 2>& size, const PaintSettings& settings = {});
 
-    /// `burnedIn` is written into the lower left corner; empty for none.
+    /// `burnedIn` is written into the lower left corner; empty for none. Several threads may paint
+    /// at once; each then has an engine of its own.
     Image paint(int frame, const std::string& burnedIn = "");
 
+    /// How many threads painting at once are worth it: ray tracing shares its rows out by itself.
+    int usefulThreads() const;
+
 private:
+    class BorrowedEngine;
+
+    std::unique_ptr<PictureEngine> makeEngine() const;
+    std::vector<Look> looksIn(const SceneFrame& frame) const;
+    void chooseScale();
+
     const TakeReader& take_;
     SceneDescription scene_;
     Camera camera_;
     std::array<int, 2> size_;
-    std::unique_ptr<Rasterizer> rasterizer_;
+    PaintSettings settings_;
+    std::vector<Look> materialLooks_;
+    double fastest_ = 0.0;  // end of the scale of speeds [units per second]
+    Legend legend_;
+    std::mutex engineLock_;
+    std::vector<std::unique_ptr<PictureEngine>> freeEngines_;
 };
 
 }  // namespace scree

@@ -132,7 +132,7 @@ TEST(Rasterizer, SunlitGroundHasNoSpecks)
 TEST(Rasterizer, ACubeHasFlatFacesAndASphereHasNot)
 {
     RasterSettings settings;
-    settings.samples = 1;
+    settings.smoothEdges = false;
     const auto spread = [&](const TriMesh& mesh) {
         Stage stage;
         stage.add(mesh, {}, kRed);
@@ -158,7 +158,7 @@ TEST(Rasterizer, EdgesAreMixedFromBothSides)
     stage.add(makeBox(Vec3::Ones(), {1, 1, 1}),
               {Vec3::Zero(), Quat(Eigen::AngleAxisd(0.2, Vec3::UnitZ()))}, kRed);
     RasterSettings coarse;
-    coarse.samples = 1;
+    coarse.smoothEdges = false;
     const auto mixedCount = [](const Image& image) {
         int count = 0;
         for (int y = 0; y < kHeight; ++y) {

@@ -1,0 +1,62 @@
+// What every engine must agree on so that its pictures look alike: where the light comes from and
+// how strong it is, how planes appear, and what is drawn over surfaces.
+//
+// Light comes from a sun, from a sky above and from light thrown back below; strengths are what a
+// white surface scatters back, in linear light.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene_description.h"
+#include "render/view_fit.h"
+
+namespace scree {
+
+/// What is shown, whichever engine draws.
+struct StageSettings {
+    bool groundLines = true;  ///< a faint grid on planes, to judge distances by
+    bool wireframe = false;   ///< the edges of all triangles, over the shaded surface
+    /// Direction to the sun, with +y up; turned for scenes whose up axis is z.
+    Vec3 towardSun = {-0.30, 0.80, 0.55};
+};
+
+inline const Vec3 kSunLight(1.02, 0.9384, 0.816);
+inline const Vec3 kZenithColor(0.10, 0.15, 0.22);
+inline const Vec3 kHorizonColor(0.30, 0.34, 0.39);
+inline const Vec3 kNadirColor(0.10, 0.105, 0.115);
+inline const Vec3 kSkyLight(0.22, 0.27, 0.35);
+inline const Vec3 kGroundLight(0.15, 0.125, 0.10);
+
+/// Haze on planes begins and ends at these multiples of the distance from eye to target: measured
+/// from the eye, so that it stands still while the heap moves.
+inline constexpr double kHazeBegin = 1.1, kHazeEnd = 6.0;
+
+/// Every so many of the grid's lines one is stronger.
+inline constexpr double kStrongLinePeriod = 5.0;
+
+/// Distance between the grid's lines: a power of ten, some ten of them across the picture.
+double gridSpacing(double distanceToTarget);
+
+/// Unit vector up and towards the sun in the axes of the scene.
+Vec3 upOf(const SceneDescription& scene);
+Vec3 sunOf(const SceneDescription& scene, const StageSettings& settings);
+
+bool isFinite(const Pose& pose);
+
+/// Where a plane's square stands and faces, in its asset frame.
+PlaneSurface planeOf(const SceneMesh& mesh);
+
+/// Columns: two directions along the plane, the first as close as can be to a world axis, with the
+/// normal between them.
+Mat3 planeAxes(const Vec3& normal);
+
+/// The middle one of the radii of movable bodies, or of all when none moves; 1 for an empty scene.
+/// `meshRadii` is parallel to scene.meshes, 0 for planes.
+double typicalRadius(const SceneDescription& scene, const std::vector<double>& meshRadii);
+
+/// The constants above for shaders, by the same names.
+std::string lightConstantsInGlsl();
+
+}  // namespace scree

@@ -1,0 +1,72 @@
+// Take → a page of plots.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/base/parallel.h"
+#include "io/file_bytes.h"
+#include "render/png_writer.h"
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/stats_page.h"
+#include "tools/take_export.h"
+#include "tools/take_painter.h"
+
+namespace scree {
+namespace {
+
+constexpr int kThumbnailWidth = 480;
+
+struct StatsOptions {
+    std::string take, output;
+    int pictures = 32;
+};
+
+std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count)
+{
+    const std::vector<int> frames = spreadFrames(take.frames(), count);
+    const std::array<int, 2> shotSize = take.info().pictureSize;
+    const int height = std::max(1, kThumbnailWidth * shotSize[1] / shotSize[0]);
+    TakePainter painter(take, "", {kThumbnailWidth, height});
+    std::vector<Thumbnail> thumbnails(frames.size());
+    parallelFor(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            thumbnails[i] = {frames[i], encodePng(painter.paint(frames[i]))};
+    });
+    return thumbnails;
+}
+
+int runStats(const StatsOptions& options)
+{
+    setThreadCount(threadsToUse(std::nullopt));
+    const TakeReader take(options.take);
+    if (take.frames().empty())
+        throw Error(ErrorKind::missingInput, "\"" + options.take + "\" has no frames");
+    const std::filesystem::path output = options.output.empty()
+                                             ? take.paths().root / "stats.html"
+                                             : std::filesystem::path(options.output);
+    createFolderOf(output);
+    const std::vector<Thumbnail> thumbnails =
+        options.pictures > 0 ? paintThumbnails(take, options.pictures) : std::vector<Thumbnail>();
+    writeFileBytes(output, makeStatsPage(take, thumbnails));
+    std::printf("%s\n", output.c_str());
+    return kExitDone;
+}
+
+}  // namespace
+
+Command addStatsCommand(CLI::App& program)
+{
+    auto options = std::make_shared<StatsOptions>();
+    CLI::App* command =
+        program.add_subcommand("stats", "Plot how a take went, on one page for a browser");
+    command->add_option("TAKE", options->take, "The take directory")->required();
+    command->add_option("-o,--output", options->output, "The HTML file [TAKE/stats.html]");
+    command
+        ->add_option("--pictures", options->pictures, "Frames that are drawn, evenly spread [32]")
+        ->check(CLI::Range(0, 1000));
+    command->footer("Example:\n  scree stats takes/rings_100 -o rings.html");
+    return {command, [options](Console&) { return runStats(*options); }};
+}
+
+}  // namespace scree
