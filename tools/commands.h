@@ -25,5 +25,6 @@ Command addMovieCommand(CLI::App& program);
 Command addCheckCommand(CLI::App& program);
 Command addExplainCommand(CLI::App& program);
 Command addInfoCommand(CLI::App& program);
+Command addVerifyCommand(CLI::App& program);
 
 }  // namespace scree

@@ -46,7 +46,7 @@ int runProgram(int argumentCount, char** arguments, Console& console)
     const Command commands[] = {
         addSimCommand(program),   addRenderCommand(program),  addExportCommand(program),
         addSheetCommand(program), addMovieCommand(program),   addCheckCommand(program),
-        addInfoCommand(program),  addExplainCommand(program),
+        addInfoCommand(program),  addExplainCommand(program), addVerifyCommand(program),
     };
     for (const Command& command : commands) command.options->fallthrough();
 
