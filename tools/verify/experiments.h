@@ -12,6 +12,10 @@ void runStackAndPlank(const Context& context, Findings& findings);    // e04
 void runSeeSaw(const Context& context, Findings& findings);           // e05
 void runContactGraph(const Context& context, Findings& findings);     // e06
 void runPushOut(const Context& context, Findings& findings);          // e11
+void runImpulses(const Context& context, Findings& findings);         // e15
+void runDeterminism(const Context& context, Findings& findings);      // e19
+void runWhatShockBuys(const Context& context, Findings& findings);    // e26
+void runTallAndHeavy(const Context& context, Findings& findings);     // e26
 void runFreeFlight(const Context& context, Findings& findings);       // e13
 void runTumbling(const Context& context, Findings& findings);         // e13
 void runBounce(const Context& context, Findings& findings);           // e16

@@ -181,10 +181,10 @@ std::string escaped(const std::string& text)
 double niceStep(double span)
 {
     const double power = std::pow(10.0, std::floor(std::log10(span)));
-    for (double share : {0.2, 0.1, 0.05, 0.02}) {
+    for (double share : {2.0, 1.0, 0.5}) {
         if (span / (share * power) >= 4.0) return share * power;
     }
-    return 0.02 * power;
+    return 0.2 * power;
 }
 
 }  // namespace scree::verify
