@@ -1,4 +1,5 @@
-// E1: a block at rest stays at rest although its collisions are elastic. [GBF03 figure 3]
+// E1: a block at rest stays at rest although its collisions are elastic. [GBF03 figure 3],
+// [A17, A39, A44]
 #include <algorithm>
 
 #include "tools/verify/controls.h"

@@ -1,4 +1,5 @@
-// E2: a block slides as Coulomb says, speeding up and slowing down. [GBF03 figure 4]
+// E2: a block slides as Coulomb says, speeding up and slowing down. [GBF03 figure 4],
+// [A17, A18, A31, A32, A41]
 #include <cmath>
 
 #include "tools/verify/controls.h"

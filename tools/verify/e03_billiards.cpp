@@ -1,4 +1,5 @@
-// E3: the last of five touching balls leaves with all that the cue ball brought. [GBF03 figure 5]
+// E3: the last of five touching balls leaves with all that the cue ball brought. [GBF03 figure 5],
+// [A22–A24, A30]
 #include <cmath>
 
 #include "tools/verify/experiments.h"

@@ -1,4 +1,4 @@
-// E5: weight is felt through a plank on a pivot. [GBF03 figure 7]
+// E5: weight is felt through a plank on a pivot. [GBF03 figure 7], [A43, A46]
 #include <cmath>
 
 #include "core/math/rotation.h"

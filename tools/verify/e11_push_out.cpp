@@ -1,4 +1,5 @@
-// E11: push-out separates what overlaps, moves only what may move, and touches no velocity. [A52]
+// E11: push-out separates what overlaps, moves only what may move, and touches no velocity.
+// [A52, A53]
 #include <algorithm>
 #include <cmath>
 

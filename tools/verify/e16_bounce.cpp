@@ -90,18 +90,21 @@ void runBounceHeight(const Context& context, Findings& findings)
             ShotRun run(context, "E16_bounce",
                         {setNumber("material.ball.restitution", e), height, "solver.substeps.min=1",
                          "solver.substeps.max=256"});
-            double highest = 0.0, lowSpeed = 0.0;
+            double highest = 0.0;
             bool hasBounced = false;
             // The apex between two steps, from height and speed: m g h + ½ m v².
             const double time = std::sqrt(2.0 * drop / 9.8) * (1.0 + 1.2 * e);
-            run.advanceFrames(
-                static_cast<int>(std::ceil(24.0 * time)) + 1, [&](const FrameReport&) {
-                    const BodyMotion& ball = run.motion("ball");
-                    const double v = ball.velocity.y();
-                    hasBounced = hasBounced || v > lowSpeed;
-                    if (!hasBounced) return;
-                    highest = std::max(highest, ball.position.y() - 0.5 + 0.5 * v * v / 9.8);
-                });
+            const BodyId ball = run.body("ball");
+            const auto look = [&](const World& world, double) {
+                const double v = world.motion[ball].velocity.y();
+                hasBounced = hasBounced || v > 0.0;
+                if (!hasBounced) return;
+                const double above = world.motion[ball].position.y() - 0.5;
+                highest = std::max(highest, above + 0.5 * v * v / 9.8);
+            };
+            for (int frame = 0; frame < std::ceil(24.0 * time) + 1.0; ++frame) {
+                run.stepper.advanceFrame(run.world, 1.0 / 24.0, {}, look);
+            }
             worst = std::max(worst, std::abs(highest - e * e * drop) / (e * e * drop));
             gained = std::max(gained, highest - drop);
         }

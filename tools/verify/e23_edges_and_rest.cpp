@@ -1,4 +1,4 @@
-// E23: edge against edge. [A8]  E25: dropped with all defaults, props come to rest.
+// E23: edge against edge. [A8]  E25: dropped with all defaults, props come to rest. [A16, A44]
 #include <algorithm>
 #include <cmath>
 
