@@ -172,25 +172,42 @@ void plank(const Context& context, Findings& findings)
 }
 
 /// With the plank's centre over the base it does not tip by itself, so that only the weight of what
-/// falls on it can turn it.
-void weightControl(const Context& context, Findings& findings)
+/// is on it can turn it.
+const std::string kCentred = "body.plank.position=[1, 4.25, 0]";
+
+void impactControl(const Context& context, Findings& findings)
 {
-    const std::vector<std::string> centred = {"body.plank.position=[1, 4.25, 0]"};
-    ShotRun whole(context, "E04_plank", centred);
-    PlankWatch seen(whole);
+    ShotRun whole(context, "E04_plank", {kCentred}), weightless(context, "E04_plank", {kCentred});
+    PlankWatch seen(whole), unseen(weightless);
     whole.advance(1.15, 240.0,
                   [&](const StepReport& report, double t) { seen.look(t, report.pushOutWork); });
-
-    ShotRun weightless(context, "E04_plank", centred);
-    PlankWatch unseen(weightless);
     StepSettings settings = weightless.shot.settings;
     settings.contactIterations = 0;
     for (int k = 1; k <= 276; ++k) {
         stepWithoutCollisions(weightless.world, settings, 1.0 / 240.0);
         unseen.look(k / 240.0, 0.0);
     }
-    findings.atMost(control, "shock alone, no collisions: tilt rate over the full run's",
-                    unseen.result.tiltRate / seen.result.tiltRate, 0.1, "-");
+    findings.atMost(departure, "impact, shock alone, no collisions: tilt rate over the full run's",
+                    unseen.result.tiltRate / seen.result.tiltRate, 0.1, "-",
+                    "presumably because an approach that no collision answered lets plank and box "
+                    "fall into each other either way: one component, whose bodies shock does move");
+}
+
+/// The heavy box stands on the plank from the start: its weight alone, no impact.
+double spinUnderWeight(const Context& context, int contactIterations)
+{
+    ShotRun run(context, "E04_plank",
+                {kCentred, "body.weight.position=[5.0, 5.5, 0]",
+                 "solver.contact_iterations=" + std::to_string(contactIterations)});
+    run.advance(0.2, 240.0);
+    return spinOf(run.world, run.body("plank")).norm();
+}
+
+void weightControl(const Context& context, Findings& findings)
+{
+    findings.atMost(control, "heavy box on the plank, shock alone: tilt rate over the full run's",
+                    spinUnderWeight(context, 0) / spinUnderWeight(context, 10), 0.1, "-",
+                    "shock alone makes bodies weightless for what carries them");
 }
 
 }  // namespace
@@ -199,6 +216,7 @@ void runStackAndPlank(const Context& context, Findings& findings)
 {
     stacks(context, findings);
     plank(context, findings);
+    impactControl(context, findings);
     weightControl(context, findings);
 }
 
