@@ -26,5 +26,6 @@ Command addCheckCommand(CLI::App& program);
 Command addExplainCommand(CLI::App& program);
 Command addInfoCommand(CLI::App& program);
 Command addStatsCommand(CLI::App& program);
+Command addVerifyCommand(CLI::App& program);
 
 }  // namespace scree

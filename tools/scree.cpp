@@ -44,9 +44,10 @@ int runProgram(int argumentCount, char** arguments, Console& console)
     program.fallthrough();
     addConsoleOptions(program, console);
     const Command commands[] = {
-        addSimCommand(program),   addRenderCommand(program), addExportCommand(program),
-        addSheetCommand(program), addMovieCommand(program),  addCheckCommand(program),
-        addInfoCommand(program),  addStatsCommand(program),  addExplainCommand(program),
+        addSimCommand(program),     addRenderCommand(program),  addExportCommand(program),
+        addSheetCommand(program),   addMovieCommand(program),   addCheckCommand(program),
+        addInfoCommand(program),    addStatsCommand(program),   addExplainCommand(program),
+        addVerifyCommand(program),
     };
     for (const Command& command : commands) command.options->fallthrough();
 

@@ -24,7 +24,8 @@ Shot shippedShot(const std::string& name)
 TEST(ShotFiles, AllParseAndKeepTheirMeaningWhenResolved)
 {
     int count = 0;
-    for (const auto& file : std::filesystem::directory_iterator(test::sourceFile("shots"))) {
+    for (const auto& file :
+         std::filesystem::recursive_directory_iterator(test::sourceFile("shots"))) {
         if (file.path().extension() != ".toml") continue;
         const std::string path = file.path().string();
         const Shot shot = parseShot(path);
@@ -34,7 +35,7 @@ TEST(ShotFiles, AllParseAndKeepTheirMeaningWhenResolved)
         EXPECT_FALSE(shot.cameras.empty()) << path;
         ++count;
     }
-    EXPECT_GE(count, 4);
+    EXPECT_GE(count, 24);
 }
 
 TEST(ShotFiles, RingsStartApartAndAboveThePoles)

@@ -1,4 +1,4 @@
-// Small worlds for experiments, and what is measured of them.
+// Small worlds for tests of a part of the method; the experiments themselves are in tools/verify.
 #pragma once
 
 #include <memory>
@@ -27,16 +27,5 @@ std::shared_ptr<const Shape> boxShape(const Vec3& size, int segments);
 BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
                const Pose& worldFromAsset, double mass = 1.0, const Vec3& velocity = Vec3::Zero(),
                const Vec3& angularVelocity = Vec3::Zero());
-
-/// Where a point of the asset is now.
-Vec3 worldPoint(const World& world, BodyId body, const Vec3& assetPoint);
-
-Vec3 angularVelocityOf(const World& world, BodyId body);
-
-/// Largest displacement of any vertex of the body between two worlds [m].
-double largestVertexShift(const World& before, const World& after, BodyId body);
-
-/// Kinetic plus potential energy of all movable bodies [J].
-double totalEnergy(const World& world, const StepSettings& settings);
 
 }  // namespace scree::test

@@ -1,0 +1,160 @@
+// The experiments of scree verify, each a test in its brief form: musts hold, controls fail as
+// stated. And the report that is made of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "tests/support/support.h"
+#include "tools/verify/plot.h"
+#include "tools/verify/report.h"
+
+namespace scree::verify {
+namespace {
+
+Context briefContext()
+{
+    Context context;
+    context.shots = test::sourceFile("shots/verify");
+    return context;
+}
+
+/// Runs one experiment and fails with every row that breaks a release.
+void expectNothingBroken(const std::string& id)
+{
+    const Experiment& experiment = *chooseExperiments({id}).at(0);
+    Result result{&experiment, "paper", {}, 0.0};
+    experiment.run(briefContext(), result.findings);
+    EXPECT_FALSE(result.findings.rows.empty());
+    for (const Measurement& row : result.findings.rows) {
+        EXPECT_FALSE(isBroken(row)) << row.what << ": " << row.measured << " " << row.unit
+                                    << ", theory " << row.theory << ", tolerance " << row.tolerance;
+    }
+}
+
+TEST(E1BlockAtRest, AnElasticBlockStaysWhereItWasPutAndTheTextbookOrderThrowsItAbout)
+{
+    expectNothingBroken("E1");
+}
+TEST(E2Sliding, BlocksFollowCoulombToFirstOrderInTheStep)
+{
+    expectNothingBroken("E2");
+}
+TEST(E3Billiards, TheLastOfFiveBallsLeavesWithTheWholeMomentum)
+{
+    expectNothingBroken("E3");
+}
+TEST(E4Stack, StacksStandOnlyWithShockAndAWeightOnAPlankThrowsThemUp)
+{
+    expectNothingBroken("E4");
+}
+TEST(E5SeeSaw, WeightIsFeltThroughThePlankButNotByShockAlone)
+{
+    expectNothingBroken("E5");
+}
+TEST(E6ContactGraph, DominoesInACircleAreOneLevelOnTheGround)
+{
+    expectNothingBroken("E6");
+}
+TEST(E11PushOut, WhatOverlapsComesApartAndNoVelocityChanges)
+{
+    expectNothingBroken("E11");
+}
+TEST(E13FreeFlight, AHundredSpinningBodiesKeepEveryLaw)
+{
+    expectNothingBroken("E13");
+}
+TEST(E14Tumbling, OnlyTheSecondOrderUpdateKeepsEnergyAndTheTimesOfTheFlips)
+{
+    expectNothingBroken("E14");
+}
+TEST(E15Impulses, RandomPairsMirrorImagesAndTripleCollisionsObeyEveryLaw)
+{
+    expectNothingBroken("E15");
+}
+TEST(E16Bounce, AnElasticBallLosesNoMoreHeightThanAStepOfItsFall)
+{
+    expectNothingBroken("E16");
+}
+TEST(E18FreeCluster, ShockPropagationCreatesNoMomentum)
+{
+    expectNothingBroken("E18");
+}
+TEST(E19Determinism, ThreadsAndCheckpointsLeaveNoTrace)
+{
+    expectNothingBroken("E19");
+}
+TEST(E23EdgeAgainstEdge, ACrossedBeamRestsOnTheEdgeOfAnother)
+{
+    expectNothingBroken("E23");
+}
+TEST(E25DropToRest, WithAllDefaultsEachShapeComesToRestOnTheFloor)
+{
+    expectNothingBroken("E25");
+}
+TEST(E26WhatShockBuys, FiveTimesTheSweepsDoNotReplaceIt)
+{
+    expectNothingBroken("E26");
+}
+
+TEST(Verify, ARowPassesOnlyWithinItsBoundAndNothingThatIsNoNumberPasses)
+{
+    Findings findings;
+    findings.atMost(Weight::must, "within", 1.0, 1.0, "m");
+    findings.atMost(Weight::must, "beyond", 1.1, 1.0, "m");
+    findings.near(Weight::must, "no number", std::nan(""), 1.0, 1.0, "m");
+    findings.atLeast(Weight::control, "a control that sees nothing", 0.0, 0.1, "m");
+    findings.atMost(Weight::goal, "a goal missed", 2.0, 1.0, "m");
+    findings.atMost(Weight::departure, "a known departure", 2.0, 1.0, "m");
+    findings.notRun(Weight::must, "missing", "why");
+    const std::vector<bool> broken = {false, true, true, true, false, false, false};
+    for (std::size_t i = 0; i < broken.size(); ++i) {
+        EXPECT_EQ(isBroken(findings.rows[i]), broken[i]) << findings.rows[i].what;
+    }
+    const Summary summary = summarize({{nullptr, "paper", findings, 0.0}});
+    EXPECT_EQ(summary.broken, 3);
+    EXPECT_EQ(summary.missing, 1);
+    EXPECT_EQ(summary.departures, 1);
+    EXPECT_FALSE(summary.isComplete());
+}
+
+TEST(Verify, ExperimentsAreFoundByAnySpellingOfTheirNumber)
+{
+    for (const char* id : {"E5", "e5", "5"}) {
+        EXPECT_STREQ(chooseExperiments({id}).at(0)->id, "E5");
+    }
+    EXPECT_EQ(chooseExperiments({}).size(), experiments().size());
+    EXPECT_THROW(chooseExperiments({"E99"}), Error);
+    EXPECT_THROW(methodsToRun("papre"), Error);
+    EXPECT_EQ(methodsToRun("paper"), std::vector<std::string>{"paper"});
+}
+
+TEST(Verify, ThePageHoldsTablesPlotsAndPicturesAndNeedsNothingElse)
+{
+    const Experiment& experiment = *chooseExperiments({"E23"}).at(0);
+    Context context = briefContext();
+    context.wantsPictures = true;
+    Result result{&experiment, "paper", {}, 0.0};
+    experiment.run(context, result.findings);
+    Curve curve{"a < b", {0.0, 1.0, 2.0}, {0.0, 1.0, 4.0}, false};
+    result.findings.plots.push_back({"title", "x", "y", {curve}});
+    const std::string page = toHtml({result}, context);
+    EXPECT_NE(page.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
+    EXPECT_NE(page.find("a &lt; b"), std::string::npos);
+    EXPECT_NE(page.find("<polyline"), std::string::npos);
+    EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+    for (const Measurement& row : result.findings.rows) {
+        EXPECT_NE(page.find(escaped(row.what)), std::string::npos);
+    }
+}
+
+TEST(Verify, AxesHaveRoundNumbers)
+{
+    EXPECT_DOUBLE_EQ(niceStep(6.0), 1.0);
+    EXPECT_DOUBLE_EQ(niceStep(9.0), 2.0);
+    EXPECT_DOUBLE_EQ(niceStep(0.03), 0.005);
+    EXPECT_DOUBLE_EQ(niceStep(1.0), 0.2);
+}
+
+}  // namespace
+}  // namespace scree::verify

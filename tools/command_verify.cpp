@@ -1,0 +1,98 @@
+// The experiments that prove the method, as a table, as JSON and as a page.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+
+#include "core/base/parallel.h"
+#include "io/atomic_file.h"
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/verify/report.h"
+
+namespace scree {
+namespace {
+
+struct VerifyOptions {
+    std::vector<std::string> ids;
+    std::string method = "paper", report, shots;
+    bool full = false, json = false, list = false;
+    std::optional<int> threads;
+};
+
+double cpuSeconds()
+{
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+int listExperiments()
+{
+    for (const verify::Experiment& experiment : verify::experiments()) {
+        std::printf("%-4s %-4s %s\n     %s\n", experiment.id, experiment.isMust ? "must" : "goal",
+                    experiment.title, experiment.claim);
+    }
+    return kExitDone;
+}
+
+int runVerify(const VerifyOptions& options, Console& console)
+{
+    if (options.list) return listExperiments();
+    verify::Context context;
+    context.shots =
+        options.shots.empty() ? verify::findShots() : std::filesystem::path(options.shots);
+    context.form = options.full ? verify::Form::full : verify::Form::brief;
+    context.wantsPictures = !options.report.empty();
+    setThreadCount(threadsToUse(options.threads));
+
+    const auto chosen = verify::chooseExperiments(options.ids);
+    std::vector<verify::Result> results;
+    for (const std::string& method : verify::methodsToRun(options.method)) {
+        context.method = method;
+        for (const verify::Experiment* experiment : chosen) {
+            console.detail(std::string(experiment->id) + " " + experiment->title + ", " + method);
+            verify::Result result{experiment, method, {}, 0.0};
+            const double before = cpuSeconds();
+            experiment->run(context, result.findings);
+            result.cpuSeconds = cpuSeconds() - before;
+            if (!options.json) std::printf("%s\n", verify::toText(result).c_str());
+            std::fflush(stdout);
+            results.push_back(std::move(result));
+        }
+    }
+
+    if (options.json) std::printf("%s", verify::toJson(results).c_str());
+    if (!options.report.empty()) {
+        AtomicFile file(options.report);
+        file.write(verify::toHtml(results, context));
+        file.commit();
+        console.info("wrote " + options.report);
+    }
+    const verify::Summary summary = verify::summarize(results);
+    if (!options.json) std::printf("%s", verify::toText(summary).c_str());
+    return summary.isComplete() ? kExitDone : kExitQuality;
+}
+
+}  // namespace
+
+Command addVerifyCommand(CLI::App& program)
+{
+    auto options = std::make_shared<VerifyOptions>();
+    CLI::App* command =
+        program.add_subcommand("verify", "Run the experiments that prove the method");
+    command->add_option("EXPERIMENT", options->ids, "Which ones, like E1 E5 [all]");
+    command->add_option("-o,--output", options->report,
+                        "Write a report.html with plots and pictures");
+    command->add_option("--method", options->method, "paper, scree or both [paper]");
+    command->add_flag("--full", options->full, "Every step length, seed and size: takes long");
+    command->add_flag("--json", options->json, "The rows as JSON instead of a table");
+    command->add_flag("--list", options->list, "Say what the experiments are, run none");
+    command->add_option("--shots", options->shots,
+                        "Folder of the experiments' shots [shots/verify]");
+    command->add_option("--threads", options->threads, "Number of threads [all]");
+    command->footer(
+        "Exit code 0 when all musts pass, 79 when one fails or could not be run.\n"
+        "Example:\n  scree verify E1 E5 -o report.html");
+    return {command, [options](Console& console) { return runVerify(*options, console); }};
+}
+
+}  // namespace scree

@@ -1,0 +1,113 @@
+// E11: push-out separates what overlaps, moves only what may move, and touches no velocity.
+// [A52, A53]
+#include <algorithm>
+#include <cmath>
+
+#include "tools/verify/experiments.h"
+#include "tools/verify/shot_run.h"
+
+namespace scree::verify {
+namespace {
+
+using enum Weight;
+
+constexpr double kStep = 1.0 / 240.0;
+
+void freeCubes(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E11_two_cubes");
+    StepReport report;
+    run.advance(10 * kStep, 240.0, [&](const StepReport& step, double) { report = step; });
+    const BodyMotion &lower = run.motion("lower"), &upper = run.motion("upper");
+    findings.atMost(must, "two free cubes, ten steps: overlap", report.deepestAfterPushOut, 1e-3,
+                    "m");
+    findings.atMost(must, "two free cubes: gap", upper.position.y() - lower.position.y() - 1.0,
+                    1e-3, "m");
+    const Vec3 centre = 0.5 * (lower.position + upper.position);
+    findings.atMost(must, "two free cubes: their common centre moves",
+                    (centre - Vec3(0.0, 0.45, 0.0)).norm(), 1e-12, "m");
+    bool isUntouched = true;
+    for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
+        isUntouched &= run.world.motion[b].velocity == run.start.motion[b].velocity &&
+                       run.world.motion[b].angularMomentum == run.start.motion[b].angularMomentum;
+    }
+    findings.equal(must, "two free cubes: velocities and momenta are the same bits", isUntouched,
+                   1);
+}
+
+void onTheFloor(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E11_floor");
+    run.advance(10 * kStep, 240.0);
+    findings.near(must, "cube 10 cm in the floor, ten steps: its height",
+                  run.motion("cube").position.y(), 0.5, 1e-3, "m");
+    findings.atMost(must, "the floor moves", run.motion("floor").position.norm(), 0.0, "m");
+    findings.atMost(must, "the cube gains speed", run.motion("cube").velocity.norm(), 1e-9, "m/s");
+}
+
+void column(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E11_column");
+    std::vector<double> overlaps;
+    double heightError = 0.0;
+    run.advance(10 * kStep, 240.0, [&](const StepReport& report, double) {
+        overlaps.push_back(report.deepestAfterPushOut);
+        for (int i = 0; i < 5 && overlaps.size() == 1; ++i) {
+            const double height = run.motion("cube_000" + std::to_string(i)).position.y();
+            heightError = std::max(heightError, std::abs(height - i - 0.5));
+        }
+    });
+    findings.atMost(must, "column of five, each 2 cm in the next, one step: overlap",
+                    overlaps.front(), 0.01, "m");
+    findings.atMost(must, "column, one step: heights off", heightError, 0.01, "m",
+                    "it comes apart from below: no cube was pushed down");
+    findings.atMost(must, "column, ten steps: overlap", overlaps.back(), 1e-3, "m");
+
+    ShotRun with(context, "E11_column"), without(context, "E11_column", {"solver.push_out=false"});
+    with.advance(kStep, 240.0);
+    StepReport report;
+    without.advance(kStep, 240.0, [&](const StepReport& step, double) { report = step; });
+    double difference = 0.0;
+    for (std::size_t b = 0; b < with.world.bodyCount(); ++b) {
+        difference = std::max(
+            difference, (with.world.motion[b].velocity - without.world.motion[b].velocity).norm());
+    }
+    findings.equal(must, "switched off: pushes", static_cast<double>(report.pushes), 0);
+    findings.atMost(must, "switched off: velocities differ from the run with it", difference, 0.0,
+                    "m/s");
+}
+
+void betweenWalls(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E11_walls");
+    Vec3 before = run.motion("cube").position;
+    double shift = 0.0, away = 0.0;
+    std::int64_t pushes = 0;
+    run.advance(20 * kStep, 240.0, [&](const StepReport& report, double) {
+        const Vec3 now = run.motion("cube").position;
+        shift = std::max(shift, (now - before).norm());
+        away = std::max(away, std::abs(now.x()));
+        before = now;
+        pushes += report.pushes;
+    });
+    findings.atMost(must, "between walls too close: shift in a step", shift, 0.5, "m");
+    findings.atMost(must, "between walls too close: off the middle", away, 0.2, "m");
+    findings.atLeast(must, "between walls too close: pushes reported", static_cast<double>(pushes),
+                     1.0, "");
+    findings.atMost(must, "between walls too close: speed gained",
+                    run.motion("cube").velocity.norm(), 1e-12, "m/s");
+}
+
+}  // namespace
+
+void runPushOut(const Context& context, Findings& findings)
+{
+    freeCubes(context, findings);
+    onTheFloor(context, findings);
+    column(context, findings);
+    betweenWalls(context, findings);
+    findings.notRun(must, "gradual against at once: asymmetry of two cubes on one",
+                    "not written yet");
+}
+
+}  // namespace scree::verify

@@ -1,0 +1,121 @@
+// E26: what shock propagation buys. E27: tall and heavy stacks at one step a frame. [A45]
+#include <algorithm>
+#include <cmath>
+
+#include "tools/verify/experiments.h"
+#include "tools/verify/shot_run.h"
+
+namespace scree::verify {
+namespace {
+
+using enum Weight;
+
+struct Stand {
+    double sink = 0.0, drift = 0.0;  // of the body that was highest [m], of any [m]
+};
+
+Stand standFor(ShotRun& run, double seconds, double rate, double enough)
+{
+    BodyId top = -1;
+    for (std::size_t b = 0; b < run.start.bodyCount(); ++b) {
+        if (!run.start.mass[b].isMovable()) continue;
+        const double height = run.start.motion[b].position.y();
+        if (top < 0 || height > run.start.motion[top].position.y()) top = static_cast<BodyId>(b);
+    }
+    Stand result;
+    // A stack that has clearly fallen is not watched further: tumbling takes long.
+    for (int quarter = 0; quarter < 4.0 * seconds && result.drift < enough; ++quarter) {
+        run.advance(0.25, rate, [&](const StepReport&, double) {
+            for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
+                const Vec3 moved = run.world.motion[b].position - run.start.motion[b].position;
+                result.drift = std::max(result.drift, std::hypot(moved.x(), moved.z()));
+            }
+        });
+        result.sink =
+            std::abs(run.start.motion[top].position.y() - run.world.motion[top].position.y());
+        if (result.sink > enough) break;
+    }
+    return result;
+}
+
+ShotRun stackOf(const Context& context, int cubes, bool hasShock, int sweeps)
+{
+    return ShotRun(context, "E04_stack_10",
+                   {"body.cube.grid.count=[1, " + std::to_string(cubes) + ", 1]",
+                    setVector("body.cube.position", {0.0, 0.5 * cubes, 0.0}),
+                    "solver.contact_iterations=" + std::to_string(sweeps),
+                    std::string("solver.shock_propagation=") + (hasShock ? "true" : "false")});
+}
+
+/// The fewest sweeps of `tried` with which the top of n cubes is within 1 mm after 2 s.
+double sweepsNeeded(const Context& context, int cubes, bool hasShock, std::vector<int> tried)
+{
+    for (int sweeps : tried) {
+        ShotRun run = stackOf(context, cubes, hasShock, sweeps);
+        if (standFor(run, 2.0, 240.0, 1e-3).sink <= 1e-3) return sweeps;
+    }
+    return std::nan("");
+}
+
+}  // namespace
+
+void runWhatShockBuys(const Context& context, Findings& findings)
+{
+    const std::vector<int> sizes = context.isFull() ? std::vector{5, 10, 20} : std::vector{20};
+    for (int cubes : sizes) {
+        const std::string name = std::to_string(cubes) + " cubes: ";
+        const double with = sweepsNeeded(context, cubes, true, {1, 2, 5, 10, 20});
+        findings.report(name + "contact sweeps for 1 mm with shock", with, "");
+        if (context.isFull()) {
+            const double without =
+                sweepsNeeded(context, cubes, false, {1, 2, 5, 10, 20, 50, 100, 200});
+            findings.report(name + "contact sweeps for 1 mm without shock", without, "",
+                            std::isnan(without) ? "more than 200" : "");
+        }
+        if (cubes != 20) continue;
+        // A factor of at least five: five times as many are not enough.
+        ShotRun run = stackOf(context, cubes, false, static_cast<int>(5.0 * with));
+        const Stand result = standFor(run, 2.0, 240.0, 1e-3);
+        findings.atLeast(must, name + "five times as many without shock: sinks or drifts",
+                         std::max(result.sink, result.drift), 1e-3, "m");
+    }
+}
+
+void runTallAndHeavy(const Context& context, Findings& findings)
+{
+    const Weight weight = context.method == "scree" ? must : goal;
+    struct Case {
+        const char* shot;
+        const char* name;
+        std::vector<std::string> overrides;
+    };
+    for (const Case& c : {Case{"E27_pair", "1000 : 1", {}},
+                          Case{"E27_pair", "10 000 : 1", {"body.heavy.mass=10000.0"}},
+                          Case{"E27_heavy_top", "ten with a 100 x heavier top", {}},
+                          Case{"E27_stack_40", "stack of 40", {}}}) {
+        for (double rate : {24.0, 240.0}) {
+            if (!context.isFull() && rate > 24.0) continue;
+            ShotRun run(context, c.shot, c.overrides);
+            const Stand result = standFor(run, 10.0, rate, 1.0);
+            const std::string name = std::string(c.name) + ", " + shortNumber(rate) + " Hz: ";
+            findings.atMost(weight, name + "top sinks", result.sink, 1e-3, "m");
+            findings.atMost(weight, name + "drift", result.drift, 5e-3, "m");
+        }
+    }
+    ShotRun dominoes(context, "../dominoes");
+    dominoes.advanceFrames(48);
+    double moved = 0.0;
+    for (std::size_t b = 0; b < dominoes.world.bodyCount(); ++b) {
+        if (dominoes.world.mass[b].isMovable()) {
+            moved = std::max(
+                moved, largestVertexShift(dominoes.start, dominoes.world, static_cast<BodyId>(b)));
+        }
+    }
+    findings.atMost(goal, "ring of dominoes, default steps, 2 s: largest shift", moved, 0.05, "m",
+                    "it settles on its few points; standing means not falling");
+    addPicture(context, dominoes, "The ring of dominoes after 2 s", findings);
+    findings.notRun(goal, "1000 cubes dropped into a bin come to rest",
+                    "shots/cubes_1000_bin.toml: too long for this command");
+}
+
+}  // namespace scree::verify

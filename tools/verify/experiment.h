@@ -1,0 +1,55 @@
+// The experiments that prove the method: each takes its scene from a shot under shots/verify (so
+// that a user can also simulate it), runs it through the reader and the stepper that ship, and
+// holds what it measures against theory. The few that test a part alone build their input in code
+// and say so in their claim.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/verify/findings.h"
+
+namespace scree::verify {
+
+/// How much of an experiment is run.
+enum class Form {
+    brief,  ///< what a test suite has the time for
+    full,   ///< every step length, seed and size that the experiment names
+};
+
+struct Context {
+    std::filesystem::path shots;  ///< folder of the experiments' shot files
+    Form form = Form::brief;
+    std::string method = "paper";  ///< the solver.method of every shot
+    bool wantsPictures = false;    ///< drawing them takes longer than some experiments
+
+    bool isFull() const { return form == Form::full; }
+};
+
+struct Experiment {
+    const char* id;     ///< "E2"
+    const char* title;  ///< a few words
+    bool isMust;        ///< or a goal
+    const char* claim;  ///< what it shows, in a sentence
+    const char* paper;  ///< the figure of the paper it repeats and what is seen there; or empty
+    void (*run)(const Context& context, Findings& findings);
+};
+
+/// All experiments in the order of their numbers.
+const std::vector<Experiment>& experiments();
+
+/// Those with the given ids ("E2", "e2", "2"), all when there are none. Throws Error{usage} naming
+/// the nearest id.
+std::vector<const Experiment*> chooseExperiments(const std::vector<std::string>& ids);
+
+/// The methods that this version knows and that `asked` ("paper", "scree" or "both") means. Throws
+/// Error{usage} when a method was asked for by its name that this version does not have.
+std::vector<std::string> methodsToRun(const std::string& asked);
+
+/// The folder shots/verify of the working directory, else of the folder above the program's. Throws
+/// Error{missingInput} when there is neither.
+std::filesystem::path findShots();
+
+}  // namespace scree::verify

@@ -1,0 +1,160 @@
+#include "tools/verify/shot_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/dynamics/integrator.h"
+#include "io/build_world.h"
+#include "io/shot_parser.h"
+#include "io/shot_tree.h"
+#include "render/camera.h"
+#include "render/look.h"
+#include "render/png_writer.h"
+#include "render/rasterizer.h"
+
+namespace scree::verify {
+namespace {
+
+constexpr int kPictureWidth = 640, kPictureHeight = 400;
+
+/// Half width of the quads that stand for planes; the rasteriser draws them without end [m].
+constexpr double kPlaneHalfWidth = 50.0;
+
+Shot readShot(const Context& context, const std::string& name, std::vector<std::string> overrides)
+{
+    overrides.push_back("solver.method=" + context.method);
+    return parseShot((context.shots / (name + ".toml")).string(), overrides);
+}
+
+std::vector<Look> looksOf(const Shot& shot, const SceneDescription& scene)
+{
+    std::vector<Look> looks;
+    for (const SceneBody& body : scene.bodies) {
+        Look look;
+        for (const ShotMaterial& material : shot.materials) {
+            if (material.material.name == body.material)
+                look = {material.color, material.roughness};
+        }
+        looks.push_back(look);
+    }
+    return variedLooks(scene, looks);
+}
+
+}  // namespace
+
+ShotRun::ShotRun(const Context& context, const std::string& name,
+                 const std::vector<std::string>& overrides)
+    : shot(readShot(context, name, overrides)),
+      world(buildWorld(shot)),
+      start(world),
+      stepper(shot.settings)
+{
+}
+
+void ShotRun::advance(double seconds, double stepsPerSecond,
+                      const std::function<void(const StepReport&, double)>& look)
+{
+    const double dt = 1.0 / stepsPerSecond;
+    const int steps = static_cast<int>(std::lround(seconds * stepsPerSecond));
+    for (int k = 1; k <= steps; ++k) {
+        const StepReport report = stepper.step(world, dt);
+        if (look) look(report, k * dt);
+    }
+}
+
+void ShotRun::advanceFrames(int count, const std::function<void(const FrameReport&)>& look)
+{
+    for (int frame = 0; frame < count; ++frame) {
+        const FrameReport report = stepper.advanceFrame(world, 1.0 / shot.framesPerSecond);
+        if (look) look(report);
+    }
+}
+
+BodyId ShotRun::body(const std::string& name) const
+{
+    for (std::size_t b = 0; b < world.info.size(); ++b) {
+        if (world.info[b].name == name) return static_cast<BodyId>(b);
+    }
+    throw Error(ErrorKind::internal, "shot " + shot.name + " has no body " + name);
+}
+
+std::string setVector(const std::string& key, const Vec3& value)
+{
+    return key + "=[" + toTomlText(value.x()) + ", " + toTomlText(value.y()) + ", " +
+           toTomlText(value.z()) + "]";
+}
+
+std::string setNumber(const std::string& key, double value)
+{
+    return key + "=" + toTomlText(value);
+}
+
+Vec3 spinOf(const World& world, BodyId body)
+{
+    return angularVelocity(world.motion[body], world.mass[body]);
+}
+
+double largestVertexShift(const World& before, const World& after, BodyId body)
+{
+    const Points& points = after.shapeOf(body).assetMesh.points;
+    const Pose was = before.worldFromAsset(body), is = after.worldFromAsset(body);
+    double largest = 0.0;
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+        const Vec3 p = points.col(v);
+        largest = std::max(largest, (is * p - was * p).norm());
+    }
+    return largest;
+}
+
+double lowestVertex(const World& world, BodyId body)
+{
+    const Points& points = world.shapeOf(body).assetMesh.points;
+    const Pose pose = world.worldFromAsset(body);
+    double lowest = 1e300;
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+        const Vec3 p = points.col(v);
+        lowest = std::min(lowest, (pose * p).y());
+    }
+    return lowest;
+}
+
+double totalEnergy(const World& world, const Vec3& gravity)
+{
+    double energy = 0.0;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (!world.mass[b].isMovable()) continue;
+        energy += kineticEnergy(world.motion[b], world.mass[b]);
+        energy -= gravity.dot(world.motion[b].position) / world.mass[b].inverseMass;
+    }
+    return energy;
+}
+
+Momenta momenta(const World& world)
+{
+    Momenta sum;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (!world.mass[b].isMovable()) continue;
+        const BodyMotion& body = world.motion[b];
+        const Vec3 p = body.velocity / world.mass[b].inverseMass;
+        sum.linear += p;
+        sum.angular += body.position.cross(p) + body.angularMomentum;
+    }
+    return sum;
+}
+
+void addPicture(const Context& context, const ShotRun& run, const std::string& caption,
+                Findings& findings)
+{
+    if (!context.wantsPictures) return;
+    const SceneDescription scene = describeScene(run.shot, run.world, kPlaneHalfWidth);
+    const ShotCamera& from = run.shot.cameras.at(0);
+    const Vec3 up = run.shot.zUp ? Vec3::UnitZ() : Vec3::UnitY();
+    const Camera camera{from.eye, from.target, up, from.fovDegrees};
+    Rasterizer rasterizer(scene, looksOf(run.shot, scene));
+    const Image image =
+        rasterizer.draw(captureFrame(run.shot, run.world), camera, kPictureWidth, kPictureHeight);
+    findings.pictures.push_back({caption, encodePng(image)});
+}
+
+}  // namespace scree::verify

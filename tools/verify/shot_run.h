@@ -1,0 +1,65 @@
+// One run of a shot file, built as `scree sim` builds it, and what is measured of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/stepper.h"
+#include "core/scene/world.h"
+#include "io/shot.h"
+#include "tools/verify/experiment.h"
+
+namespace scree::verify {
+
+class ShotRun {
+public:
+    /// Reads shots/verify/NAME.toml with overrides as after --set, the method of the context last.
+    ShotRun(const Context& context, const std::string& name,
+            const std::vector<std::string>& overrides = {});
+
+    /// Advances by `seconds` in steps of 1/stepsPerSecond; `look` after each, with its report and
+    /// the time since the start of this call [s].
+    void advance(double seconds, double stepsPerSecond,
+                 const std::function<void(const StepReport&, double)>& look = {});
+
+    /// A whole number of frames with the steps that the shot's settings choose.
+    void advanceFrames(int count, const std::function<void(const FrameReport&)>& look = {});
+
+    /// The body of that name. Throws Error{internal} when the shot has none.
+    BodyId body(const std::string& name) const;
+    const BodyMotion& motion(const std::string& name) const { return world.motion[body(name)]; }
+
+    Shot shot;
+    World world;
+    World start;  ///< the world as it was built
+    Stepper stepper;
+};
+
+/// "key=[x, y, z]" with all digits: an override that moves things.
+std::string setVector(const std::string& key, const Vec3& value);
+std::string setNumber(const std::string& key, double value);
+
+Vec3 spinOf(const World& world, BodyId body);
+
+/// Largest displacement of any vertex of the body between two worlds [m].
+double largestVertexShift(const World& before, const World& after, BodyId body);
+
+/// Height of the body's lowest vertex [m].
+double lowestVertex(const World& world, BodyId body);
+
+/// Kinetic plus potential energy of all movable bodies [J].
+double totalEnergy(const World& world, const Vec3& gravity);
+
+struct Momenta {
+    Vec3 linear = Vec3::Zero();   ///< [kg m/s]
+    Vec3 angular = Vec3::Zero();  ///< about the origin [kg m²/s]
+};
+Momenta momenta(const World& world);
+
+/// A picture of the run as it stands, through the shot's first camera; none unless the context
+/// wants pictures.
+void addPicture(const Context& context, const ShotRun& run, const std::string& caption,
+                Findings& findings);
+
+}  // namespace scree::verify
