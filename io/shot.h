@@ -69,7 +69,13 @@ struct PlaneSpec {
     Vec3 normal = Vec3::UnitY();
 };
 
-/// One body of the finished shot: grids and pose files are already expanded.
+/// When an emitted body comes, and what happens while its place is taken.
+struct ShotBirth {
+    int frame = 1001;  ///< the earliest
+    BirthClearance clearance = BirthClearance::wait;
+};
+
+/// One body of the finished shot: grids, pose files and emitters are already expanded.
 struct ShotBody {
     std::string name;
     std::optional<std::string> shape;  ///< a shape's name; exactly one of shape and plane is set
@@ -80,6 +86,7 @@ struct ShotBody {
     Vec3 velocity = Vec3::Zero();         ///< [m/s]
     Vec3 angularVelocity = Vec3::Zero();  ///< world axes [rad/s]
     std::optional<double> mass;           ///< [kg]
+    std::optional<ShotBirth> birth;       ///< without: there from the start
     SourceLocation location;
 };
 
