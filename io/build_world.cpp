@@ -29,8 +29,11 @@ struct MeshMaker {
     }
     TriMesh operator()(const FileSpec& s) const
     {
-        return transformed(importMesh(s.path), Pose(), Vec3::Constant(metresPerUnit));
+        const ImportedFile file = importFile(s.path);
+        const double metres = file.metresPerUnit.value_or(metresPerUnit);
+        return transformed(joinedMesh(file), Pose(), Vec3::Constant(metres));
     }
+    TriMesh operator()(const NodeSpec& s) const { return *s.mesh; }
 };
 
 /// Shapes and materials of a shot by name, each added to the world when the first body needs it.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -44,8 +45,14 @@ struct FileSpec {
     std::string path;
 };
 
+/// What a node of an imported file shows; read once, however many nodes show the same.
+struct NodeSpec {
+    std::string path;
+    std::shared_ptr<const TriMesh> mesh;  ///< [m]
+};
+
 using ShapeSource =
-    std::variant<TorusSpec, BoxSpec, SphereSpec, CylinderSpec, CapsuleSpec, FileSpec>;
+    std::variant<TorusSpec, BoxSpec, SphereSpec, CylinderSpec, CapsuleSpec, FileSpec, NodeSpec>;
 
 struct ShotShape {
     std::string name;

@@ -1,5 +1,6 @@
 #include "io/shot_interpreter.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <unordered_map>
@@ -9,6 +10,7 @@
 #include "io/nearest_word.h"
 #include "io/pose_file.h"
 #include "io/shot_check.h"
+#include "io/shot_import.h"
 #include "io/subframes.h"
 
 namespace scree {
@@ -54,6 +56,9 @@ public:
         readShapes();
         if (const ShotNode* bodies = tree_.find("body")) {
             for (const ShotNode& body : bodies->items) readBody(body);
+        }
+        if (const ShotNode* imports = tree_.find("import")) {
+            for (const ShotNode& import : imports->items) readImport(import);
         }
         if (const ShotNode* emitters = tree_.find("emitter")) {
             for (const ShotNode& emitter : emitters->items) readEmitter(emitter);
@@ -245,6 +250,50 @@ private:
             isNew = claimName(node, copy.name);
             if (isNew) shot_.bodies.push_back(std::move(copy));
         }
+    }
+
+    /// A body, and where nobody has it yet a shape, for every node that is asked for.
+    void readImport(const ShotNode& node)
+    {
+        const ShotNode *file = node.find("file"), *material = node.find("material");
+        if (material) requireKnown(*material, "material", materialNames_);
+        if (!file || !material) return;
+        for (PlacedNode& placed :
+             readImportedNodes(node, besideShot(file->text), shot_, problems_)) {
+            if (!hasRoomFor(1.0, node)) return;
+            ShotBody body;
+            body.location = node.where;
+            body.name = placed.name;
+            for (int i = 2; ownerOfName_.contains(body.name); ++i) {
+                body.name = placed.name + "_" + std::to_string(i);
+            }
+            ownerOfName_.emplace(body.name, node.where);
+            body.shape = shapeOfNode(placed, node.where);
+            body.material = material->text;
+            body.kind = node.find("motion")->text == "static" ? BodyKind::fixed : BodyKind::dynamic;
+            body.worldFromAsset = placed.worldFromNode;
+            shot_.bodies.push_back(std::move(body));
+        }
+    }
+
+    std::string shapeOfNode(const PlacedNode& placed, const SourceLocation& where)
+    {
+        for (const ShotShape& shape : shot_.shapes) {
+            const auto* known = std::get_if<NodeSpec>(&shape.source);
+            if (known && known->path == placed.shape.path && known->mesh == placed.shape.mesh) {
+                return shape.name;
+            }
+        }
+        ShotShape shape;
+        shape.name = placed.name;
+        while (std::find(shapeNames_.begin(), shapeNames_.end(), shape.name) != shapeNames_.end()) {
+            shape.name += "_";
+        }
+        shape.source = placed.shape;
+        shape.location = where;
+        shapeNames_.push_back(shape.name);
+        shot_.shapes.push_back(shape);
+        return shape.name;
     }
 
     /// Every body of an emitter is a body of the shot, with a birth.

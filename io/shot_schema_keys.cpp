@@ -411,8 +411,10 @@ const std::vector<ShotKey> kShapeKeys = {
     {.path = "shape.file",
      .type = text,
      .excludes = "torus|box|sphere|cylinder|capsule",
-     .help = "Mesh to read (obj, ply or stl), relative to the shot file. It must be the closed, "
-             "outward surface of a solid; what is wrong with it is said with its place."},
+     .help =
+         "Mesh to read (obj, ply, stl, glb, gltf or fbx), relative to the shot file; all its nodes "
+         "as one. glTF is in metres and FBX says its unit. It must be the closed, "
+         "outward surface of a solid; what is wrong with it is said with its place."},
     {.path = "shape.scale",
      .type = numberOrList,
      .byDefault = "1.0",
@@ -579,6 +581,36 @@ const std::vector<ShotKey> kBodyKeys = {
      .help = "How keyed motion goes from key to key."},
 };
 
+const std::vector<ShotKey> kImportKeys = {
+    {.path = "import",
+     .type = tableList,
+     .help =
+         "Many bodies from one file, each [[import]] one for every node that shows a mesh, where "
+         "it stands and under its own name."},
+    {.path = "import.file",
+     .type = text,
+     .isRequired = true,
+     .help =
+         "obj, ply, stl, glb, gltf or fbx, relative to the shot file. glTF is in metres and FBX "
+         "says its unit; the lengths of others are the shot's."},
+    {.path = "import.nodes",
+     .type = textOrTexts,
+     .byDefault = "\"*\"",
+     .help =
+         "Names of nodes with * and ? for what may be anything: [\"Mug*\", \"Bowl_?\"]. A pattern "
+         "that fits no node is an error."},
+    {.path = "import.motion",
+     .type = word,
+     .byDefault = "\"dynamic\"",
+     .choices = "dynamic|static",
+     .plannedChoices = "keyed",
+     .help = "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move."},
+    {.path = "import.material",
+     .type = text,
+     .isRequired = true,
+     .help = "Name of a [material.NAME]."},
+};
+
 const std::vector<ShotKey> kEmitterKeys = {
     {.path = "emitter",
      .type = tableList,
@@ -690,10 +722,6 @@ const std::vector<ShotKey> kEmitterKeys = {
 };
 
 const std::vector<ShotKey> kPlannedTables = {
-    {.path = "import",
-     .type = tableList,
-     .isPlanned = true,
-     .help = "Many bodies from one file, one for each node."},
     {.path = "pair",
      .type = tableList,
      .isPlanned = true,
@@ -772,8 +800,9 @@ const std::vector<ShotKey>& shotKeys()
 {
     static const std::vector<ShotKey> all = [] {
         std::vector<ShotKey> keys;
-        for (const auto* part : {&kFileKeys, &kShotKeys, &kSolverKeys, &kMaterialKeys, &kShapeKeys,
-                                 &kBodyKeys, &kEmitterKeys, &kPlannedTables, &kLookKeys}) {
+        for (const auto* part :
+             {&kFileKeys, &kShotKeys, &kSolverKeys, &kMaterialKeys, &kShapeKeys, &kBodyKeys,
+              &kImportKeys, &kEmitterKeys, &kPlannedTables, &kLookKeys}) {
             keys.insert(keys.end(), part->begin(), part->end());
         }
         return keys;

@@ -43,7 +43,7 @@ std::string body(const std::string& lines)
 
 const char* const kMaterialKeys = "(valid: density, friction, restitution, color, roughness)";
 const char* const kTables =
-    "(valid: scree, shot, solver, material, shape, body, emitter, camera, render, output)";
+    "(valid: scree, shot, solver, material, shape, body, import, emitter, camera, render, output)";
 
 std::vector<BadShot> badShots()
 {
