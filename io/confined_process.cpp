@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -92,7 +93,8 @@ void writeAll(int descriptor, const char* bytes, std::size_t count)
 bool readAnswer(int input, const ConfinedLimits& limits, std::string& answer)
 {
     using Clock = std::chrono::steady_clock;
-    const auto deadline = Clock::now() + std::chrono::seconds(2 * limits.seconds);
+    const auto deadline =
+        Clock::now() + std::chrono::milliseconds(std::lround(1e3 * limits.clockSeconds));
     std::array<char, 65536> piece;
     while (answer.size() <= limits.resultBytes) {
         const auto left =

@@ -11,7 +11,8 @@ namespace scree {
 
 struct ConfinedLimits {
     std::uint64_t memoryBytes = std::uint64_t{4} << 30;  ///< beyond what the parent uses
-    int seconds = 60;                                    ///< of processor time; twice that of clock
+    int seconds = 60;                                    ///< of processor time
+    double clockSeconds = 120.0;
     std::uint64_t resultBytes = std::uint64_t{2} << 30;
 };
 

@@ -19,7 +19,6 @@
 
 #include "core/base/error.h"
 #include "io/byte_order.h"
-#include "io/confined_process.h"
 #include "io/nearest_word.h"
 
 namespace scree {
@@ -312,11 +311,11 @@ private:
 
 }  // namespace
 
-ImportedFile importFile(const std::string& path)
+ImportedFile importFile(const std::string& path, const ConfinedLimits& limits)
 {
     requireReadable(path);
-    const std::string bytes =
-        runConfined("mesh file '" + path + "' cannot be read", [&] { return encodeFile(path); });
+    const std::string bytes = runConfined(
+        "mesh file '" + path + "' cannot be read", [&] { return encodeFile(path); }, limits);
     ImportedFile file = Decoder(bytes, path).decode();
     file.isYUp = endingOf(path) == "glb" || endingOf(path) == "gltf";
     return file;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/geometry/tri_mesh.h"
+#include "io/confined_process.h"
 
 namespace scree {
 
@@ -31,7 +32,7 @@ struct ImportedFile {
 /// Error{badInput} for an unsupported file ending, a file that cannot be read within the limits,
 /// one that refers to files outside its folder, one without faces and one with coordinates that are
 /// not finite.
-ImportedFile importFile(const std::string& path);
+ImportedFile importFile(const std::string& path, const ConfinedLimits& limits = {});
 
 /// All nodes of a file as one mesh, where they stand.
 TriMesh joinedMesh(const ImportedFile& file);
