@@ -22,6 +22,7 @@ namespace scree {
 enum class AlembicType : std::uint8_t {
     boolean = 0,
     u8 = 1,
+    i8 = 2,
     i32 = 6,
     u32 = 5,
     f32 = 10,

@@ -141,6 +141,7 @@ private:
     MeshSamples writeMesh(const SceneMesh& mesh);
     void addSample(TransformTrack& track, const Channels& channels);
     AlembicObject writeBody(std::size_t body);
+    SampleTrack visibilityOf(const SceneBody& body);
     AlembicObject writeShape(const std::string& name, const MeshSamples& mesh,
                              const std::string& material);
     AlembicObject writeMaterial(const std::string& name, const MeshSamples& mesh);
@@ -149,11 +150,13 @@ private:
     std::string freeName(std::string name) const;
     AlembicObject writeTransform(const std::string& name, const TransformTrack& track, bool moves,
                                  const std::vector<AlembicProperty>& userProperties,
-                                 std::span<const AlembicObject> children);
+                                 std::span<const AlembicObject> children,
+                                 const SampleTrack& visible = {});
     AlembicProperty writeMovingChannels(const TransformTrack& track);
 
     fs::path output_;
     const SceneDescription* scene_ = nullptr;
+    int firstFrame_ = 0, frameCount_ = 0;
     std::optional<AlembicArchive> archive_;
     int everySample_ = 0;  // index of the time sampling of all that moves
     std::vector<MeshSamples> meshes_;
@@ -165,9 +168,11 @@ private:
     SampleTrack inheritsEverySample_, opsEverySample_;
 };
 
-void AlembicWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*frameCount*/)
+void AlembicWriter::beginScene(const SceneDescription& scene, int firstFrame, int frameCount)
 {
     scene_ = &scene;
+    firstFrame_ = firstFrame;
+    frameCount_ = frameCount;
     archive_.emplace(output_);
     std::vector<double> times;
     for (const double offset : offsets())
@@ -282,7 +287,8 @@ AlembicObject AlembicWriter::writeBody(std::size_t index)
 
     const std::array<double, 1> mass = {body.mass};
     const std::array<std::int32_t, 1> id = {static_cast<std::int32_t>(index)};
-    const std::array<std::int32_t, 1> birth = {body.birthFrame};
+    const std::array<std::int32_t, 1> birth = {body.birthFrame == kFromTheStart ? firstFrame_
+                                                                                : body.birthFrame};
     std::vector<AlembicProperty> userProperties;
     if (body.mass > 0.0) {
         userProperties.push_back(
@@ -295,7 +301,25 @@ AlembicObject AlembicWriter::writeBody(std::size_t index)
     userProperties.push_back(
         archive_->writeConstant(scalarLayout("birthFrame", AlembicType::i32), bytesOf(birth)));
     return writeTransform(body.name, bodies_[index], body.moves, userProperties,
-                          std::span(&shape, 1));
+                          std::span(&shape, 1), visibilityOf(body));
+}
+
+/// Alembic's own visibility, a sample for each of time; none for a body that is always there.
+SampleTrack AlembicWriter::visibilityOf(const SceneBody& body)
+{
+    SampleTrack track;
+    if (isThere(body, firstFrame_)) return track;
+    // A sample that nothing refers to would be waste.
+    const AlembicSample hidden = archive_->writeScalar(std::string_view("\0", 1));
+    AlembicSample shown;
+    const int end = firstFrame_ + frameCount_;
+    if (isThere(body, end - 1)) shown = archive_->writeScalar(std::string_view("\x01", 1));
+    for (int frame = firstFrame_; frame < end; ++frame) {
+        for (std::size_t k = 0; k < offsets().size(); ++k) {
+            track.append(isThere(body, frame) ? shown : hidden);
+        }
+    }
+    return track;
 }
 
 AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSamples& mesh,
@@ -396,7 +420,8 @@ AlembicObject AlembicWriter::writeCamera(const SceneCamera& camera)
 AlembicObject AlembicWriter::writeTransform(const std::string& name, const TransformTrack& track,
                                             bool moves,
                                             const std::vector<AlembicProperty>& userProperties,
-                                            std::span<const AlembicObject> children)
+                                            std::span<const AlembicObject> children,
+                                            const SampleTrack& visible)
 {
     const int sampling = moves ? everySample_ : 0;
     const SampleTrack& inherits = moves ? inheritsEverySample_ : SampleTrack(inheritsSample_);
@@ -418,10 +443,14 @@ AlembicObject AlembicWriter::writeTransform(const std::string& name, const Trans
     }
     if (track.movingChannels != 0) properties.push_back(writeMovingChannels(track));
 
-    const AlembicProperty transform =
-        archive_->writeCompound(".xform", std::string(kXformSchema), properties);
+    std::vector<AlembicProperty> ofObject = {
+        archive_->writeCompound(".xform", std::string(kXformSchema), properties)};
+    if (visible.count() > 0) {
+        ofObject.push_back(archive_->writeProperty(
+            scalarLayout("visible", AlembicType::i8, 1, everySample_), visible));
+    }
     const std::string metadata = std::string(kXformSchema) + std::string(kXformTitle);
-    return archive_->writeObject(name, metadata, std::span(&transform, 1), children);
+    return archive_->writeObject(name, metadata, ofObject, children);
 }
 
 AlembicProperty AlembicWriter::writeMovingChannels(const TransformTrack& track)

@@ -3,6 +3,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "core/dynamics/births.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
 #include "io/mesh_import.h"
@@ -28,8 +29,11 @@ struct MeshMaker {
     }
     TriMesh operator()(const FileSpec& s) const
     {
-        return transformed(importMesh(s.path), Pose(), Vec3::Constant(metresPerUnit));
+        const ImportedFile file = importFile(s.path);
+        const double metres = file.metresPerUnit.value_or(metresPerUnit);
+        return transformed(joinedMesh(file), Pose(), Vec3::Constant(metres));
     }
+    TriMesh operator()(const NodeSpec& s) const { return *s.mesh; }
 };
 
 /// Shapes and materials of a shot by name, each added to the world when the first body needs it.
@@ -46,6 +50,8 @@ public:
             materialOfName_.emplace(material.material.name, world_.addMaterial(material.material));
         }
         for (const ShotBody& body : shot_.bodies) add(body);
+        problems_.throwIfAny();
+        bearTheFirst();
         problems_.throwIfAny();
         return std::move(world_);
     }
@@ -71,11 +77,25 @@ private:
         definition.velocity = body.velocity;
         definition.angularVelocity = body.angularVelocity;
         definition.mass = body.mass;
+        if (body.birth) {
+            definition.birth = {body.birth->frame - shot_.firstFrame, body.birth->clearance};
+        }
         try {
             world_.addBody(definition);
         } catch (const Error& error) {
             problems_.add(body.location, error.what(), error.kind());
         }
+    }
+
+    /// Births at time zero; bodies of world and shot have the same order.
+    void bearTheFirst()
+    {
+        const BirthReport report = giveBirths(world_);
+        if (report.failed < 0) return;
+        problems_.add(shot_.bodies[report.failed].location,
+                      "'" + world_.info[report.failed].name + "' cannot be born: '" +
+                          world_.info[report.occupant].name +
+                          "' stands in its place; clear = \"wait\" lets it wait");
     }
 
     ShapeId planeShape()
@@ -168,7 +188,8 @@ SceneDescription describeScene(const Shot& shot, const World& world, double plan
         described.mesh = entry->second;
         described.material = world.materialOf(body).name;
         described.moves = world.info[i].kind == BodyKind::dynamic;
-        described.mass = world.mass[i].isMovable() ? 1.0 / world.mass[i].inverseMass : 0.0;
+        const BodyMass& mass = world.massWhenBorn(body);
+        described.mass = mass.isMovable() ? 1.0 / mass.inverseMass : 0.0;
         scene.bodies.push_back(described);
     }
     return scene;
@@ -186,7 +207,10 @@ SceneFrame captureFrame(const Shot& shot, const World& world)
         const Vec3 w = inverseInertia * motion.angularMomentum;
 
         Pose pose = world.worldFromAsset(static_cast<BodyId>(i));
-        const Vec3 v = motion.velocity + w.cross(pose.position - motion.position);
+        // Before its birth a body stands still where it will begin.
+        const bool isBorn = world.isBorn(static_cast<BodyId>(i));
+        const Vec3 v = isBorn ? (motion.velocity + w.cross(pose.position - motion.position)).eval()
+                              : Vec3::Zero().eval();
         pose.position /= shot.metresPerUnit;
         frame.worldFromAsset.push_back(pose);
         frame.velocity.push_back(v / shot.metresPerUnit);

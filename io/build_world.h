@@ -8,7 +8,9 @@
 
 namespace scree {
 
-/// Throws Error, located in the shot file, when an asset cannot be read or is not a solid.
+/// The shot at time zero; bodies that are born at its first frame have been. Throws Error, located
+/// in the shot file, when an asset cannot be read or is not a solid, or when a body that may not
+/// wait finds its place taken.
 World buildWorld(const Shot& shot);
 
 /// Names, meshes and masses of everything that is exported, in the shot's units. Planes become

@@ -224,6 +224,7 @@ void addState(FrameEncoder& encoder, const FrameState& state)
     encoder.add("body.velocity", 3, velocity);
     encoder.add("body.angular_momentum", 3, angularMomentum);
     encoder.add("body.order", 1, state.order);
+    if (!state.bornAt.empty()) encoder.add("body.born_at", 1, state.bornAt);
 }
 
 /// Poses and velocities of one or more samples, sample after sample.
@@ -265,6 +266,9 @@ void readState(const FrameDecoder& decoder, std::uint64_t bodyCount, FrameState&
     const auto velocity = decoder.read<double>("body.velocity", bodyCount, 3);
     const auto angularMomentum = decoder.read<double>("body.angular_momentum", bodyCount, 3);
     state.order = decoder.read<std::int32_t>("body.order", bodyCount, 1);
+    if (decoder.rowsOf("body.born_at") > 0) {
+        state.bornAt = decoder.read<std::int32_t>("body.born_at", bodyCount, 1);
+    }
     state.motion.resize(bodyCount);
     for (std::size_t i = 0; i < bodyCount; ++i)
         state.motion[i] = {vectorAt(position, i), quaternionAt(orientation, i),
@@ -308,6 +312,7 @@ std::string encodeFrame(const FrameState& state)
 {
     const std::size_t bodyCount = state.motion.size();
     SCREE_CHECK(state.order.size() == bodyCount, "order and state differ in size");
+    SCREE_CHECK(state.bornAt.empty() || state.bornAt.size() == bodyCount, "births differ in size");
     SCREE_CHECK(state.scene.worldFromAsset.size() == bodyCount, "scene and state differ in size");
     for (const SceneFrame& sample : state.between)
         SCREE_CHECK(sample.worldFromAsset.size() == bodyCount, "a sample lacks bodies");

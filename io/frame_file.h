@@ -16,13 +16,15 @@ namespace scree {
 
 constexpr std::uint32_t kFrameFileVersion = 1;
 
-/// What a frame file holds. `motion`, `order` and `clock` are the state (SI); `scene` is what
-/// follows from it in the shot's unit, kept because readers outside this program want only that.
+/// What a frame file holds. `motion`, `order`, `bornAt` and `clock` are the state (SI); `scene` is
+/// what follows from it in the shot's unit, kept because readers outside this program want only
+/// that.
 struct FrameState {
     std::uint64_t shotHash = 0;  ///< of the resolved shot: a frame belongs to one shot only
     Clock clock;
     std::vector<BodyMotion> motion;
     std::vector<BodyId> order;
+    std::vector<std::int32_t> bornAt;  ///< World::bornAt; empty when all are there from the start
     SceneFrame scene;
     std::vector<SceneFrame> between;  ///< on the way here since the frame before: its number,
                                       ///< offsets ascending in 0 … 1

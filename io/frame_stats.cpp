@@ -104,6 +104,10 @@ std::string encodeStats(const FrameStats& stats, const World& world)
         {"potential_energy_J", frame.potentialEnergy},
         {"momentum", {frame.momentum.x(), frame.momentum.y(), frame.momentum.z()}},
         {"bodies_awake", frame.bodiesAwake},
+        {"births",
+         {{"born", frame.births.born},
+          {"waiting", frame.births.waiting},
+          {"skipped", frame.births.skipped}}},
         {"phase_ms", phaseTimes(sum)},
         {"state_hash", toHex(frame.stateHash)},
     };

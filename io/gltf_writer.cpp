@@ -97,6 +97,7 @@ private:
     void addCameras(Json& rootNodes);
     void addBodies(Json& rootNodes);
     void addAnimation();
+    void addBirths(Json& samplers, Json& channels);
     void writeMotion();
 
     fs::path output_;
@@ -320,6 +321,33 @@ void GltfWriter::addCameras(Json& rootNodes)
     }
 }
 
+/// glTF 2.0 knows no visibility. A node of scale 0 is not drawn by any reader, so a body has none
+/// until it is born. These bytes stand with the meshes', before all motion.
+void GltfWriter::addBirths(Json& samplers, Json& channels)
+{
+    const double start = motion_->times().front(), end = motion_->times().back();
+    for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
+        const int birthFrame = scene_->bodies[b].birthFrame;
+        if (birthFrame <= start) continue;
+        std::vector<float> times = {0.0f}, scales = {0.0f, 0.0f, 0.0f};
+        if (birthFrame <= end) {
+            times.push_back(static_cast<float>((birthFrame - start) / scene_->framesPerSecond));
+            scales.insert(scales.end(), {1.0f, 1.0f, 1.0f});
+        }
+        const auto add = [&](const std::vector<float>& values, const char* type) {
+            meshBytes_ += bytesOf(values);
+            const std::size_t view = addView(values.size() * sizeof(float), std::nullopt);
+            return addAccessor(view, 0, times.size(), type, kFloat);
+        };
+        const std::size_t input = add(times, "SCALAR"), output = add(scales, "VEC3");
+        json_["accessors"][input]["min"] = Json::array({static_cast<double>(times.front())});
+        json_["accessors"][input]["max"] = Json::array({static_cast<double>(times.back())});
+        channels.push_back({{"sampler", samplers.size()},
+                            {"target", {{"node", nodeOfBody_[b]}, {"path", "scale"}}}});
+        samplers.push_back({{"input", input}, {"interpolation", "STEP"}, {"output", output}});
+    }
+}
+
 /// Views: the times, then all translations, then all rotations that change.
 void GltfWriter::addAnimation()
 {
@@ -328,7 +356,9 @@ void GltfWriter::addAnimation()
         translationCount += changes.translation;
         rotationCount += changes.rotation;
     }
-    if (translationCount + rotationCount == 0) return;
+    Json samplers = Json::array(), channels = Json::array();
+    addBirths(samplers, channels);
+    if (translationCount + rotationCount + channels.size() == 0) return;
 
     const std::vector<double>& times = motion_->times();
     const std::size_t count = times.size();
@@ -339,7 +369,6 @@ void GltfWriter::addAnimation()
     json_["accessors"][timeAccessor]["max"] =
         Json::array({static_cast<double>(static_cast<float>(last))});
 
-    Json samplers = Json::array(), channels = Json::array();
     const auto addTracks = [&](bool Changes::*changes, std::size_t trackCount, const char* path,
                                const char* type, std::uint64_t sampleBytes) {
         if (trackCount == 0) return;

@@ -1,17 +1,43 @@
 // Mesh files → TriMesh, as the artist made them: nothing is repaired, rescaled or recentred.
+//
+// Files are foreign and their parsers are known to break on bad ones. They run in a process of
+// their own (confined_process.h) that may read the file's folder and nothing else; what it hands
+// back is checked like a file.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/geometry/tri_mesh.h"
+#include "io/confined_process.h"
 
 namespace scree {
 
-/// All meshes of a file as one, where its nodes place them; polygons are cut into triangles and
-/// equal points joined, lengths as in the file. Coordinates pass through single precision. Whether
-/// the result is a solid is not asked here. Throws Error{missingInput} when there is no such file,
-/// and Error{badInput} for an unsupported file ending, an unreadable file, one without faces and
-/// one with coordinates that are not finite.
+/// A node of a file that shows a mesh.
+struct ImportedNode {
+    std::string name;   ///< as in the file; neither unique nor an identifier
+    Pose fileFromNode;  ///< lengths of the file
+    TriMesh mesh;       ///< in the node's axes, its scale baked; equal points joined
+};
+
+struct ImportedFile {
+    std::vector<ImportedNode> nodes;      ///< in the order of the file's tree; at least one
+    bool isYUp = false;                   ///< the format says so
+    std::optional<double> metresPerUnit;  ///< length of one unit of the file [m], if it says so
+};
+
+/// Polygons are cut into triangles. Coordinates pass through single precision. Whether a mesh is a
+/// solid is not asked here. Throws Error{missingInput} when there is no such file, and
+/// Error{badInput} for an unsupported file ending, a file that cannot be read within the limits,
+/// one that refers to files outside its folder, one without faces and one with coordinates that are
+/// not finite.
+ImportedFile importFile(const std::string& path, const ConfinedLimits& limits = {});
+
+/// All nodes of a file as one mesh, where they stand.
+TriMesh joinedMesh(const ImportedFile& file);
+
+/// joinedMesh of importFile.
 TriMesh importMesh(const std::string& path);
 
 }  // namespace scree

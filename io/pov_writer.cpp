@@ -170,7 +170,7 @@ void PovWriter::writeFrame(const SceneFrame& frame)
     file.write(cameraText());
     file.write(lightText());
     for (std::size_t body = 0; body < scene_->bodies.size(); ++body) {
-        if (isDrawn_[scene_->bodies[body].mesh]) {
+        if (isDrawn_[scene_->bodies[body].mesh] && isThere(scene_->bodies[body], frame.frame)) {
             file.write(bodyText(body, frame.worldFromAsset[body]));
         }
     }

@@ -18,6 +18,7 @@ public:
     void add(const SourceLocation& where, const std::string& message,
              ErrorKind kind = ErrorKind::badInput);
 
+    std::size_t count() const { return problems_.size(); }
     bool isEmpty() const { return problems_.empty(); }
 
     /// Throws one Error, a line "file:line:column: message" for each problem, in order of position.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -44,8 +45,14 @@ struct FileSpec {
     std::string path;
 };
 
+/// What a node of an imported file shows; read once, however many nodes show the same.
+struct NodeSpec {
+    std::string path;
+    std::shared_ptr<const TriMesh> mesh;  ///< [m]
+};
+
 using ShapeSource =
-    std::variant<TorusSpec, BoxSpec, SphereSpec, CylinderSpec, CapsuleSpec, FileSpec>;
+    std::variant<TorusSpec, BoxSpec, SphereSpec, CylinderSpec, CapsuleSpec, FileSpec, NodeSpec>;
 
 struct ShotShape {
     std::string name;
@@ -69,7 +76,13 @@ struct PlaneSpec {
     Vec3 normal = Vec3::UnitY();
 };
 
-/// One body of the finished shot: grids and pose files are already expanded.
+/// When an emitted body comes, and what happens while its place is taken.
+struct ShotBirth {
+    int frame = 1001;  ///< the earliest
+    BirthClearance clearance = BirthClearance::wait;
+};
+
+/// One body of the finished shot: grids, pose files and emitters are already expanded.
 struct ShotBody {
     std::string name;
     std::optional<std::string> shape;  ///< a shape's name; exactly one of shape and plane is set
@@ -80,6 +93,7 @@ struct ShotBody {
     Vec3 velocity = Vec3::Zero();         ///< [m/s]
     Vec3 angularVelocity = Vec3::Zero();  ///< world axes [rad/s]
     std::optional<double> mass;           ///< [kg]
+    std::optional<ShotBirth> birth;       ///< without: there from the start
     SourceLocation location;
 };
 

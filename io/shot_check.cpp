@@ -146,6 +146,10 @@ private:
                 return checkNumber(node, key);
             case KeyType::numberOrList:
                 return node.kind == Kind::list ? checkList(node, key) : checkNumber(node, key);
+            case KeyType::numberOrWord:
+                return node.kind == Kind::text ? checkWord(node, key) : checkNumber(node, key);
+            case KeyType::textOrTexts:
+                return checkTexts(node, key);
             case KeyType::word:
                 return checkWord(node, key);
             default:
@@ -185,6 +189,15 @@ private:
             }
         }
         return isRight;
+    }
+
+    bool checkTexts(const ShotNode& node, const ShotKey& key)
+    {
+        const bool isList = node.kind == Kind::list && !node.items.empty();
+        const bool areTexts =
+            std::all_of(node.items.begin(), node.items.end(),
+                        [](const ShotNode& item) { return item.kind == Kind::text; });
+        return node.kind == Kind::text || (isList && areTexts) || refuse(node, key);
     }
 
     bool checkWord(const ShotNode& node, const ShotKey& key)

@@ -1,13 +1,16 @@
 #include "io/shot_interpreter.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <unordered_map>
 
 #include "core/math/rotation.h"
+#include "io/emitter.h"
 #include "io/nearest_word.h"
 #include "io/pose_file.h"
 #include "io/shot_check.h"
+#include "io/shot_import.h"
 #include "io/subframes.h"
 
 namespace scree {
@@ -38,24 +41,6 @@ double metresPerUnit(const std::string& unit)
     return 1.0;
 }
 
-/// Reads "A-B" or "A"; false when it is neither. Frames before 0 are allowed.
-bool readFrames(const std::string& text, int& first, int& last)
-{
-    int length = 0, a = 0, b = 0;
-    const int size = static_cast<int>(text.size());
-    if (text.size() > 32) return false;
-    if (std::sscanf(text.c_str(), "%9d%n", &a, &length) == 1 && length == size) {
-        first = last = a;
-        return true;
-    }
-    if (std::sscanf(text.c_str(), "%9d -%9d%n", &a, &b, &length) != 2 || length != size) {
-        return false;
-    }
-    first = a;
-    last = b;
-    return true;
-}
-
 class Interpreter {
 public:
     Interpreter(const ShotNode& tree, const std::string& shotPath, ProblemList& problems)
@@ -71,6 +56,12 @@ public:
         readShapes();
         if (const ShotNode* bodies = tree_.find("body")) {
             for (const ShotNode& body : bodies->items) readBody(body);
+        }
+        if (const ShotNode* imports = tree_.find("import")) {
+            for (const ShotNode& import : imports->items) readImport(import);
+        }
+        if (const ShotNode* emitters = tree_.find("emitter")) {
+            for (const ShotNode& emitter : emitters->items) readEmitter(emitter);
         }
         readLook();
         return std::move(shot_);
@@ -89,7 +80,7 @@ private:
             }
         }
         const ShotNode& frames = *table->find("frames");
-        if (!readFrames(frames.text, shot_.firstFrame, shot_.lastFrame)) {
+        if (!readFrameRange(frames.text, shot_.firstFrame, shot_.lastFrame)) {
             report(frames, "'frames' must be \"FIRST-LAST\", for example \"1001-1240\", not " +
                                toTomlText(frames));
         } else if (shot_.lastFrame < shot_.firstFrame) {
@@ -261,6 +252,84 @@ private:
         }
     }
 
+    /// A body, and where nobody has it yet a shape, for every node that is asked for.
+    void readImport(const ShotNode& node)
+    {
+        const ShotNode *file = node.find("file"), *material = node.find("material");
+        if (material) requireKnown(*material, "material", materialNames_);
+        if (!file || !material) return;
+        for (PlacedNode& placed :
+             readImportedNodes(node, besideShot(file->text), shot_, problems_)) {
+            if (!hasRoomFor(1.0, node)) return;
+            ShotBody body;
+            body.location = node.where;
+            body.name = placed.name;
+            for (int i = 2; ownerOfName_.contains(body.name); ++i) {
+                body.name = placed.name + "_" + std::to_string(i);
+            }
+            ownerOfName_.emplace(body.name, node.where);
+            body.shape = shapeOfNode(placed, node.where);
+            body.material = material->text;
+            body.kind = node.find("motion")->text == "static" ? BodyKind::fixed : BodyKind::dynamic;
+            body.worldFromAsset = placed.worldFromNode;
+            shot_.bodies.push_back(std::move(body));
+        }
+    }
+
+    std::string shapeOfNode(const PlacedNode& placed, const SourceLocation& where)
+    {
+        for (const ShotShape& shape : shot_.shapes) {
+            const auto* known = std::get_if<NodeSpec>(&shape.source);
+            if (known && known->path == placed.shape.path && known->mesh == placed.shape.mesh) {
+                return shape.name;
+            }
+        }
+        ShotShape shape;
+        shape.name = placed.name;
+        while (std::find(shapeNames_.begin(), shapeNames_.end(), shape.name) != shapeNames_.end()) {
+            shape.name += "_";
+        }
+        shape.source = placed.shape;
+        shape.location = where;
+        shapeNames_.push_back(shape.name);
+        shot_.shapes.push_back(shape);
+        return shape.name;
+    }
+
+    /// Every body of an emitter is a body of the shot, with a birth.
+    void readEmitter(const ShotNode& node)
+    {
+        const std::size_t problemsBefore = problems_.count();
+        Emitter emitter = readEmitterTable(node, shot_, folder_.string(), problems_);
+        const auto require = [&](const char* key, const std::vector<std::string>& names) {
+            const ShotNode* value = node.find(key);
+            if (!value) return;
+            for (const ShotNode& item : value->items) requireKnown(item, key, names);
+            if (value->items.empty()) requireKnown(*value, key, names);
+        };
+        require("shape", shapeNames_);
+        require("material", materialNames_);
+        if (const ShotNode* count = node.find("count")) hasRoomFor(1.0 * emitter.count, *count);
+        if (problems_.count() > problemsBefore || !isComplete(node)) return;
+
+        for (int i = 0; i < emitter.count; ++i) {
+            ShotBody body = emittedBody(emitter, shot_, i);
+            body.name = nameOfCopy(emitter.name, static_cast<std::size_t>(i));
+            body.location = node.where;
+            if (!claimName(node, body.name)) return;
+            shot_.bodies.push_back(std::move(body));
+        }
+    }
+
+    /// Whether nothing that it needs was missing or found wrong before.
+    static bool isComplete(const ShotNode& emitter)
+    {
+        for (const char* key : {"name", "shape", "material", "count"}) {
+            if (!emitter.find(key)) return false;
+        }
+        return true;
+    }
+
     static std::string nameOfCopy(const std::string& name, std::size_t index)
     {
         char number[24];
@@ -373,24 +442,15 @@ private:
 
     std::vector<Pose> readGrid(const ShotNode& grid, const Pose& base)
     {
-        std::vector<Pose> copies;
         const ShotNode* countNode = grid.find("count");
         const ShotNode* spacingNode = grid.find("spacing");
-        if (!countNode || !spacingNode) return copies;
+        if (!countNode || !spacingNode) return {};
         const std::array<int, 3> count = toInts<3>(*countNode);
-        if (!hasRoomFor(1.0 * count[0] * count[1] * count[2], *countNode)) return copies;
+        if (!hasRoomFor(1.0 * count[0] * count[1] * count[2], *countNode)) return {};
 
-        const Vec3 spacing = toVec3(*spacingNode);
-        for (int z = 0; z < count[2]; ++z) {
-            for (int y = 0; y < count[1]; ++y) {
-                for (int x = 0; x < count[0]; ++x) {
-                    const Vec3 steps(x - 0.5 * (count[0] - 1), y - 0.5 * (count[1] - 1),
-                                     z - 0.5 * (count[2] - 1));
-                    Pose pose = base;
-                    pose.position += steps.cwiseProduct(spacing);
-                    copies.push_back(pose);
-                }
-            }
+        std::vector<Pose> copies;
+        for (const Vec3& place : gridPlaces(count, toVec3(*spacingNode))) {
+            copies.push_back({base.position + place, base.orientation});
         }
         return copies;
     }

@@ -177,6 +177,10 @@ std::string expectationOf(const ShotKey& key)
             return count + " numbers" + listPattern(key.count) + eachRange;
         case KeyType::numberOrList:
             return "a number" + range + ", or " + count + " such numbers" + listPattern(key.count);
+        case KeyType::numberOrWord:
+            return "a number" + range + ", or " + quotedChoices(key.choices);
+        case KeyType::textOrTexts:
+            return "text in quotes, or a list of such texts";
         case KeyType::words:
             return "a list of words from " + quotedChoices(key.choices);
         case KeyType::table:

@@ -18,6 +18,8 @@ enum class KeyType {
     integers,      ///< a list of exactly `count`
     numbers,       ///< a list of exactly `count`
     numberOrList,  ///< one number, or a list of exactly `count`
+    numberOrWord,  ///< one number, or one of `choices`
+    textOrTexts,   ///< one text, or a list of any length but zero
     words,         ///< a list of any length, each one of `choices`
     table,
     namedTables,  ///< [material.NAME]: a table for each name

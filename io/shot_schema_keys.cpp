@@ -411,8 +411,10 @@ const std::vector<ShotKey> kShapeKeys = {
     {.path = "shape.file",
      .type = text,
      .excludes = "torus|box|sphere|cylinder|capsule",
-     .help = "Mesh to read (obj, ply or stl), relative to the shot file. It must be the closed, "
-             "outward surface of a solid; what is wrong with it is said with its place."},
+     .help =
+         "Mesh to read (obj, ply, stl, glb, gltf or fbx), relative to the shot file; all its nodes "
+         "as one. glTF is in metres and FBX says its unit. It must be the closed, "
+         "outward surface of a solid; what is wrong with it is said with its place."},
     {.path = "shape.scale",
      .type = numberOrList,
      .byDefault = "1.0",
@@ -579,15 +581,147 @@ const std::vector<ShotKey> kBodyKeys = {
      .help = "How keyed motion goes from key to key."},
 };
 
-const std::vector<ShotKey> kPlannedTables = {
+const std::vector<ShotKey> kImportKeys = {
     {.path = "import",
      .type = tableList,
-     .isPlanned = true,
-     .help = "Many bodies from one file, one for each node."},
+     .help =
+         "Many bodies from one file, each [[import]] one for every node that shows a mesh, where "
+         "it stands and under its own name."},
+    {.path = "import.file",
+     .type = text,
+     .isRequired = true,
+     .help =
+         "obj, ply, stl, glb, gltf or fbx, relative to the shot file. glTF is in metres and FBX "
+         "says its unit; the lengths of others are the shot's."},
+    {.path = "import.nodes",
+     .type = textOrTexts,
+     .byDefault = "\"*\"",
+     .help =
+         "Names of nodes with * and ? for what may be anything: [\"Mug*\", \"Bowl_?\"]. A pattern "
+         "that fits no node is an error."},
+    {.path = "import.motion",
+     .type = word,
+     .byDefault = "\"dynamic\"",
+     .choices = "dynamic|static",
+     .plannedChoices = "keyed",
+     .help = "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move."},
+    {.path = "import.material",
+     .type = text,
+     .isRequired = true,
+     .help = "Name of a [material.NAME]."},
+};
+
+const std::vector<ShotKey> kEmitterKeys = {
     {.path = "emitter",
      .type = tableList,
-     .isPlanned = true,
-     .help = "Bodies born over a range of frames."},
+     .help = "Bodies that come while the shot runs, each [[emitter]] a number of them, named "
+             "NAME_0000, NAME_0001, … Every draw depends on the seed, the emitter's name and the "
+             "number of the body alone."},
+    {.path = "emitter.name",
+     .type = text,
+     .isRequired = true,
+     .help = "Identifier (letters, digits, _; no digit first); its bodies are NAME_0000, …"},
+    {.path = "emitter.shape",
+     .type = textOrTexts,
+     .isRequired = true,
+     .help = "Name of a [shape.NAME], or a list of them, from which each body draws one."},
+    {.path = "emitter.weights",
+     .type = numbers,
+     .count = 0,
+     .min = 0,
+     .isOpen = true,
+     .help = "How often each shape of the list is drawn, against the others. Without weights all "
+             "are drawn equally often."},
+    {.path = "emitter.material",
+     .type = text,
+     .isRequired = true,
+     .help = "Name of a [material.NAME]."},
+    {.path = "emitter.count",
+     .type = integer,
+     .min = 1,
+     .max = 1000000,
+     .isRequired = true,
+     .help = "Bodies in all, exactly."},
+    {.path = "emitter.frames",
+     .type = text,
+     .unit = "frames",
+     .help =
+         "\"FIRST-LAST\": births are spread evenly over these frames, or all at once if it is "
+         "one frame. Without it, at the first frame of the shot. A body is seen at the frame of "
+         "its birth where it begins, and moves from then on."},
+    {.path = "emitter.box",
+     .type = table,
+     .excludes = "layout|poses",
+     .help = "Bodies begin at places drawn in this box."},
+    {.path = "emitter.box.min",
+     .type = numbers,
+     .unit = "shot's unit of length",
+     .isRequired = true,
+     .help = "Lowest place of the asset's origin along x, y and z."},
+    {.path = "emitter.box.max",
+     .type = numbers,
+     .unit = "shot's unit of length",
+     .isRequired = true,
+     .help = "Highest place of the asset's origin along x, y and z."},
+    {.path = "emitter.layout",
+     .type = table,
+     .excludes = "box|poses",
+     .help = "Bodies begin on a grid: place after place, and again from its beginning."},
+    {.path = "emitter.layout.position",
+     .type = numbers,
+     .unit = "shot's unit of length",
+     .byDefault = "[0.0, 0.0, 0.0]",
+     .help = "The middle of the grid."},
+    {.path = "emitter.layout.grid",
+     .type = table,
+     .isRequired = true,
+     .help = "Places in rows, x running fastest, then y, then z."},
+    {.path = "emitter.layout.grid.count",
+     .type = integers,
+     .min = 1,
+     .max = 1000000,
+     .isRequired = true,
+     .help = "Places along x, y and z; at most a million in all."},
+    {.path = "emitter.layout.grid.spacing",
+     .type = numbers,
+     .unit = "shot's unit of length",
+     .isRequired = true,
+     .help = "From place to place along x, y and z."},
+    {.path = "emitter.poses",
+     .type = text,
+     .excludes = "box|layout|tilt",
+     .help = "Text file, relative to the shot, with a line \"x y z qw qx qy qz\" for each place: "
+             "place after place, and again from its beginning."},
+    {.path = "emitter.tilt",
+     .type = numberOrWord,
+     .unit = "degrees",
+     .byDefault = "0.0",
+     .min = 0,
+     .max = 180,
+     .choices = "random",
+     .help = "How bodies are turned at birth: \"random\" is any orientation, all alike likely; a "
+             "number the largest angle by which they lean from upright, in a drawn direction."},
+    {.path = "emitter.velocity",
+     .type = numbers,
+     .unit = "shot's unit of length per second",
+     .byDefault = "[0.0, 0.0, 0.0]",
+     .help = "Of the centre of mass at birth. Slow ones have not left their place when the next "
+             "are due there."},
+    {.path = "emitter.spin",
+     .type = numbers,
+     .unit = "degrees/s",
+     .byDefault = "[0.0, 0.0, 0.0]",
+     .help = "Angular velocity about the world's axes at birth."},
+    {.path = "emitter.clear",
+     .type = word,
+     .byDefault = "\"wait\"",
+     .choices = "wait|skip|fail",
+     .help = "While another body stands in a body's place: \"wait\" tries again at every frame, "
+             "\"skip\" leaves the body out, \"fail\" ends the run. Those that never came are "
+             "counted when the shot ends."},
+};
+
+const std::vector<ShotKey> kPlannedTables = {
     {.path = "pair",
      .type = tableList,
      .isPlanned = true,
@@ -674,8 +808,9 @@ const std::vector<ShotKey>& shotKeys()
 {
     static const std::vector<ShotKey> all = [] {
         std::vector<ShotKey> keys;
-        for (const auto* part : {&kFileKeys, &kShotKeys, &kSolverKeys, &kMaterialKeys, &kShapeKeys,
-                                 &kBodyKeys, &kPlannedTables, &kLookKeys}) {
+        for (const auto* part :
+             {&kFileKeys, &kShotKeys, &kSolverKeys, &kMaterialKeys, &kShapeKeys, &kBodyKeys,
+              &kImportKeys, &kEmitterKeys, &kPlannedTables, &kLookKeys}) {
             keys.insert(keys.end(), part->begin(), part->end());
         }
         return keys;

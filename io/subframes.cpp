@@ -70,6 +70,7 @@ void SubframeRecorder::begin(const World& world, std::vector<SceneFrame> passed)
     if (instants_.empty()) return;
     before_ = world.motion;
     timeBefore_ = world.clock.frameTimeDone;
+    inBetween_->restoreBirths(world.bornAt);
 }
 
 void SubframeRecorder::afterStep(const World& world, double frameTime)

@@ -109,6 +109,7 @@ FrameState captureState(const Shot& shot, const World& world, std::vector<SceneF
     state.clock = world.clock;
     state.motion = world.motion;
     state.order = world.order;
+    if (!world.births.empty()) state.bornAt = world.bornAt;
     state.scene = captureFrame(shot, world);
     state.scene.frame = shot.firstFrame + static_cast<int>(world.clock.frame);
     state.between = std::move(between);
@@ -121,6 +122,8 @@ void restoreState(World& world, const FrameState& state)
     world.motion = state.motion;
     world.order = state.order;
     world.clock = state.clock;
+    SCREE_CHECK(state.bornAt.empty() == world.births.empty(), "the state is of another world");
+    if (!state.bornAt.empty()) world.restoreBirths(state.bornAt);
 }
 
 TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& world,

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/base/check.h"
 #include "core/base/error.h"
@@ -105,6 +106,21 @@ void describePictures(const Shot& shot, TakeInfo& info)
     info.motionBlur = shot.render.motionBlur;
 }
 
+/// Each file once, in the order of the shot.
+std::vector<TakeInput> hashInputs(const Shot& shot)
+{
+    std::vector<TakeInput> inputs;
+    std::set<std::string> known;
+    for (const ShotShape& shape : shot.shapes) {
+        const auto* file = std::get_if<FileSpec>(&shape.source);
+        const auto* node = std::get_if<NodeSpec>(&shape.source);
+        const std::string path = file ? file->path : node ? node->path : "";
+        if (path.empty() || !known.insert(path).second) continue;
+        inputs.push_back({path, hashText(readFileBytes(path))});
+    }
+    return inputs;
+}
+
 TakeInfo infoFromJson(const Json& json)
 {
     TakeInfo info;
@@ -145,9 +161,7 @@ TakeInfo makeTakeInfo(const Shot& shot, const World& world, const SceneDescripti
     info.zUp = shot.zUp;
     info.firstFrame = shot.firstFrame;
     info.lastFrame = shot.lastFrame;
-    for (const ShotShape& shape : shot.shapes)
-        if (const auto* file = std::get_if<FileSpec>(&shape.source))
-            info.inputs.push_back({file->path, hashText(readFileBytes(file->path))});
+    info.inputs = hashInputs(shot);
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
         const SceneBody& described = scene.bodies[body];
         info.bodies.push_back({described.name, scene.meshes[described.mesh].name,

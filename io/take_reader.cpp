@@ -83,6 +83,7 @@ SceneDescription TakeReader::describe() const
         scene.bodies.push_back({body.name, mesh->second, body.material, body.mass,
                                 body.kind == BodyKind::dynamic, info_.firstFrame});
     }
+    tellBirths(scene);
     const double half = planeHalfWidth(scene);
     for (const std::size_t mesh : planeMeshes)
         scene.meshes[mesh] = planeMesh(scene.meshes[mesh].name, half);
@@ -139,6 +140,24 @@ FrameState TakeReader::readState(int frame) const
     if (state.shotHash != info_.shotHash || state.motion.size() != info_.bodies.size())
         throw Error(ErrorKind::inputOutput, {path.string(), 0, 0}, "is a frame of another take");
     return state;
+}
+
+/// The last frame knows of everyone when he was born.
+void TakeReader::tellBirths(SceneDescription& scene) const
+{
+    for (auto number = frames_.rbegin(); number != frames_.rend(); ++number) {
+        FrameState state;
+        try {
+            state = readState(*number);
+        } catch (const Error&) {
+            continue;  // whoever wants this very frame is told that it is damaged
+        }
+        for (std::size_t body = 0; body < state.bornAt.size(); ++body) {
+            const std::int32_t bornAt = state.bornAt[body];
+            scene.bodies[body].birthFrame = bornAt < 0 ? kNeverBorn : info_.firstFrame + bornAt;
+        }
+        return;
+    }
 }
 
 double TakeReader::planeHalfWidth(const SceneDescription& scene) const

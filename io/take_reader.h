@@ -43,6 +43,7 @@ public:
 
 private:
     FrameState readState(int frame) const;
+    void tellBirths(SceneDescription& scene) const;
     double planeHalfWidth(const SceneDescription& scene) const;
 
     TakePaths paths_;

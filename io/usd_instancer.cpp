@@ -149,6 +149,30 @@ void appendHalfQuaternion(std::string& text, const MotionSample& sample)
     text += ')';
 }
 
+/// Who is not born yet, at every time at which that changes.
+void writeInvisibleIds(UsdText& text, const SceneDescription& scene, const MotionSpool& motion)
+{
+    const auto unbornAt = [&](double time) {
+        std::vector<std::size_t> ids;
+        for (const std::size_t body : motion.bodies()) {
+            if (time < scene.bodies[body].birthFrame) ids.push_back(body);
+        }
+        return ids;
+    };
+    std::vector<std::size_t> last = unbornAt(motion.times().front());
+    const auto idsText = [&] { return usdArray(last, appendNumber<std::size_t>); };
+    if (last.empty()) return text.line("int64[] invisibleIds = []");
+    text.openTimes("int64[] invisibleIds");
+    text.time(motion.times().front(), idsText());
+    for (const double time : motion.times()) {
+        std::vector<std::size_t> now = unbornAt(time);
+        if (now == last) continue;
+        last = std::move(now);
+        text.time(time, idsText());
+    }
+    text.closeTimes();
+}
+
 void writeMotion(UsdText& text, const SceneDescription& scene, MotionSpool& motion)
 {
     const Vec3 place = placeOf(motion.readTime(0));
@@ -190,7 +214,7 @@ void writeUsdInstancer(UsdText& text, const UsdNames& names, const SceneDescript
 
     text.openPrim(usdPrim("PointInstancer", names.instancer));
     text.line("int64[] ids = " + usdArray(bodies, appendNumber<std::size_t>));
-    text.line("int64[] invisibleIds = []");
+    writeInvisibleIds(text, scene, motion);
     text.line("int[] protoIndices = " + usdArray(prototypes.ofBody, appendNumber<std::size_t>));
 
     // What else there is to know of a body, parallel to the ids.

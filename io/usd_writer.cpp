@@ -28,6 +28,7 @@ private:
     void writeMovingBodies(UsdText& text);
     void writeStaticBodies(UsdText& text) const;
     void openBody(UsdText& text, std::size_t body) const;
+    void writeBirth(UsdText& text, const SceneBody& body) const;
 
     fs::path output_;
     UsdForm form_;
@@ -119,6 +120,18 @@ void UsdWriter::openBody(UsdText& text, std::size_t body) const
     writeUsdOldName(text, scenes.name, names_->bodies[body]);
 }
 
+/// Nothing for a body that is always there. Values hold until the next time that has one.
+void UsdWriter::writeBirth(UsdText& text, const SceneBody& body) const
+{
+    if (isThere(body, firstFrame_)) return;
+    text.openTimes("token visibility");
+    text.time(firstFrame_, "\"invisible\"");
+    if (isThere(body, firstFrame_ + frameCount_ - 1)) {
+        text.time(body.birthFrame, "\"inherited\"");
+    }
+    text.closeTimes();
+}
+
 void UsdWriter::writeStaticBodies(UsdText& text) const
 {
     for (std::size_t body = 0; body < scene_->bodies.size(); ++body) {
@@ -140,6 +153,7 @@ void UsdWriter::writeMovingBodies(UsdText& text)
         writeTrack(text, "quatf xformOp:orient", motion_->times(), track, orientationText);
         writeTrack(text, "double3 xformOp:translate", motion_->times(), track, translationText);
         text.line(kPlaceOps);
+        writeBirth(text, scene_->bodies[motion_->bodies()[k]]);
         text.closePrim();
     });
 }

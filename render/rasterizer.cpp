@@ -124,7 +124,14 @@ private:
     Image readPicture();
 
     RasterSettings settings_;
+    /// A body that is born, with a pose made of numbers.
+    bool isShown(std::size_t body, const SceneFrame& frame) const
+    {
+        return frame.frame >= birthFrames_[body] && isFinite(frame.worldFromAsset[body]);
+    }
+
     std::vector<Look> looks_;
+    std::vector<int> birthFrames_;  // parallel to looks_
     Vec3 up_, towardSun_;
     double typicalRadius_ = 1.0;
     int pointsPerEdge_ = 1;
@@ -198,6 +205,7 @@ void Rasterizer::Context::uploadScene(const SceneDescription& scene)
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& body = scene.bodies[i];
+        birthFrames_.push_back(body.birthFrame);
         if (isPlaneMesh[body.mesh]) {
             planes_.push_back({i, planeOf(scene.meshes[body.mesh])});
             continue;
@@ -222,7 +230,7 @@ Rasterizer::Context::View Rasterizer::Context::measure(const SceneFrame& frame,
     for (const MeshBuffers& mesh : meshes_) {
         for (const std::size_t body : mesh.bodies) {
             const Pose& pose = frame.worldFromAsset[body];
-            if (isFinite(pose))
+            if (isShown(body, frame))
                 view.bodies.push_back({pose * mesh.ball.centre - view.origin, mesh.ball.radius});
         }
     }
@@ -252,7 +260,7 @@ void Rasterizer::Context::placeBodies(const SceneFrame& frame, const View& view)
         nearToFar.clear();
         for (const std::size_t body : mesh.bodies) {
             const Pose& pose = frame.worldFromAsset[body];
-            if (!isFinite(pose)) continue;
+            if (!isShown(body, frame)) continue;
             const Vec3 place = pose * mesh.ball.centre - view.origin;
             nearToFar.emplace_back((place - view.camera.eye).squaredNorm(), body);
         }

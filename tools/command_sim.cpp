@@ -156,6 +156,7 @@ private:
         stats.wallSeconds = wallSeconds() - wallBefore;
         stats.cpuSeconds = cpuSeconds() - cpuBefore;
         refuseNonFinite(frame, stats.report);
+        refuseFailedBirth(frame, stats.report.births);
         if (!stats.report.finished) {
             take_->writeCheckpoint(world_, subframes_->samples());
             isStopped_ = true;
@@ -166,6 +167,7 @@ private:
         subframes_->begin(world_, {});
         warnOfOverlap(frame, stats.report);
         warnOfCap(frame, stats.report);
+        if (frame == shot_.lastFrame) warnOfUnborn();
         progress.frameDone(frame, stats.wallSeconds,
                            {stats.report.bodiesAwake, stats.report.sum.contactPairs});
         if (takeSaveRequest()) saveAndTell(frame + 1);
@@ -196,6 +198,33 @@ private:
                         ", after " + nameOf(report.sum.nonFinitePhase) + ": no longer finite: " +
                         names + "; frames up to " + std::to_string(frame - 1) + " are kept in \"" +
                         take_->paths().root.string() + "\"");
+    }
+
+    void refuseFailedBirth(int frame, const BirthReport& births)
+    {
+        if (births.failed < 0) return;
+        throw Error(ErrorKind::qualityLimit,
+                    "frame " + std::to_string(frame) + ": '" + world_.info[births.failed].name +
+                        "' cannot be born, '" + world_.info[births.occupant].name +
+                        "' stands in its place; clear = \"wait\" lets it wait, \"skip\" leaves it "
+                        "out; frames up to " +
+                        std::to_string(frame - 1) + " are kept in \"" +
+                        take_->paths().root.string() + "\"");
+    }
+
+    /// An emitter's count is a promise: who could not come is told.
+    void warnOfUnborn()
+    {
+        std::size_t waiting = 0, skipped = 0;
+        for (const PlannedBirth& birth : world_.births) {
+            waiting += world_.bornAt[birth.body] == kUnborn;
+            skipped += world_.bornAt[birth.body] == kSkipped;
+        }
+        if (waiting + skipped == 0) return;
+        console_.warning(std::to_string(waiting + skipped) + " of " +
+                         std::to_string(world_.births.size()) +
+                         " emitted bodies never came, because their places were taken (" +
+                         std::to_string(waiting) + " still waited at the last frame)");
     }
 
     /// Every breach is in stats.jsonl; here each grade is told once when it happens, so that a

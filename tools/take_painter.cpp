@@ -99,6 +99,7 @@ Aabb actionBox(const TakeReader& take, const SceneDescription& scene)
         const SceneFrame frame = take.readFrame(number);
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
             if (take.info().bodies[body].isPlane) continue;
+            if (!isThere(scene.bodies[body], number)) continue;
             const Pose& pose = frame.worldFromAsset[body];
             const Aabb box = transformed(meshBoxes[scene.bodies[body].mesh],
                                          pose.orientation.toRotationMatrix(), pose.position);

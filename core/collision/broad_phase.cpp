@@ -68,6 +68,7 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
     const double cellSize = std::max(2.0 * *middle, 1e-12);
 
     for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
+        if (boxes[body].isEmpty()) continue;
         const CellRange range = cellsOf(boxes[body], cellSize);
         if (range.count() > kMostCells) {
             large_.push_back(body);

@@ -20,6 +20,9 @@ std::uint64_t stateHash(const World& world)
         hash = hashBytes(state.data(), sizeof state, hash);
     }
     hash = hashBytes(world.order.data(), world.order.size() * sizeof(BodyId), hash);
+    if (!world.births.empty()) {
+        hash = hashBytes(world.bornAt.data(), world.bornAt.size() * sizeof(std::int32_t), hash);
+    }
     const std::array<std::int64_t, 2> steps = {world.clock.frame, world.clock.subStep};
     hash = hashBytes(steps.data(), sizeof steps, hash);
     return hashBytes(&world.clock.frameTimeDone, sizeof(double), hash);

@@ -58,6 +58,14 @@ struct StepReport {
     std::array<double, static_cast<int>(Phase::count)> seconds = {};  ///< wall time by phase [s]
 };
 
+/// Who came into the world at a frame, and who could not.
+struct BirthReport {
+    int born = 0;                       ///< at this frame
+    int waiting = 0;                    ///< due, but their places are taken
+    int skipped = 0;                    ///< at this frame, for good
+    BodyId failed = -1, occupant = -1;  ///< a body that must not wait, and who stands there
+};
+
 /// A frame in numbers: its steps summed or the worst of them.
 struct FrameReport {
     int steps = 0;
@@ -69,6 +77,7 @@ struct FrameReport {
     Vec3 momentum = Vec3::Zero();                       ///< [kg m/s]
     int bodiesAwake = 0;                                ///< dynamic bodies that are simulated
     double worstOverlapRatio = 0.0;  ///< deepestAfterPushOut / longest box edge of the smaller body
+    BirthReport births;              ///< at the end of the frame
     std::uint64_t stateHash = 0;
     bool finished = true;  ///< false: stopped between two sub-steps, as asked
 };

@@ -9,17 +9,12 @@
 namespace scree {
 namespace {
 
-Aabb boxAt(const Shape& shape, const Pose& pose)
-{
-    if (shape.isPlane) return shape.box;
-    return transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position);
-}
-
 /// Everything the body may touch while it moves on freely for `time`.
 Aabb sweptBox(const World& world, BodyId body, const StepSettings& settings, double time)
 {
     const Shape& shape = world.shapeOf(body);
     const BodyMotion& motion = world.motion[body];
+    if (!world.isBorn(body)) return {};  // an empty box meets nothing
     Aabb box = boxAt(shape, motion.worldFromBody());
     if (!world.mass[body].isMovable()) return box;
 
@@ -73,6 +68,12 @@ double lookMargin(const World& world, const StepSettings& settings, BodyPair bod
 }
 
 }  // namespace
+
+Aabb boxAt(const Shape& shape, const Pose& pose)
+{
+    if (shape.isPlane) return shape.box;
+    return transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position);
+}
 
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch)

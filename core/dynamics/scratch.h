@@ -40,6 +40,9 @@ struct StepScratch {
     std::vector<Pose> driftPose;       // per body: predicted without
 };
 
+/// The world box of a placed shape; a plane's is everything.
+Aabb boxAt(const Shape& shape, const Pose& pose);
+
 /// Lays out the pairs for a step that lasts dt of the `remaining` time of the frame.
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch);

@@ -6,6 +6,7 @@
 
 #include "core/base/random.h"
 #include "core/diagnostics/state_hash.h"
+#include "core/dynamics/births.h"
 #include "core/dynamics/collision_pass.h"
 #include "core/dynamics/contact_graph.h"
 #include "core/dynamics/contact_pass.h"
@@ -298,6 +299,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         if (afterStep) afterStep(world, isLast ? frameDuration : world.clock.frameTimeDone);
         if (isLast) {
             world.clock = {world.clock.frame + 1, 0, 0.0};
+            frame.births = giveBirths(world);
             break;
         }
         if (stopRequested && stopRequested()) {

@@ -45,6 +45,26 @@ struct BodyMass {
     bool isMovable() const { return inverseMass > 0.0; }
 };
 
+/// What to do while the place of a birth is taken.
+enum class BirthClearance : std::uint8_t {
+    wait,  ///< try again at the next frame
+    skip,  ///< the body never comes
+    fail,  ///< the run is over
+};
+
+/// A body that is not there from the start. Until it is born it has its place in all arrays (so
+/// that ids and order never change) but no mass and no box: nothing moves it and nothing meets it.
+struct PlannedBirth {
+    BodyId body = 0;
+    std::int64_t frame = 0;  ///< the earliest, in frames since time zero
+    BirthClearance clearance = BirthClearance::wait;
+    BodyMass mass;  ///< what it will have
+};
+
+/// Values of World::bornAt that are no frames.
+inline constexpr std::int32_t kUnborn = -1;   ///< not yet
+inline constexpr std::int32_t kSkipped = -2;  ///< never
+
 /// What a step rarely needs.
 struct BodyInfo {
     std::string name;  ///< unique in the world

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,24 @@ struct SceneMesh {
     Triangles triangles;  // 3×#F
 };
 
+/// Birth frames of bodies that are always there, and of those that never come.
+inline constexpr int kFromTheStart = std::numeric_limits<int>::min();
+inline constexpr int kNeverBorn = std::numeric_limits<int>::max();
+
 struct SceneBody {
-    std::string name;       ///< identifier, unique in the scene
-    std::size_t mesh = 0;   ///< index into SceneDescription::meshes
-    std::string material;   ///< name of its material
-    double mass = 0.0;      ///< [kg], 0 for bodies that cannot be moved
-    bool moves = true;      ///< false: the pose of the first frame holds for all
-    int birthFrame = 1001;  ///< the first frame in which it exists
+    std::string name;                ///< identifier, unique in the scene
+    std::size_t mesh = 0;            ///< index into SceneDescription::meshes
+    std::string material;            ///< name of its material
+    double mass = 0.0;               ///< [kg], 0 for bodies that cannot be moved
+    bool moves = true;               ///< false: the pose of the first frame holds for all
+    int birthFrame = kFromTheStart;  ///< the first frame in which it exists
 };
+
+/// Whether the body is there at a frame: before its birth it is not to be seen.
+inline bool isThere(const SceneBody& body, int frame)
+{
+    return frame >= body.birthFrame;
+}
 
 /// How a material behaves and looks, for formats that can hold it.
 struct SceneMaterial {

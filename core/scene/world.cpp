@@ -1,5 +1,6 @@
 #include "core/scene/world.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/check.h"
@@ -52,11 +53,40 @@ BodyId World::addBody(const BodyDefinition& definition)
     }
 
     const auto id = static_cast<BodyId>(motion.size());
+    if (definition.birth) {
+        SCREE_CHECK(inertia.isMovable(), definition.name);
+        births.push_back({id, definition.birth->frame, definition.birth->clearance, inertia});
+        inertia = {};
+    }
     motion.push_back(state);
     mass.push_back(inertia);
+    bornAt.push_back(definition.birth ? kUnborn : 0);
     info.push_back({definition.name, definition.shape, definition.material, definition.kind});
     order.push_back(id);
     return id;
+}
+
+void World::beBorn(const PlannedBirth& birth)
+{
+    bornAt[birth.body] = static_cast<std::int32_t>(clock.frame);
+    mass[birth.body] = birth.mass;
+}
+
+void World::restoreBirths(const std::vector<std::int32_t>& bornAtBefore)
+{
+    SCREE_CHECK(bornAtBefore.size() == bodyCount(), "births of another world");
+    bornAt = bornAtBefore;
+    for (const PlannedBirth& birth : births) {
+        mass[birth.body] = isBorn(birth.body) ? birth.mass : BodyMass();
+    }
+}
+
+const BodyMass& World::massWhenBorn(BodyId body) const
+{
+    const auto birth =
+        std::lower_bound(births.begin(), births.end(), body,
+                         [](const PlannedBirth& b, BodyId id) { return b.body < id; });
+    return birth != births.end() && birth->body == body ? birth->mass : mass[body];
 }
 
 Pose World::worldFromAsset(BodyId body) const

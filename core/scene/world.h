@@ -1,6 +1,6 @@
 // The world: shapes, materials and bodies in parallel arrays, the order in which bodies are
-// processed, and the clock. motion, order and clock are everything that a step changes; saving and
-// restoring those three continues a simulation bit for bit.
+// processed, and the clock. motion, order, clock and, where bodies are born later, bornAt are
+// everything that a step changes; saving and restoring those continues a simulation bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,13 @@ struct BodyDefinition {
     Vec3 velocity = Vec3::Zero();         ///< of the centre of mass [m/s]
     Vec3 angularVelocity = Vec3::Zero();  ///< world axes [rad/s]
     std::optional<double> mass;           ///< [kg]; otherwise density × volume
+
+    /// Of a dynamic body that comes later: the earliest frame since time zero.
+    struct Birth {
+        std::int64_t frame = 0;
+        BirthClearance clearance = BirthClearance::wait;
+    };
+    std::optional<Birth> birth;
 };
 
 class World {
@@ -52,10 +59,24 @@ public:
     /// The pose an artist would give the asset to stand where the body stands now.
     Pose worldFromAsset(BodyId body) const;
 
+    /// Bodies that come later come by beBorn() alone; the others were always there.
+    bool isBorn(BodyId body) const { return bornAt[body] >= 0; }
+
+    /// The body enters, at its own place and with its own velocities, at the frame the clock shows.
+    void beBorn(const PlannedBirth& birth);
+
+    /// Takes over who has been born when, of a world with the same bodies.
+    void restoreBirths(const std::vector<std::int32_t>& bornAtBefore);
+
+    /// What the body has once it is born.
+    const BodyMass& massWhenBorn(BodyId body) const;
+
     std::vector<BodyMotion> motion;
     std::vector<BodyMass> mass;
     std::vector<BodyInfo> info;
     std::vector<BodyId> order;  ///< a permutation of the bodies: the order of processing  [A21]
+    std::vector<std::int32_t> bornAt;  ///< frames since time zero, or kUnborn, kSkipped
+    std::vector<PlannedBirth> births;  ///< of the bodies that come later, in order of their ids
     Clock clock;
     ContactMemory contactMemory;  ///< of method `scree`; empty for `paper`
 

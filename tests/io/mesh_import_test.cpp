@@ -89,8 +89,10 @@ TEST(MeshImport, AMissingFileIsMissingInput)
 
 TEST(MeshImport, AnUnsupportedEndingListsTheSupportedOnes)
 {
-    EXPECT_EQ(messageOf("bone.max"),
-              "mesh file 'bone.max' has an ending that cannot be read; supported: obj, ply, stl");
+    EXPECT_EQ(
+        messageOf("bone.max"),
+        "mesh file 'bone.max' has an ending that cannot be read; supported: obj, ply, stl, glb, "
+        "gltf, fbx");
 }
 
 TEST(MeshImport, AFileThatIsNoMeshIsRefusedWithTheReason)

@@ -43,7 +43,7 @@ std::string body(const std::string& lines)
 
 const char* const kMaterialKeys = "(valid: density, friction, restitution, color, roughness)";
 const char* const kTables =
-    "(valid: scree, shot, solver, material, shape, body, camera, render, output)";
+    "(valid: scree, shot, solver, material, shape, body, import, emitter, camera, render, output)";
 
 std::vector<BadShot> badShots()
 {
@@ -126,7 +126,26 @@ std::vector<BadShot> badShots()
          "bad.toml:11:10: 'motion' = \"keyed\" is not supported yet; this version knows only "
          "dynamic, static"},
         {"Emitter", kHead + "[[emitter]]\nname = \"e\"\n",
-         "bad.toml:4:3: 'emitter' in the shot is not supported yet by this version"},
+         "bad.toml:4:1: [[emitter]] lacks 'shape': text in quotes, or a list of such texts\n"
+         "bad.toml:4:1: [[emitter]] lacks 'material': text in quotes\n"
+         "bad.toml:4:1: [[emitter]] lacks 'count': a whole number from 1 to 1000000\n"
+         "bad.toml:4:1: [[emitter]] 'e' does not say where: give it box, layout or poses"},
+        {"EmitterOfUnknownShape",
+         kBase + "[[emitter]]\nname = \"e\"\nshape = [\"block\", \"blok\"]\nmaterial = \"wood\"\n" +
+             "count = 3\nbox = { min = [0, 0, 0], max = [1, 1, 1] }\n",
+         "bad.toml:9:19: no [shape.blok] in the shot; did you mean 'block'? (known: block)"},
+        {"EmitterOutsideTheShot",
+         kBase + "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 3\n" +
+             "frames = \"900-1000\"\nbox = { min = [0, 2, 0], max = [1, 1, 1] }\nweights = [1, "
+             "2]\n" +
+             "clear = \"wate\"\ntilt = 200\n",
+         "bad.toml:12:10: births must lie in the frames of the shot, 1001-1240, not \"900-1000\"\n"
+         "bad.toml:13:15: 'min' must not exceed 'max', [1.0, 1.0, 1.0]\n"
+         "bad.toml:14:11: 'weights' must be as many as the shapes, 1, not 2\n"
+         "bad.toml:15:9: 'clear' must be one of \"wait\", \"skip\", \"fail\", not \"wate\"; did "
+         "you mean "
+         "'wait'?\n"
+         "bad.toml:16:8: 'tilt' must be a number from 0 to 180, or \"random\", not 200"},
         {"Extends", "extends = \"base.toml\"\n" + kHead,
          "bad.toml:1:1: 'extends' in the shot is not supported yet by this version"},
         {"RollingFriction", kHead + "[material.wood]\nrolling_friction = 0.0\n",

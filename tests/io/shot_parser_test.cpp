@@ -304,7 +304,7 @@ TEST(ShotSchema, AnUnknownKeyIsAnsweredWithTheNearest)
     EXPECT_EQ(message("frictoin"), "no key 'frictoin' in shot files; did you mean 'friction'?");
     EXPECT_EQ(message("qqqqqqqqqqqq"),
               "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, shot, solver, "
-              "material, shape, body, camera, render, output");
+              "material, shape, body, import, emitter, camera, render, output");
 }
 
 TEST(NearestWord, ForgivesSlipsButNotOtherWords)

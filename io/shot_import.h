@@ -1,0 +1,24 @@
+// [[import]]: the nodes of a file that a shot asks for, placed in its world.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/problem_list.h"
+#include "io/shot.h"
+#include "io/shot_tree.h"
+
+namespace scree {
+
+struct PlacedNode {
+    std::string name;    ///< identifier made of the node's name; may repeat
+    NodeSpec shape;      ///< nodes that show the same mesh share it
+    Pose worldFromNode;  ///< [m]
+};
+
+/// The nodes of a checked [[import]] that one of its patterns fits, in the order of the file.
+/// Reports a file that cannot be read and every pattern that fits nothing.
+std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::string& path,
+                                          const Shot& shot, ProblemList& problems);
+
+}  // namespace scree

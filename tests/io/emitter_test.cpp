@@ -1,0 +1,290 @@
+// Emitters: exact counts, draws that depend on nothing but themselves, and births that reach takes
+// and every cache.
+#include "io/emitter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/dynamics/stepper.h"
+#include "io/build_world.h"
+#include "io/frame_writer.h"
+#include "io/shot_parser.h"
+#include "io/take_reader.h"
+#include "tests/support/abc_check.h"
+#include "tests/support/export_scene.h"
+#include "tests/support/readers.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+const std::string kHead = R"(
+scree = 1
+[shot]
+name = "emitted"
+frames = "1001-1012"
+[material.wood]
+density = 650
+[shape.block]
+box = {}
+[shape.ball]
+sphere = { radius = 0.5, subdivisions = 1 }
+)";
+
+std::string emitter(const std::string& name, const std::string& lines)
+{
+    return "[[emitter]]\nname = \"" + name + "\"\nmaterial = \"wood\"\n" + lines;
+}
+
+Shot parse(const std::string& text)
+{
+    return parseShotText(kHead + text, "emitted.toml");
+}
+
+const std::string kManyDraws =
+    "shape = [\"block\", \"ball\"]\nweights = [3, 1]\ncount = 1000\nframes = \"1003-1007\"\n"
+    "box = { min = [-8, 10, -8], max = [8, 14, 8] }\ntilt = \"random\"\n";
+
+TEST(Emitter, MakesExactlyItsCountAndSpreadsTheBirthsEvenly)
+{
+    const Shot shot = parse(emitter("e", kManyDraws));
+    ASSERT_EQ(shot.bodies.size(), 1000u);
+    EXPECT_EQ(shot.bodies[7].name, "e_0007");
+    std::map<int, int> births;
+    int blocks = 0;
+    Vec3 mean = Vec3::Zero(), up = Vec3::Zero();
+    for (const ShotBody& body : shot.bodies) {
+        ++births[body.birth->frame];
+        blocks += *body.shape == "block";
+        mean += body.worldFromAsset.position / 1000.0;
+        up += body.worldFromAsset.orientation * Vec3::UnitY() / 1000.0;
+        EXPECT_TRUE((body.worldFromAsset.position.array() >= Vec3(-8, 10, -8).array()).all());
+        EXPECT_TRUE((body.worldFromAsset.position.array() < Vec3(8, 14, 8).array()).all());
+    }
+    EXPECT_EQ(births, (std::map<int, int>{
+                          {1003, 200}, {1004, 200}, {1005, 200}, {1006, 200}, {1007, 200}}));
+    // Four standard deviations of a thousand draws.
+    EXPECT_NEAR(blocks, 750, 55);
+    EXPECT_LT((mean - Vec3(0, 12, 0)).cwiseAbs().maxCoeff(), 0.6);
+    EXPECT_LT(up.cwiseAbs().maxCoeff(), 0.075) << "no direction is favoured";
+}
+
+TEST(Emitter, DrawsDoNotDependOnOtherEmitters)
+{
+    const Shot alone = parse(emitter("e", kManyDraws));
+    const Shot second = parse(emitter("other", kManyDraws) + emitter("e", kManyDraws));
+    const Pose &a = alone.bodies[3].worldFromAsset, &b = second.bodies[1003].worldFromAsset;
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.orientation.coeffs(), b.orientation.coeffs());
+    EXPECT_NE(a.position, second.bodies[3].worldFromAsset.position) << "names decide too";
+}
+
+TEST(Emitter, ALayoutIsFilledPlaceAfterPlaceAndTiltIsALimit)
+{
+    const Shot shot = parse(emitter("e",
+                                    "shape = \"block\"\ncount = 5\ntilt = 10\n"
+                                    "layout = { position = [0, 3, 0], grid = { count = [2, 1, 1], "
+                                    "spacing = [4, 0, 0] } }\n"));
+    const double places[] = {-2.0, 2.0, -2.0, 2.0, -2.0};
+    double largest = 0.0;
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(shot.bodies[i].worldFromAsset.position, Vec3(places[i], 3.0, 0.0));
+        EXPECT_EQ(shot.bodies[i].birth->frame, 1001);
+        const Vec3 up = shot.bodies[i].worldFromAsset.orientation * Vec3::UnitY();
+        largest = std::max(largest, std::acos(up.y()) * 180.0 / 3.14159265358979);
+    }
+    EXPECT_LE(largest, 10.0);
+    EXPECT_GT(largest, 1.0);
+}
+
+TEST(Emitter, AFailingBirthAtTheFirstFrameIsALocatedError)
+{
+    const Shot shot = parse(emitter("e",
+                                    "shape = \"block\"\ncount = 2\nclear = \"fail\"\n"
+                                    "box = { min = [0, 0, 0], max = [0, 0, 0] }\n"));
+    try {
+        buildWorld(shot);
+        FAIL() << "two blocks in one place";
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "emitted.toml:12:1: 'e_0001' cannot be born: 'e_0000' stands in its place; clear "
+                  "= \"wait\" lets it wait");
+    }
+}
+
+// Cubes that fall through one place, 5 frames apart or so, while the place is wanted every frame.
+const std::string kQueue = emitter("e",
+                                   "shape = \"block\"\ncount = 4\nframes = \"1001-1004\"\n"
+                                   "box = { min = [0, 9, 0], max = [0, 9, 0] }\n"
+                                   "velocity = [0, -6, 0]\n");
+
+void simulate(TakeWriter& take, const Shot& shot, World& world, int lastFrame, bool stopsInside)
+{
+    Stepper stepper(shot.settings);
+    if (!take.hasFrame(shot.firstFrame)) {
+        FrameStats stats;
+        stats.frame = shot.firstFrame;
+        take.writeFrame(world, stats);
+    }
+    for (int frame = shot.firstFrame + 1; frame <= lastFrame; ++frame) {
+        if (take.hasFrame(frame)) continue;
+        take.prepareFor(frame, world);
+        FrameStats stats;
+        stats.frame = frame;
+        const bool stops = stopsInside && frame == lastFrame;
+        stats.report = stepper.advanceFrame(world, 1.0 / 24.0, [&] { return stops; });
+        if (!stats.report.finished) return take.writeCheckpoint(world);
+        take.writeFrame(world, stats);
+    }
+}
+
+std::string bytesOf(const std::filesystem::path& path)
+{
+    std::ifstream stream(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+TEST(Emitter, ARunStoppedWhileBodiesWaitGoesOnToTheSameBytes)
+{
+    const test::TemporaryFolder folder;
+    Shot shot = parse(kQueue);
+    shot.settings.substeps.min = 4;  // so that there is an inside of a frame to stop in
+    World whole = buildWorld(shot), before = buildWorld(shot), after = buildWorld(shot);
+    {
+        TakeWriter take(folder / "whole", shot, whole, "1", ExistingTake::refuse);
+        simulate(take, shot, whole, 1012, false);
+    }
+    {
+        TakeWriter take(folder / "cut", shot, before, "1", ExistingTake::refuse);
+        simulate(take, shot, before, 1007, true);
+        EXPECT_GT(before.clock.subStep, 0);
+        EXPECT_EQ(before.bornAt[3], kUnborn) << "somebody waits";
+    }
+    {
+        TakeWriter take(folder / "cut", shot, after, "1", ExistingTake::resume);
+        simulate(take, shot, after, 1012, false);
+    }
+    for (int frame = 1001; frame <= 1012; ++frame) {
+        const std::string name = "frames/frame.00" + std::to_string(frame) + ".scree";
+        EXPECT_EQ(bytesOf(folder / "whole" / name), bytesOf(folder / "cut" / name)) << frame;
+    }
+
+    // A reader of the take is told when each body came.
+    const SceneDescription scene = TakeReader(folder / "cut").describe();
+    EXPECT_EQ(scene.bodies[0].birthFrame, 1001);
+    EXPECT_EQ(scene.bodies[1].birthFrame, 1001 + after.bornAt[1]);
+    EXPECT_GT(scene.bodies[1].birthFrame, 1002);
+    EXPECT_EQ(scene.bodies[3].birthFrame, kNeverBorn);
+    EXPECT_GT(scene.bodies[3].mass, 0.0);
+}
+
+/// One body from the start, one born at the third of five frames, one never.
+class EmittedExport : public testing::Test {
+protected:
+    EmittedExport()
+        : scene(test::sceneOf(
+              {test::bodyNamed("early"), test::bodyNamed("late"), test::bodyNamed("never")}))
+    {
+        scene.bodies[1].birthFrame = 1003;
+        scene.bodies[2].birthFrame = kNeverBorn;
+    }
+
+    std::filesystem::path write(const std::string& name) const
+    {
+        const std::filesystem::path path = folder / name;
+        const auto writer = makeFrameWriter(path);
+        writer->begin(scene, 1001, 5);
+        for (int frame = 1001; frame <= 1005; ++frame) {
+            writer->write(test::tumblingFrame(scene, frame, 1001));
+        }
+        writer->finish();
+        return path;
+    }
+
+    const test::TemporaryFolder folder;
+    SceneDescription scene;
+};
+
+TEST_F(EmittedExport, AlembicHidesABodyUntilItsBirth)
+{
+    const test::CheckResult result = test::runAbcCheck(write("a.abc"), "--strict");
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const std::string& tree = result.output;
+    const std::size_t late = tree.find("/test_shot/late "), never = tree.find("/test_shot/never ");
+    const std::string visible = "visible scalar int8_t samples=5";
+    EXPECT_EQ(tree.substr(0, late).find(visible), std::string::npos) << tree;
+    EXPECT_NE(tree.substr(late, never - late).find(visible), std::string::npos) << tree;
+    EXPECT_NE(tree.substr(never).find("visible scalar int8_t samples=5 stored=1"),
+              std::string::npos)
+        << tree;
+}
+
+TEST_F(EmittedExport, UsdItselfSaysWhoIsVisibleWhen)
+{
+    const test::Reader& reader = test::findReader("usd");
+    SCREE_REQUIRE_READER(!reader.command.empty(), reader.reason);
+    const std::string script = (folder / "visible.py").string();
+    std::ofstream(script) << R"(
+import sys
+from pxr import Usd, UsdGeom
+plain, instanced = (Usd.Stage.Open(path) for path in sys.argv[1:3])
+for name in ("early", "late", "never"):
+    prim = UsdGeom.Imageable(plain.GetPrimAtPath("/test_shot/" + name))
+    print(name, *(int(prim.ComputeVisibility(t) == "inherited") for t in range(1001, 1006)))
+instancer = UsdGeom.PointInstancer(instanced.GetPrimAtPath("/test_shot/Bodies"))
+for t in range(1001, 1006): print(*map(int, instancer.ComputeMaskAtTime(t) or [1, 1, 1]))
+)";
+    const test::CommandResult result =
+        test::runCommand(reader.command + " " + script + " " + test::quoted(write("a.usda")) + " " +
+                         test::quoted(write("a.instances.usda")));
+    EXPECT_EQ(result.output,
+              "early 1 1 1 1 1\nlate 0 0 1 1 1\nnever 0 0 0 0 0\n"
+              "1 0 0\n1 0 0\n1 1 0\n1 1 0\n1 1 0\n");
+}
+
+TEST_F(EmittedExport, GltfScalesABodyToNothingUntilItsBirth)
+{
+    const std::string file = bytesOf(write("a.glb"));
+    std::uint32_t length = 0;
+    std::memcpy(&length, file.data() + 12, 4);
+    const auto json = nlohmann::json::parse(file.substr(20, length));
+    const std::string binary = file.substr(28 + length);
+    std::map<std::string, std::vector<float>> times, scales;
+    const auto floats = [&](std::size_t accessor, int width) {
+        const auto& a = json["accessors"][accessor];
+        const auto& view = json["bufferViews"][a["bufferView"].get<std::size_t>()];
+        std::vector<float> values(a["count"].get<std::size_t>() * width);
+        std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(),
+                    values.size() * sizeof(float));
+        return values;
+    };
+    for (const auto& channel : json["animations"][0]["channels"]) {
+        if (channel["target"]["path"] != "scale") continue;
+        const auto& sampler = json["animations"][0]["samplers"][channel["sampler"].get<int>()];
+        const std::string name = json["nodes"][channel["target"]["node"].get<int>()]["name"];
+        EXPECT_EQ(sampler["interpolation"], "STEP");
+        times[name] = floats(sampler["input"], 1);
+        scales[name] = floats(sampler["output"], 3);
+    }
+    EXPECT_EQ(times.count("early"), 0u);
+    EXPECT_EQ(times["late"], (std::vector<float>{0.0f, 2.0f / 24.0f}));
+    EXPECT_EQ(scales["late"], (std::vector<float>{0, 0, 0, 1, 1, 1}));
+    EXPECT_EQ(scales["never"], (std::vector<float>{0, 0, 0}));
+}
+
+TEST_F(EmittedExport, SequencesLeaveUnbornBodiesOut)
+{
+    write("a.####.obj");
+    EXPECT_EQ(bytesOf(folder / "a.1002.obj").find("o late"), std::string::npos);
+    EXPECT_NE(bytesOf(folder / "a.1003.obj").find("o late"), std::string::npos);
+    EXPECT_EQ(bytesOf(folder / "a.1005.obj").find("o never"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scree
