@@ -37,6 +37,8 @@ struct StepSettings {
     int pushOutLevelIterations = 4;  ///< gradual: fraction l/n of the depth in iteration l [-]
     int pushOutPairImpulses = 5;     ///< per visit of a pair [-]
     OrientationUpdate orientation = OrientationUpdate::secondOrder;
+    bool slideSmoothSamples = true;  ///< off, round bodies are braked as they roll  [A40]
+    bool curvatureScaling = true;    ///< rolling friction grows where surfaces fit  [A50]
 
     SubstepLimits substeps;
     double maximumSpinPerStep = 0.3;  ///< rotation in one step at safety 1 … [rad]  [A16 beta]
