@@ -2,7 +2,6 @@
 #include "core/collision/moving_samples.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,9 +9,17 @@
 namespace scree {
 namespace {
 
-constexpr std::int32_t kRimSamples = 8;  // an eighth of a turn apart, the deepest first
+// Ids: of each rim its deepest point, then eight fixed ones; last the side.
+constexpr std::int32_t kFixedOnRim = 8;
+constexpr std::int32_t kRimSamples = 1 + kFixedOnRim;
 constexpr std::int32_t kSideSample = 2 * kRimSamples;
 constexpr double kCosEighth = 0.70710678118654752440;  // of a turn; its sine is the same
+
+/// A sample that would move farther than this share of the radius within a step does not roll: a
+/// cap that lies flat has no deepest point, and in a groove the nearest wall may be the other one.
+constexpr double kFarthestRoll = 0.5;
+
+constexpr double kStanding = 0.86602540378443864676;  // cosine of the tilt
 
 constexpr int kRimScan = 16;      // points of the first look around a rim
 constexpr int kRimHalvings = 12;  // of the angle between them: 0.005° at the end
@@ -114,15 +121,12 @@ Eigen::Vector2d deepestOfRim(const Shape& field, const Rim& rim)
     return best.normalized();
 }
 
-std::array<Vec3, kRimSamples> samplesOfRim(const Shape& field, const Rim& rim)
+/// Whether the cap faces the other body, within 30°. A rim that rolls needs no fixed points, and
+/// would be braked by them.
+bool standsOn(const Shape& field, const Rim& rim)
 {
-    std::array<Vec3, kRimSamples> samples;
-    Eigen::Vector2d direction = deepestOfRim(field, rim);
-    for (Vec3& sample : samples) {
-        sample = rim.at(direction);
-        direction = turned(direction, kCosEighth, kCosEighth);
-    }
-    return samples;
+    const Vec3 cap = rim.x.cross(rim.z) / rim.x.squaredNorm();
+    return std::abs(cap.dot(nearestSurface(field, rim.centre).outward)) > kStanding;
 }
 
 /// The deepest point of the side between the rims, in the field's frame; where the axis comes
@@ -184,8 +188,13 @@ void findMovingTouches(const Shape& sampled, const Shape& field, const FieldFrom
     for (std::int32_t top = 0; top < 2; ++top) {
         const Rim rim = placeRim(sampled, pose, top == 1);
         if (field.distance.isClearOf(rim.centre, radius + tau)) continue;
-        const auto samples = samplesOfRim(field, rim);
-        for (std::int32_t k = 0; k < kRimSamples; ++k) touch(top * kRimSamples + k, samples[k]);
+        touch(top * kRimSamples, rim.at(deepestOfRim(field, rim)));
+        if (!standsOn(field, rim)) continue;
+        Eigen::Vector2d fixed(1.0, 0.0);
+        for (std::int32_t k = 1; k <= kFixedOnRim; ++k) {
+            touch(top * kRimSamples + k, rim.at(fixed));
+            fixed = turned(fixed, kCosEighth, kCosEighth);
+        }
     }
     // Along a side the distance to a plane is linear: the rims say all.
     if (!field.isPlane) {
@@ -196,15 +205,19 @@ void findMovingTouches(const Shape& sampled, const Shape& field, const FieldFrom
 }
 
 Vec3 movingSample(const Shape& sampled, const Shape& field, const FieldFromSamples& pose,
-                  std::int32_t sample)
+                  const Touch& touch)
 {
+    const double radius = sampled.distance.solid()->half().x();
+    Vec3 moved = touch.point;
     if (isSphere(sampled)) {
-        const double radius = sampled.distance.solid()->half().x();
-        return pose.back(deepestOfBall(field, pose.translation, radius));
+        moved = pose.back(deepestOfBall(field, pose.translation, radius));
+    } else if (touch.sample == kSideSample) {
+        moved = pose.back(deepestOfSide(sampled, field, pose));
+    } else if (touch.sample % kRimSamples == 0) {
+        const Rim rim = placeRim(sampled, pose, touch.sample == kRimSamples);
+        moved = pose.back(rim.at(deepestOfRim(field, rim)));
     }
-    if (sample == kSideSample) return pose.back(deepestOfSide(sampled, field, pose));
-    const Rim rim = placeRim(sampled, pose, sample >= kRimSamples);
-    return pose.back(samplesOfRim(field, rim)[sample % kRimSamples]);
+    return (moved - touch.point).norm() <= kFarthestRoll * radius ? moved : touch.point;
 }
 
 Vec3 slidSample(const Shape& sampled, const Shape& field, const FieldFromSamples& pose,

@@ -15,14 +15,15 @@
 namespace scree {
 
 /// Appends the samples of a body whose samples move (Shape::samplesMove) at less than tau from the
-/// other: of a sphere its deepest point; of a cylinder the deepest point of each rim with seven
-/// more around it, so that it can stand on a cap, and of its side the deepest point between.
+/// other: of a sphere its deepest point; of a cylinder the deepest point of each rim, the
+/// deepest point of the side between, and eight fixed points of each rim, on which it stands.
 void findMovingTouches(const Shape& sampled, const Shape& field, const FieldFromSamples& pose,
                        double tau, bool sampleOnA, std::vector<Touch>& touches);
 
-/// The same sample with the pair placed otherwise, in the frame of its body.
+/// The same sample with the pair placed otherwise, in the frame of its body; its own point where
+/// the deepest one is so far away that it cannot have rolled there.
 Vec3 movingSample(const Shape& sampled, const Shape& field, const FieldFromSamples& pose,
-                  std::int32_t sample);
+                  const Touch& touch);
 
 /// The sample of a fine smooth mesh slid along its surface to where the other body is nearest;
 /// `normal` is that of the other body at the sample, in its own frame. The point itself where the

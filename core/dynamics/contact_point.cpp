@@ -56,7 +56,7 @@ Touch movedToDeepest(const PlacedPair& placed, const Touch& touch, const Vec3& w
     const FieldFromSamples pose = relativePose(worldFromField, worldFromSampled);
     Touch moved = touch;
     if (sampled.samplesMove) {
-        moved.point = movingSample(sampled, field, pose, touch.sample);
+        moved.point = movingSample(sampled, field, pose, touch);
     } else {
         moved.point = slidSample(sampled, field, pose, touch,
                                  worldFromField.orientation.conjugate() * worldNormal);
