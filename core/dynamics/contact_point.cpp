@@ -64,6 +64,12 @@ Touch movedToDeepest(const PlacedPair& placed, const Touch& touch, const Vec3& w
     return moved;
 }
 
+/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
+double slowestApproach(const StepSettings& settings, double dt)
+{
+    return 1e-10 * settings.gravity.norm() * dt + 1e-15;
+}
+
 /// The finite body of a pair with the smaller volume.  [A50]
 const Shape& finerShape(const World& world, const BodyPair& bodies)
 {
@@ -114,11 +120,6 @@ ContactPoint placeContact(const World& world, const PairRecord& pair, const Touc
     if (!isRound || !settings.slideSmoothSamples) return contact;
     const Touch moved = movedToDeepest(frames.geometry, touch, contact.normal);
     return placeAsIs(world, pair, moved, frames, inverseInertiaA, inverseInertiaB);
-}
-
-double slowestApproach(const StepSettings& settings, double dt)
-{
-    return 1e-10 * settings.gravity.norm() * dt + 1e-15;
 }
 
 bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,

@@ -39,9 +39,6 @@ struct PairInertia {
     PassInertia passA, passB;
 };
 
-/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
-double slowestApproach(const StepSettings& settings, double dt);
-
 /// Applies the impulse of the deepest touch that approaches, with rolling friction where it sticks.
 /// False when there is none.
 bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,

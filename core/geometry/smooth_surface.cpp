@@ -46,7 +46,10 @@ SmoothSurface::SmoothSurface(const TriMesh& mesh) : mesh_(mesh)
             beyond_[other->second.first][other->second.second] = triangle;
         }
     }
-    normals_.colwise().normalize();
+    for (Eigen::Index v = 0; v < vertexCount; ++v) {
+        const Vec3 sum = normals_.col(v);
+        normals_.col(v) = sum.normalized();
+    }
 
     for (std::size_t v = 0; v + 1 < fanStart_.size(); ++v) fanStart_[v + 1] += fanStart_[v];
     fan_.resize(static_cast<std::size_t>(3 * triangleCount));

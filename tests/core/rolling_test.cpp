@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/dynamics/friction.h"
 #include "core/dynamics/rolling_friction.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
@@ -119,6 +120,89 @@ TEST(E9RollingFriction, TheCouplesNeverLeaveTheFrictionCone)
     EXPECT_GT(result.rollStop, 2.0 / (0.8 * 9.8) - 2.0 / kRate);  // friction's own limit
     EXPECT_LE(result.reversal, 1e-10);
     EXPECT_LE(result.energyRise, 1e-10);
+}
+
+PassInertia randomInertia(std::uint64_t sample, std::uint64_t which)
+{
+    const auto draw = [&](std::uint64_t k) { return randomUnit(51, sample, 100 * which + k); };
+    PassInertia inertia;
+    inertia.inverseMass = 0.01 + draw(0);
+    const Vec3 axis(draw(1), draw(2), draw(3));
+    const Vec3 moments =
+        inertia.inverseMass * (Vec3(1.0, 1.0, 1.0) + 9.0 * Vec3(draw(4), draw(5), draw(6)));
+    inertia.inverseInertia =
+        inverseInertiaWorld(exponentialMap(3.0 * axis).toRotationMatrix(), moments);
+    return inertia;
+}
+
+// Laws of the impulse with its couple for any two bodies, one of them immovable in every fifth
+// pair.
+TEST(E9RollingFriction, TenThousandRandomContactsStaySlowAndInTheConeAndGainNothing)
+{
+    int braked = 0;
+    for (std::uint64_t sample = 0; sample < 10000; ++sample) {
+        std::uint64_t next = 1000;
+        const auto vector = [&] {
+            Vec3 v;
+            for (int k = 0; k < 3; ++k) v[k] = 2.0 * randomUnit(51, sample, next++) - 1.0;
+            return v;
+        };
+        StickingContact contact;
+        contact.inertiaS = randomInertia(sample, 0);
+        if (sample % 5) contact.inertiaF = randomInertia(sample, 1);
+        contact.rS = vector();
+        contact.rF = vector();
+        contact.normal = vector().normalized();
+        contact.u = vector();
+        if (contact.u.dot(contact.normal) > 0.0) contact.normal = -contact.normal;
+        contact.spin = vector();
+        contact.friction = 3.0;
+        const Mat3 k1 = collisionMatrix(contact.inertiaS, contact.rS) +
+                        collisionMatrix(contact.inertiaF, contact.rF);
+        const ContactImpulse j =
+            contactImpulse(k1, contact.u, contact.normal, 0.3, contact.friction);
+        if (j.kind != FrictionCase::sticking) continue;
+        contact.impulse = j.impulse;
+        const RollingFriction resistance{0.05, 0.1, 0.02, 0.03};
+        const RollingImpulse applied = rollingImpulse(contact, resistance, 1.0);
+        if (applied.isDropped) {
+            EXPECT_EQ(applied.impulse, contact.impulse);
+            EXPECT_EQ(applied.couple, Vec3(Vec3::Zero()));
+            continue;
+        }
+        ++braked;
+        // What the bodies do, said once more by their own equations of motion.
+        const auto spinGained = [](const PassInertia& inertia, const Vec3& r, const Vec3& impulse,
+                                   const Vec3& couple) -> Vec3 {
+            return inertia.inverseInertia * (r.cross(impulse) + couple);
+        };
+        const Vec3 wS = spinGained(contact.inertiaS, contact.rS, applied.impulse, applied.couple);
+        const Vec3 wF = spinGained(contact.inertiaF, contact.rF, -applied.impulse, -applied.couple);
+        const Vec3 u =
+            contact.u +
+            (contact.inertiaS.inverseMass + contact.inertiaF.inverseMass) * applied.impulse +
+            wS.cross(contact.rS) - wF.cross(contact.rF);
+        const double un = contact.u.dot(contact.normal);
+        EXPECT_LE((u + 0.3 * un * contact.normal).norm(), 1e-10);  // still sticks, still bounces
+        const double jn = applied.impulse.dot(contact.normal);
+        EXPECT_LE((applied.impulse - jn * contact.normal).norm(), contact.friction * jn);
+        const Vec3 spin = contact.spin + wS - wF;
+        EXPECT_LE(applied.impulse.dot(0.5 * (contact.u + u)) +
+                      applied.couple.dot(0.5 * (contact.spin + spin)),
+                  0.0);
+        const Vec3 stuck = contact.spin +
+                           spinGained(contact.inertiaS, contact.rS, contact.impulse, Vec3::Zero()) -
+                           spinGained(contact.inertiaF, contact.rF, -contact.impulse, Vec3::Zero());
+        const double about = stuck.dot(contact.normal), left = spin.dot(contact.normal);
+        EXPECT_GE(left * about, -1e-12);
+        EXPECT_LE(std::abs(left), std::abs(about) + 1e-12);
+        const Vec3 across = stuck - about * contact.normal;
+        const Vec3 acrossLeft = spin - left * contact.normal;
+        EXPECT_LE(across.cross(acrossLeft).norm(), 1e-10);
+        EXPECT_GE(across.dot(acrossLeft), -1e-12);
+        EXPECT_LE(acrossLeft.norm(), across.norm() + 1e-12);
+    }
+    EXPECT_GT(braked, 1000);
 }
 
 struct Descent {
@@ -294,7 +378,7 @@ TEST(Curvature, ScalesResistanceFromATenthToTenfold)
     EXPECT_EQ(curvatureFactor(-3.0, ball), 10.0);  // in a bowl of its own radius or hollower
 }
 
-TEST(Curvature, ABallOnTwoRadiiOfFloorIsBrakedAlikeWithAndWithoutScaling)
+TEST(Curvature, ScalingLeavesASphereOnAPlaneAsItIs)
 {
     StepSettings plain = experimentSettings();
     plain.curvatureScaling = false;

@@ -41,7 +41,9 @@ std::string body(const std::string& lines)
     return kBase + "[[body]]\nname = \"b\"\nmaterial = \"wood\"\n" + lines;
 }
 
-const char* const kMaterialKeys = "(valid: density, friction, restitution, color, roughness)";
+const char* const kMaterialKeys =
+    "(valid: density, friction, restitution, rolling_friction, "
+    "rolling_friction_raw, spinning_friction, spinning_friction_raw, color, roughness)";
 const char* const kTables =
     "(valid: scree, shot, solver, material, shape, body, camera, render, output)";
 

@@ -113,7 +113,7 @@ TEST(ShotFiles, ExactShapesAreBuiltWithTheirScaleAndTheMassOfTheSolid)
     const ExactSolid* solid = world.shapeOf(0).distance.solid();
     ASSERT_NE(solid, nullptr);
     EXPECT_TRUE(solid->half().isApprox(Vec3(0.2, 0.5, 0.2), 1e-12));
-    EXPECT_NEAR(1.0 / world.mass[0].inverseMass, 1000.0 * kPi * 0.04, 1e-9);
+    EXPECT_NEAR(1.0 / world.mass[0].inverseMass, 1000.0 * std::acos(-1.0) * 0.04, 1e-9);
 }
 
 TEST(ShotFiles, WedgesBuildWithNormalsOfTheMeshAndEdgeSamples)
