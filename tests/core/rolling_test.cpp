@@ -283,7 +283,9 @@ TEST(E9dOtherShapes, ACubeAndAnEllipsoidWithRollingFrictionNeverGainEnergy)
             reversal = std::max(reversal, -angularVelocityOf(world, body).y());
         }
         EXPECT_LE(rise, 1e-9);
-        EXPECT_LE(reversal, 1e-2);
+        // No impulse reverses the spin it brakes; corners that strike one after the other turn a
+        // tumbling body by a thousandth of what it had.
+        EXPECT_LE(reversal, 2e-3);
     }
 }
 
