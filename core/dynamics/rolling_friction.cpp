@@ -41,6 +41,23 @@ double slowed(double spin, double loss)
     return std::copysign(std::max(0.0, std::abs(spin) - loss), spin);
 }
 
+/// What resistance takes from `spin`: about the normal and across it, never more than there is.
+Vec3 changeOfSpin(const Vec3& spin, const StickingContact& contact,
+                  const RollingFriction& resistance, const Mat3& c, double factor)
+{
+    const Vec3& n = contact.normal;
+    const double strength = factor * contact.impulse.dot(n);
+    const double about = spin.dot(n);
+    const Vec3 across = spin - about * n;
+    const double rate = across.norm();
+    const double spinning = lossPerImpulse(resistance.rawSpinning, resistance.spinning, c, n);
+    const Vec3 change = (slowed(about, strength * spinning) - about) * n;
+    if (rate == 0.0) return change;
+    const Vec3 axis = across / rate;
+    const double rolling = lossPerImpulse(resistance.rawRolling, resistance.rolling, c, axis);
+    return change + (slowed(rate, strength * rolling) - rate) * axis;
+}
+
 bool isAdmissible(const Blocks& blocks, const StickingContact& contact,
                   const RollingImpulse& applied)
 {
@@ -48,9 +65,9 @@ bool isAdmissible(const Blocks& blocks, const StickingContact& contact,
     const double tangential = (applied.impulse - normal * contact.normal).norm();
     if (tangential > contact.friction * normal) return false;
     const Vec3 changeOfU = blocks.k1 * applied.impulse + blocks.k2 * applied.couple;
-    const Vec3 changeOfSpin = blocks.k2.transpose() * applied.impulse + blocks.k4 * applied.couple;
+    const Vec3 changeOfW = blocks.k2.transpose() * applied.impulse + blocks.k4 * applied.couple;
     const double work = applied.impulse.dot(contact.u + 0.5 * changeOfU) +
-                        applied.couple.dot(contact.spin + 0.5 * changeOfSpin);
+                        applied.couple.dot(contact.spin + 0.5 * changeOfW);
     return work <= 0.0;
 }
 
@@ -71,24 +88,8 @@ RollingImpulse rollingImpulse(const StickingContact& contact, const RollingFrict
     // Departs from A49, which slows the spin that the bodies had before the impulse: then a ball on
     // a slope could never begin to roll, however small the resistance. What sticking friction
     // leaves is slowed, so that no resistance is the limit of little resistance.
-    const Vec3& n = contact.normal;
     const Vec3 spin = contact.spin + blocks.k2.transpose() * contact.impulse;
-    const double about = spin.dot(n);
-    const Vec3 across = spin - about * n;
-    const double rate = across.norm();
-    const double jn = contact.impulse.dot(n);
-    Vec3 change =
-        (slowed(about,
-                factor * jn * lossPerImpulse(resistance.rawSpinning, resistance.spinning, c, n)) -
-         about) *
-        n;
-    if (rate > 0.0) {
-        const Vec3 axis = across / rate;
-        const double loss =
-            factor * jn * lossPerImpulse(resistance.rawRolling, resistance.rolling, c, axis);
-        change += (slowed(rate, loss) - rate) * axis;
-    }
-
+    Vec3 change = changeOfSpin(spin, contact, resistance, c, factor);
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
         const Vec3 couple = ofC.solve(change);
         const RollingImpulse applied{contact.impulse - slip * couple, couple, false};
