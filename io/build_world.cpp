@@ -1,6 +1,7 @@
 #include "io/build_world.h"
 
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "core/dynamics/births.h"
@@ -34,6 +35,29 @@ struct MeshMaker {
         return transformed(joinedMesh(file), Pose(), Vec3::Constant(metres));
     }
     TriMesh operator()(const NodeSpec& s) const { return *s.mesh; }
+};
+
+/// The exact solid of a shape that has one, scale included.
+struct SolidMaker {
+    Vec3 scale;
+
+    std::optional<ExactSolid> operator()(const SphereSpec& s) const
+    {
+        return ExactSolid::sphere(scale.x() * s.radius);
+    }
+    std::optional<ExactSolid> operator()(const BoxSpec& s) const
+    {
+        return ExactSolid::box(scale.cwiseProduct(s.size));
+    }
+    std::optional<ExactSolid> operator()(const CylinderSpec& s) const
+    {
+        return ExactSolid::cylinder(scale.x() * s.radius, scale.y() * s.height);
+    }
+    template <class Other>
+    std::optional<ExactSolid> operator()(const Other&) const
+    {
+        return std::nullopt;
+    }
 };
 
 /// Shapes and materials of a shot by name, each added to the world when the first body needs it.
@@ -119,14 +143,24 @@ private:
         if (isNew) {
             const ShotShape& shape = *shapeNamed_.at(name);
             try {
-                const TriMesh unscaled = std::visit(MeshMaker{shot_.metresPerUnit}, shape.source);
-                const TriMesh mesh = transformed(unscaled, Pose(), shape.scale);
-                known->second = world_.addShape(buildMeshShape(name, mesh, shape.settings));
+                known->second = world_.addShape(buildShape(shape));
             } catch (const Error& error) {
                 problems_.add(shape.location, error.what(), error.kind());
             }
         }
         return known->second;
+    }
+
+    std::shared_ptr<const Shape> buildShape(const ShotShape& shape) const
+    {
+        const TriMesh unscaled = std::visit(MeshMaker{shot_.metresPerUnit}, shape.source);
+        const TriMesh mesh = transformed(unscaled, Pose(), shape.scale);
+        if (shape.isExact) {
+            if (const auto solid = std::visit(SolidMaker{shape.scale}, shape.source)) {
+                return buildExactShape(shape.name, *solid, mesh, shape.settings);
+            }
+        }
+        return buildMeshShape(shape.name, mesh, shape.settings);
     }
 
     const Shot& shot_;

@@ -35,8 +35,11 @@ std::string bodyName(const World& world, BodyId body)
 
 Json toJson(const ImpulseCounts& counts)
 {
-    return {
-        {"sticking", counts.sticking}, {"sliding", counts.sliding}, {"fallback", counts.fallback}};
+    return {{"sticking", counts.sticking},
+            {"sliding", counts.sliding},
+            {"fallback", counts.fallback},
+            {"rolling", counts.rolling},
+            {"rolling_dropped", counts.rollingDropped}};
 }
 
 Json phaseTimes(const StepReport& report)

@@ -59,6 +59,7 @@ struct ShotShape {
     ShapeSource source;
     Vec3 scale = Vec3::Ones();  ///< baked into the mesh
     ShapeSettings settings;     ///< of its field, normals and samples; voxel [m]
+    bool isExact = false;       ///< collides as the formula; of spheres, boxes and cylinders only
     SourceLocation location;
 };
 

@@ -146,10 +146,23 @@ private:
             material.material.density = node.find("density")->number;
             material.material.friction = node.find("friction")->number;
             material.material.restitution = node.find("restitution")->number;
+            readRollingFriction(node, material.material.rolling);
             material.color = toVec3(*node.find("color"));
             material.roughness = node.find("roughness")->number;
             shot_.materials.push_back(material);
         }
+    }
+
+    void readRollingFriction(const ShotNode& node, RollingFriction& rolling)
+    {
+        const auto number = [&](const char* key, double unit) {
+            const ShotNode* value = node.find(key);
+            return value ? value->number * unit : 0.0;
+        };
+        rolling.rolling = number("rolling_friction", shot_.metresPerUnit);
+        rolling.spinning = number("spinning_friction", shot_.metresPerUnit);
+        rolling.rawRolling = number("rolling_friction_raw", 1.0);
+        rolling.rawSpinning = number("spinning_friction_raw", 1.0);
     }
 
     void readShapes()
@@ -167,6 +180,7 @@ private:
             shape.scale =
                 scale.kind == ShotNode::Kind::list ? toVec3(scale) : Vec3::Constant(scale.number);
             readShapeSettings(entry.node, shape.settings);
+            readCollide(entry.node, shape);
             shot_.shapes.push_back(shape);
         }
     }
@@ -226,6 +240,38 @@ private:
                                                  : NormalMode::automatic;
         if (const ShotNode* samples = node.find("edge_samples")) {
             settings.edgeSamples = samples->boolean;
+        }
+    }
+
+    /// A formula stands for few solids, and has neither field nor normals to choose.
+    void readCollide(const ShotNode& node, ShotShape& shape)
+    {
+        const ShotNode& collide = *node.find("collide");
+        shape.isExact = collide.text == "exact";
+        if (!shape.isExact) return;
+        if (mentionsAny(node, {"torus", "capsule", "file"})) {
+            report(collide,
+                   "collide = \"exact\" is for a sphere, box or cylinder; anything else "
+                   "collides as its mesh");
+        }
+        const Vec3& scale = shape.scale;
+        const bool isRound = node.mentions("sphere") || node.mentions("cylinder");
+        const bool isUneven =
+            scale.x() != scale.z() || (node.mentions("sphere") && scale.x() != scale.y());
+        if (isRound && isUneven) {
+            report(*node.find("scale"), "'scale' must keep the circles of an exact shape round");
+        }
+        const ShotNode* sdf = node.find("sdf");
+        if (sdf || node.find("field")->text == "grid") {
+            report(sdf ? *sdf : *node.find("field"),
+                   "a shape that collides as \"exact\" has no sampled field");
+        }
+        if (node.find("normals")->text != "auto") {
+            report(*node.find("normals"), "a shape that collides as \"exact\" has exact normals");
+        }
+        const ShotNode* edges = node.find("edge_samples");
+        if (isRound && edges) {
+            report(*edges, "an exact sphere or cylinder is not sampled by the edges of its mesh");
         }
     }
 

@@ -267,12 +267,37 @@ const std::vector<ShotKey> kMaterialKeys = {
              "its two. 0 lands dead, 1 bounces for ever."},
     {.path = "material.rolling_friction",
      .unit = "shot's unit of length",
-     .isPlanned = true,
-     .help = "Lever arm of the torque that brakes rolling."},
+     .byDefault = "0.0",
+     .min = 0,
+     .max = kInfinity,
+     .excludes = "rolling_friction_raw",
+     .help = "Lever arm of the torque that brakes rolling where bodies stick: arm times the force "
+             "between them. A thousandth of the radius suits a hard wheel, a hundredth a tyre; a "
+             "pair takes the larger of its two. 0 rolls for ever, an arm near the radius never "
+             "starts. Flat contacts resist up to ten times more, edges less."},
+    {.path = "material.rolling_friction_raw",
+     .unit = "1/(kg m)",
+     .min = 0,
+     .max = kInfinity,
+     .excludes = "rolling_friction",
+     .help = "Instead of rolling_friction, the paper's own coefficient: spin taken away by normal "
+             "impulse, whatever the inertia. Light bodies stop at once where heavy ones roll on."},
     {.path = "material.spinning_friction",
      .unit = "shot's unit of length",
-     .isPlanned = true,
-     .help = "Lever arm of the torque that brakes spinning on the spot."},
+     .byDefault = "0.0",
+     .min = 0,
+     .max = kInfinity,
+     .excludes = "spinning_friction_raw",
+     .help = "Lever arm of the torque that brakes spinning on the spot, like rolling_friction; "
+             "about two thirds of the radius of the patch that touches, times friction. 0 lets a "
+             "ball spin for ever."},
+    {.path = "material.spinning_friction_raw",
+     .unit = "1/(kg m)",
+     .min = 0,
+     .max = kInfinity,
+     .excludes = "spinning_friction",
+     .help = "Instead of spinning_friction, the paper's own coefficient, like "
+             "rolling_friction_raw."},
     {.path = "material.color",
      .type = numbers,
      .unit = "linear light",
@@ -463,8 +488,11 @@ const std::vector<ShotKey> kShapeKeys = {
      .help = "Repair of open or broken meshes."},
     {.path = "shape.collide",
      .type = word,
-     .isPlanned = true,
-     .help = "Whether a generated shape collides as its mesh or as its exact solid."},
+     .byDefault = "\"mesh\"",
+     .choices = "mesh|exact",
+     .help = "Whether a generated sphere, box or cylinder collides as its mesh, which is what is "
+             "drawn, or as its exact solid: true roundness and the solid's own mass, but few "
+             "segments then show gaps, since the mesh lies inside."},
 };
 
 const std::vector<ShotKey> kBodyKeys = {

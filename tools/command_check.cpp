@@ -56,6 +56,12 @@ void printShapes(const World& world)
                           use.lightest == use.heaviest ? "%.4g" : "%.4g ... %.4g", use.lightest,
                           use.heaviest);
         const double spacing = shape.distance.spacing();
+        if (shape.distance.solid()) {
+            std::printf("%-20s %7d %9ld %12.5g %16s %10.4g %10s %7s\n", name.c_str(), use.bodies,
+                        static_cast<long>(shape.mesh.triangles.cols()), shape.unitMass.volume, mass,
+                        shape.innerThickness, "exact", "-");
+            continue;
+        }
         std::printf("%-20s %7d %9ld %12.5g %16s %10.4g %10.4g %7.0f\n", name.c_str(), use.bodies,
                     static_cast<long>(shape.mesh.triangles.cols()), shape.unitMass.volume, mass,
                     shape.innerThickness, spacing, shape.box.longestEdge() / spacing);

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/collision/moving_samples.h"
+#include "core/collision/relative_pose.h"
+
 namespace scree {
 namespace {
 
@@ -25,20 +28,6 @@ constexpr double kDeeperThanEnds = 0.1;
 
 /// Depth that varies less than this fraction of h along an edge is "flat on flat".  [A8]
 constexpr double kFlatDepth = 1e-3;
-
-/// Where the samples of one body lie in the frame of the other.
-struct FieldFromSamples {
-    Mat3 rotation;
-    Vec3 translation;
-    Vec3 operator*(const Vec3& p) const { return rotation * p + translation; }
-};
-
-FieldFromSamples relativePose(const Pose& worldFromField, const Pose& worldFromSamples)
-{
-    const Mat3 fieldFromWorld = worldFromField.orientation.toRotationMatrix().transpose();
-    return {fieldFromWorld * worldFromSamples.orientation.toRotationMatrix(),
-            fieldFromWorld * (worldFromSamples.position - worldFromField.position)};
-}
 
 /// An edge seen from the field: fixed lattice points, so that skipping some never changes the rest.
 struct EdgeInField {
@@ -226,6 +215,16 @@ bool boundingSpheresMeet(const PlacedPair& pair, double clearance)
     return (pair.worldFromA.position - pair.worldFromB.position).squaredNorm() <= reach * reach;
 }
 
+/// The touches of samples that move; nothing is remembered of these.
+void findMovingOnes(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
+{
+    if (!pair.shapeA->samplesMove && !pair.shapeB->samplesMove) return;
+    for (const OneWay& way : bothWays(pair)) {
+        if (!way.sampled.samplesMove) continue;
+        findMovingTouches(way.sampled, way.field, way.pose, tau, way.sampleOnA, touches);
+    }
+}
+
 }  // namespace
 
 double contourValue(const Shape& a, const Shape& b)
@@ -305,6 +304,7 @@ double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
 
 void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
 {
+    findMovingOnes(pair, tau, touches);
     const double moved = lookAgainIfMoved(pair, tau);
     const double reach = tau + moved;
     if (isEmpty()) return;
@@ -323,11 +323,13 @@ void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touc
 
 bool Proximity::interferes(const PlacedPair& pair, double tau)
 {
+    thread_local std::vector<Touch> touches;
+    touches.clear();
+    findMovingOnes(pair, tau, touches);
+    if (!touches.empty()) return true;
     const double moved = lookAgainIfMoved(pair, tau);
     const double reach = tau + moved;
     if (isEmpty()) return false;
-    thread_local std::vector<Touch> touches;
-    touches.clear();
     for (const OneWay& way : bothWays(pair)) {
         const NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
         for (const NearSample& v : near.vertices) {
@@ -346,6 +348,7 @@ bool Proximity::interferes(const PlacedPair& pair, double tau)
 
 void findTouchesPlainly(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
 {
+    findMovingOnes(pair, tau, touches);
     for (const OneWay& way : bothWays(pair)) {
         const SurfaceSamples& samples = way.sampled.samples;
         for (std::int32_t v = 0; v < samples.vertices.cols(); ++v)

@@ -30,12 +30,18 @@ constexpr double kSharpness = 1e-3;
 /// one.
 constexpr double kSamePlace = 5e-3;
 
-enum class Kind : std::uint64_t { cornerOfA = 0, cornerOfB = 1, edges = 2 };
+enum class Kind : std::uint64_t { cornerOfA = 0, cornerOfB = 1, edges = 2, ball = 3 };
 
 std::uint64_t featureId(Kind kind, std::int32_t first, std::int32_t second = 0)
 {
     return static_cast<std::uint64_t>(kind) << 62 | static_cast<std::uint64_t>(first) << 31 |
            static_cast<std::uint64_t>(second);
+}
+
+bool isBall(const Shape& shape)
+{
+    const ExactSolid* solid = shape.distance.solid();
+    return solid && solid->form() == ExactSolid::Form::sphere;
 }
 
 double smallerRadius(const PlacedPair& pair)
@@ -68,20 +74,24 @@ std::optional<SurfaceContact> facing(const Corners& way, std::int32_t corner, co
     const auto supports = [&](const Vec3& n) {
         return way.corners.features.cornerSupports(corner, way.rotation.transpose() * n);
     };
-    if (field.isPlane()) {
+    if (way.surface.isPlane) {
         if (p.y() >= reach) return {};
         return SurfaceContact{Vec3::UnitY(), p.y()};
     }
     const double grid = field.gridValue(p);
-    if (std::abs(grid) >= field.refinementBand()) {
+    if (field.solid() || std::abs(grid) >= field.refinementBand()) {
         if (grid >= reach) return {};
         const SurfaceContact far{field.gridGradient(p).normalized(), grid};
         if (!far.normal.allFinite()) return {};
         if (supports(far.normal)) return far;
-        unsupported = far;
-        return {};
+        if (!field.solid() || grid >= sharpness) {
+            unsupported = far;
+            return {};
+        }
     }
-    const SignedDistance::Nearest nearest = field.nearest(p);
+    const SignedDistance::Nearest nearest =
+        field.solid() ? SignedDistance::Nearest{grid, p, true, field.gridGradient(p)}
+                      : field.nearest(p);
     if (nearest.value >= reach) return {};
     const bool isAtEdge = !nearest.onFace && nearest.value < sharpness;
     if (!isAtEdge) {
@@ -95,11 +105,11 @@ std::optional<SurfaceContact> facing(const Corners& way, std::int32_t corner, co
     // Corners of aligned blocks lie within rounding of several faces, of which only one can be
     // stood on, and just off an edge the shortest way to it may point anywhere. Among the faces
     // about as near take the one that has least to give way.
-    thread_local std::vector<SignedDistance::NearFace> faces;
+    thread_local std::vector<NearFace> faces;
     faces.clear();
     field.facesNear(p, std::max(4.0 * std::abs(nearest.value), sharpness), faces);
     std::optional<SurfaceContact> best;
-    for (const SignedDistance::NearFace& face : faces) {
+    for (const NearFace& face : faces) {
         if (best && face.height <= best->gap) continue;
         if (supports(face.normal)) best = SurfaceContact{face.normal, face.height};
     }
@@ -201,7 +211,7 @@ void NearFeatures::lookAgain(const PlacedPair& pair, const Mat3& rotation, const
                       [](const NearCorner& p, const NearCorner& q) { return p.corner < q.corner; });
         }
         nearEdges[side].clear();
-        if (field.isPlane() || features.edges().empty()) continue;
+        if (way.surface.isPlane || features.edges().empty()) continue;
         features.edgeTree().visit(isClear, [&](std::uint32_t e) {
             const ConvexEdge& edge = features.edges()[e];
             const double half = 0.5 * edge.length;
@@ -293,6 +303,25 @@ void NearFeatures::findContacts(const PlacedPair& pair, double reach,
             }
         }
     };
+    // An exact ball touches with whatever of it is nearest: one place, never a corner.
+    const auto faceBall = [&](const Shape& ball, const Shape& surface, const Vec3& centre, bool ofA) {
+        const double radius = ball.distance.solid()->half().x();
+        const double gap = surface.distance.value(centre) - radius;
+        if (gap >= reach) return;
+        const Vec3 n = surface.distance.gridGradient(centre).normalized();
+        const Vec3 normal = (ofA ? 1.0 : -1.0) * ((ofA ? worldFromB : worldFromA) * n);
+        const Vec3 onA = ofA ? Vec3(-radius * normal)
+                             : Vec3(worldFromA * centre + (radius + gap) * normal);
+        push(featureId(Kind::ball, ofA ? 0 : 1), onA, normal, gap);
+    };
+    if (isBall(*pair.shapeA)) {
+        faceBall(*pair.shapeA, *pair.shapeB, translation, true);
+        return;
+    }
+    if (isBall(*pair.shapeB)) {
+        faceBall(*pair.shapeB, *pair.shapeA, -(rotation.transpose() * translation), false);
+        return;
+    }
     faceCorners({*pair.shapeA, *pair.shapeB, rotation, translation}, cornersOfA_, true);
     const Mat3 back = rotation.transpose();
     faceCorners({*pair.shapeB, *pair.shapeA, back, -(back * translation)}, cornersOfB_, false);

@@ -7,6 +7,8 @@ ImpulseCounts& ImpulseCounts::operator+=(const ImpulseCounts& other)
     sticking += other.sticking;
     sliding += other.sliding;
     fallback += other.fallback;
+    rolling += other.rolling;
+    rollingDropped += other.rollingDropped;
     return *this;
 }
 

@@ -17,7 +17,9 @@ enum class StepLimit : std::uint8_t { frame, relativeSpeed, spin, hover, substep
 struct ImpulseCounts {
     std::int64_t sticking = 0;
     std::int64_t sliding = 0;
-    std::int64_t fallback = 0;  ///< neither was admissible: blended on the segment
+    std::int64_t fallback = 0;        ///< neither was admissible: blended on the segment
+    std::int64_t rolling = 0;         ///< sticking ones that also braked rolling or spinning  [A51]
+    std::int64_t rollingDropped = 0;  ///< sticking ones whose cone left no room for that
 
     std::int64_t total() const { return sticking + sliding + fallback; }
     ImpulseCounts& operator+=(const ImpulseCounts& other);

@@ -48,9 +48,9 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
         const PassInertia ofB = passInertia(world.mass[b], placed.worldFromB.orientation);
         const PlacedPair now = placePair(world, pair, world.motion[a].worldFromBody(),
                                          world.motion[b].worldFromBody());
-        const bool applied = applyDeepest(
-            world, pair, {placed, now, placed}, {ofA.inverseInertia, ofB.inverseInertia, ofA, ofB},
-            pair.restitution, slowestApproach(settings, dt), touches, counts);
+        const bool applied = applyDeepest(world, pair, {placed, now, placed},
+                                          {ofA.inverseInertia, ofB.inverseInertia, ofA, ofB},
+                                          pair.restitution, settings, dt, touches, counts);
         if (!applied) return;
         predictBody(world, settings, dt, a, scratch);
         predictBody(world, settings, dt, b, scratch);

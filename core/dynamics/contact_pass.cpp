@@ -40,7 +40,6 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
 
     const PlacedPair now =
         placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
-    const double slowest = slowestApproach(settings, dt);
     thread_local std::vector<Touch> touches;
     for (int n = 0; n < sweep.pairImpulses; ++n) {
         touches.clear();
@@ -49,7 +48,7 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
         pair.proximity.findTouches(predicted, pair.tau, touches);
         std::sort(touches.begin(), touches.end(), isDeeper);
         const bool applied = applyDeepest(world, pair, {now, now, predicted}, inertia,
-                                          sweep.restitution, slowest, touches, tally.impulses);
+                                          sweep.restitution, settings, dt, touches, tally.impulses);
         if (!applied) return;
         predictBody(world, settings, dt, a, scratch);
         predictBody(world, settings, dt, b, scratch);

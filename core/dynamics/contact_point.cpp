@@ -1,6 +1,9 @@
 #include "core/dynamics/contact_point.h"
 
+#include "core/collision/moving_samples.h"
 #include "core/dynamics/friction.h"
+#include "core/dynamics/rolling_friction.h"
+#include "core/geometry/surface_curvature.h"
 #include "core/geometry/surface_normal.h"
 
 namespace scree {
@@ -17,11 +20,9 @@ Vec3 pointInField(const PlacedPair& placed, const Touch& touch)
            (offset + worldFromSample.orientation * touch.point);
 }
 
-}  // namespace
-
-ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
-                          const ContactFrames& frames, const Mat3& inverseInertiaA,
-                          const Mat3& inverseInertiaB)
+ContactPoint placeAsIs(const World& world, const PairRecord& pair, const Touch& touch,
+                       const ContactFrames& frames, const Mat3& inverseInertiaA,
+                       const Mat3& inverseInertiaB)
 {
     const bool ownedByA = touch.sampleOnA;
     const Pose& poseS = ownedByA ? frames.geometry.worldFromA : frames.geometry.worldFromB;
@@ -44,26 +45,106 @@ ContactPoint placeContact(const World& world, const PairRecord& pair, const Touc
     return contact;
 }
 
+/// The touch, at the place of its body that is deepest in the configuration the impulse acts in.
+Touch movedToDeepest(const PlacedPair& placed, const Touch& touch, const Vec3& worldNormal)
+{
+    const bool ownedByA = touch.sampleOnA;
+    const Shape& sampled = ownedByA ? *placed.shapeA : *placed.shapeB;
+    const Shape& field = ownedByA ? *placed.shapeB : *placed.shapeA;
+    const Pose& worldFromSampled = ownedByA ? placed.worldFromA : placed.worldFromB;
+    const Pose& worldFromField = ownedByA ? placed.worldFromB : placed.worldFromA;
+    const FieldFromSamples pose = relativePose(worldFromField, worldFromSampled);
+    Touch moved = touch;
+    if (sampled.samplesMove) {
+        moved.point = movingSample(sampled, field, pose, touch);
+    } else {
+        moved.point = slidSample(sampled, field, pose, touch,
+                                 worldFromField.orientation.conjugate() * worldNormal);
+    }
+    return moved;
+}
+
+/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
 double slowestApproach(const StepSettings& settings, double dt)
 {
     return 1e-10 * settings.gravity.norm() * dt + 1e-15;
 }
 
-bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
-                  const PairInertia& inertia, double restitution, double slowest,
-                  const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
+/// The finite body of a pair with the smaller volume.  [A50]
+const Shape& finerShape(const World& world, const BodyPair& bodies)
 {
+    const Shape& a = world.shapeOf(bodies.a);
+    const Shape& b = world.shapeOf(bodies.b);
+    if (!world.mass[bodies.a].isMovable()) return b;
+    if (!world.mass[bodies.b].isMovable()) return a;
+    return a.unitMass.volume <= b.unitMass.volume ? a : b;
+}
+
+/// Sticking friction, and with it resistance to rolling and spinning.
+RollingImpulse rollingAt(const World& world, const PairRecord& pair, const Touch& touch,
+                         const ContactPoint& contact, const ContactFrames& frames,
+                         const PairInertia& inertia, const Vec3& sticking,
+                         const StepSettings& settings)
+{
+    const bool ownedByA = touch.sampleOnA;
+    const Mat3& ownS = ownedByA ? inertia.ownInverseA : inertia.ownInverseB;
+    const Mat3& ownF = ownedByA ? inertia.ownInverseB : inertia.ownInverseA;
+    const Vec3 spin = ownS * world.motion[contact.sampleBody].angularMomentum -
+                      ownF * world.motion[contact.fieldBody].angularMomentum;
+    double factor = 1.0;
+    if (settings.curvatureScaling) {
+        const Pose& poseS = ownedByA ? frames.geometry.worldFromA : frames.geometry.worldFromB;
+        const Pose& poseF = ownedByA ? frames.geometry.worldFromB : frames.geometry.worldFromA;
+        const double curvature = meanCurvature(world.shapeOf(contact.sampleBody),
+                                               poseS.orientation.conjugate() * contact.rS) +
+                                 meanCurvature(world.shapeOf(contact.fieldBody),
+                                               poseF.orientation.conjugate() * contact.rF);
+        factor = curvatureFactor(curvature, finerShape(world, pair.bodies));
+    }
+    return rollingImpulse(
+        {ownedByA ? inertia.passA : inertia.passB, ownedByA ? inertia.passB : inertia.passA,
+         contact.rS, contact.rF, contact.normal, contact.u, spin, sticking, pair.friction},
+        pair.rolling, factor);
+}
+
+}  // namespace
+
+ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
+                          const ContactFrames& frames, const Mat3& inverseInertiaA,
+                          const Mat3& inverseInertiaB, const StepSettings& settings)
+{
+    const ContactPoint contact =
+        placeAsIs(world, pair, touch, frames, inverseInertiaA, inverseInertiaB);
+    const Shape& sampled = world.shapeOf(contact.sampleBody);
+    const bool isRound = sampled.samplesMove || !sampled.smooth.isEmpty();
+    if (!isRound || !settings.slideSmoothSamples) return contact;
+    const Touch moved = movedToDeepest(frames.geometry, touch, contact.normal);
+    return placeAsIs(world, pair, moved, frames, inverseInertiaA, inverseInertiaB);
+}
+
+bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
+                  const PairInertia& inertia, double restitution, const StepSettings& settings,
+                  double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
+{
+    const double slowest = slowestApproach(settings, dt);
     for (const Touch& touch : deepestFirst) {
-        const ContactPoint contact =
-            placeContact(world, pair, touch, frames, inertia.ownInverseA, inertia.ownInverseB);
+        const ContactPoint contact = placeContact(world, pair, touch, frames, inertia.ownInverseA,
+                                                  inertia.ownInverseB, settings);
         if (contact.u.dot(contact.normal) >= -slowest) continue;
         const PassInertia& ofS = touch.sampleOnA ? inertia.passA : inertia.passB;
         const PassInertia& ofF = touch.sampleOnA ? inertia.passB : inertia.passA;
         const Mat3 k = collisionMatrix(ofS, contact.rS) + collisionMatrix(ofF, contact.rF);
         const ContactImpulse j =
             contactImpulse(k, contact.u, contact.normal, restitution, pair.friction);
-        applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, j.impulse);
-        applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -j.impulse);
+        RollingImpulse applied{j.impulse};
+        if (j.kind == FrictionCase::sticking && !pair.rolling.isNone()) {
+            applied = rollingAt(world, pair, touch, contact, frames, inertia, j.impulse, settings);
+            ++(applied.isDropped ? counts.rollingDropped : counts.rolling);
+        }
+        applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, applied.impulse);
+        applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -applied.impulse);
+        applyCouple(world.motion[contact.sampleBody], ofS, applied.couple);
+        applyCouple(world.motion[contact.fieldBody], ofF, -applied.couple);
         countImpulse(counts, j.kind);
         return true;
     }

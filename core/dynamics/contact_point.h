@@ -26,9 +26,11 @@ struct ContactFrames {
 };
 
 /// Places the touch, with the bodies' present velocities; world inertias belong to frames.geometry.
+/// Samples of round bodies move to where these are deepest in that configuration, unless the
+/// settings forbid it.  [A40]
 ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
                           const ContactFrames& frames, const Mat3& inverseInertiaA,
-                          const Mat3& inverseInertiaB);
+                          const Mat3& inverseInertiaB, const StepSettings& settings);
 
 /// The inertias of a pair in one configuration: the bodies' own, which tell how fast their points
 /// move, and those of the pass, zero where it may not move a body.
@@ -37,12 +39,10 @@ struct PairInertia {
     PassInertia passA, passB;
 };
 
-/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
-double slowestApproach(const StepSettings& settings, double dt);
-
-/// Applies the impulse of the deepest touch that approaches. False when there is none.
+/// Applies the impulse of the deepest touch that approaches, with rolling friction where it sticks.
+/// False when there is none.
 bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
-                  const PairInertia& inertia, double restitution, double slowest,
-                  const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
+                  const PairInertia& inertia, double restitution, const StepSettings& settings,
+                  double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
 
 }  // namespace scree

@@ -49,4 +49,10 @@ inline void applyImpulse(BodyMotion& motion, const PassInertia& inertia, const V
     motion.angularMomentum += r.cross(impulse);
 }
 
+/// A pure couple [N m s]; does nothing to a body that cannot be moved.
+inline void applyCouple(BodyMotion& motion, const PassInertia& inertia, const Vec3& couple)
+{
+    if (inertia.isMovable()) motion.angularMomentum += couple;
+}
+
 }  // namespace scree

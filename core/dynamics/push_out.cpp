@@ -44,7 +44,7 @@ void move(BodyMotion& motion, const Push& push)
 
 /// One push at the deepest overlap of the pair. False when nothing overlaps.
 bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen, double fraction,
-              PushOutTally& tally)
+              const StepSettings& settings, PushOutTally& tally)
 {
     const auto [a, b] = pair.bodies;
     const auto inertiaOf = [&](BodyId body) {
@@ -62,8 +62,9 @@ bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen,
     const auto deepest = std::min_element(touches.begin(), touches.end(), isDeeper);
     if (deepest == touches.end() || deepest->phi >= 0.0) return false;
 
-    const ContactPoint contact = placeContact(world, pair, *deepest, {now, now, now},
-                                              inertiaA.inverseInertia, inertiaB.inverseInertia);
+    const ContactPoint contact =
+        placeContact(world, pair, *deepest, {now, now, now}, inertiaA.inverseInertia,
+                     inertiaB.inverseInertia, settings);
     const PassInertia& inertiaS = deepest->sampleOnA ? inertiaA : inertiaB;
     const PassInertia& inertiaF = deepest->sampleOnA ? inertiaB : inertiaA;
     const Mat3 k = collisionMatrix(inertiaS, contact.rS) + collisionMatrix(inertiaF, contact.rF);
@@ -109,7 +110,9 @@ PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const Ste
                     for (std::size_t place = first; place < level.islandEnds[island]; ++place) {
                         PairRecord& pair = scratch.pairs[level.pairs[place]];
                         for (int n = 0; n < settings.pushOutPairImpulses; ++n) {
-                            if (!pushOnce(world, pair, isFrozen, fraction, tallies[island])) break;
+                            if (!pushOnce(world, pair, isFrozen, fraction, settings,
+                                          tallies[island]))
+                                break;
                         }
                     }
                 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/dynamics/integrator.h"
+#include "core/dynamics/rolling_friction.h"
 
 namespace scree {
 namespace {
@@ -41,6 +42,7 @@ void describePair(const World& world, BodyPair bodies, PairRecord& record)
     record.tau = contourValue(world.shapeOf(bodies.a), world.shapeOf(bodies.b));
     record.friction = std::max(a.friction, b.friction);  // [A27]
     record.restitution = std::min(a.restitution, b.restitution);
+    record.rolling = largerOf(a.rolling, b.rolling);
     record.interferesNow = record.isTouched = false;
     record.aFallsOnB = record.bFallsOnA = record.aLeavesB = record.bLeavesA = false;
 }

@@ -18,6 +18,7 @@ struct PairRecord {
     BodyPair bodies;
     double tau = 0.0;                          ///< contour value [m]  [A7]
     double friction = 0.0, restitution = 0.0;  ///< of the pair  [A27]
+    RollingFriction rolling;                   ///< of the pair  [A27, A49]
     bool interferesNow = false;  ///< at the common predicted positions of this collision iteration
     bool aFallsOnB = false;      ///< moved by its own fall alone, a interferes with b  [A36]
     bool bFallsOnA = false;

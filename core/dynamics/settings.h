@@ -46,6 +46,8 @@ struct StepSettings {
     int gapSweeps =
         8;  ///< of method `scree`, over all contacts of a large heap [-]; too few: it sinks
     OrientationUpdate orientation = OrientationUpdate::secondOrder;
+    bool slideSmoothSamples = true;  ///< off, round bodies are braked as they roll  [A40]
+    bool curvatureScaling = true;    ///< rolling friction grows where surfaces fit  [A50]
 
     SubstepLimits substeps;
     double maximumSpinPerStep = 0.3;  ///< rotation in one step at safety 1 … [rad]  [A16 beta]

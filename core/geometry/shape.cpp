@@ -122,6 +122,7 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
         settings.edgeSamples.value_or(longestEdge(shape->mesh) > 0.5 * shape->innerThickness);
     shape->samples = makeSurfaceSamples(shape->mesh, withEdges);
     shape->features = ContactFeatures(shape->mesh);
+    if (!shape->usesTrueNormals) shape->smooth = SmoothSurface(shape->mesh);
 
     const double spacing = chooseSpacing(name, settings, shape->box, shape->innerThickness);
     GridNodes nodes = layOutNodes(shape->box, spacing);
@@ -131,12 +132,36 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
     return shape;
 }
 
+std::shared_ptr<const Shape> buildExactShape(const std::string& name, const ExactSolid& solid,
+                                             const TriMesh& mesh, const ShapeSettings& settings)
+{
+    auto shape = std::make_shared<Shape>();
+    shape->name = name;
+    shape->assetMesh = mesh;
+    shape->mesh = mergeEqualPoints(mesh);
+    requireSolid(shape->mesh, name);
+    shape->unitMass = solid.massProperties();
+    shape->box = solid.box();
+    shape->boundingRadius = solid.boundingRadius();
+    shape->innerThickness = shape->box.shortestEdge();
+    shape->distance =
+        SignedDistance(solid, chooseSpacing(name, {}, shape->box, shape->innerThickness));
+    shape->samplesMove = solid.form() != ExactSolid::Form::box;
+    if (solid.form() != ExactSolid::Form::sphere) shape->features = ContactFeatures(shape->mesh);
+    if (!shape->samplesMove) {
+        const bool withEdges =
+            settings.edgeSamples.value_or(longestEdge(shape->mesh) > 0.5 * shape->innerThickness);
+        shape->samples = makeSurfaceSamples(shape->mesh, withEdges);
+    }
+    return shape;
+}
+
 std::shared_ptr<const Shape> buildPlaneShape(const std::string& name)
 {
     auto shape = std::make_shared<Shape>();
     shape->name = name;
     shape->isPlane = true;
-    shape->distance = SignedDistance::plane();
+    shape->distance = SignedDistance(ExactSolid::plane());
     shape->box = Aabb::everything();
     return shape;
 }

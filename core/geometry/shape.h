@@ -3,6 +3,7 @@
 //
 // The mesh supplies sample points, true normals and mass; the field supplies inside tests, depth
 // and smooth normals. A plane is a shape too: an exact half space without samples, volume or box.
+// Spheres, boxes and cylinders may be exact as well; then the mesh is only what is drawn.
 #pragma once
 
 #include <memory>
@@ -12,6 +13,7 @@
 #include "core/geometry/contact_features.h"
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/signed_distance.h"
+#include "core/geometry/smooth_surface.h"
 #include "core/geometry/surface_rays.h"
 #include "core/geometry/surface_samples.h"
 #include "core/geometry/tri_mesh.h"
@@ -44,6 +46,8 @@ struct ShapeSettings {
 struct Shape {
     std::string name;
     bool isPlane = false;
+    bool samplesMove =
+        false;  ///< exact sphere or cylinder: its samples are no material points  [A9]
 
     TriMesh assetMesh;        ///< as the artist made it, scale baked in [m]; empty for a plane
     Pose bodyFromAsset;       ///< object frame from the artist's frame
@@ -56,9 +60,10 @@ struct Shape {
     bool usesTrueNormals = false;
 
     SignedDistance distance;   ///< grid, exact refinement, or plane
-    SurfaceSamples samples;    ///< empty for a plane
-    ContactFeatures features;  ///< empty for a plane
-    SurfaceRays rays;          ///< empty for a plane
+    SurfaceSamples samples;    ///< empty for a plane and where samples move
+    ContactFeatures features;  ///< empty for a plane and round exact solids
+    SurfaceRays rays;          ///< empty for a plane and exact solids
+    SmoothSurface smooth;      ///< empty for sharp meshes, planes and exact solids  [A40]
 };
 
 /// Builds mass, field, samples and rays from a closed mesh in the artist's frame, lengths in
@@ -67,6 +72,13 @@ struct Shape {
 /// do.
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
                                             const ShapeSettings& settings = {});
+
+/// A sphere, box or cylinder that collides as the formula says, not as a mesh: field, normals and
+/// mass are exact. `mesh`, in the solid's own frame, is what is drawn; of a box it also supplies
+/// the samples. Of the settings only edgeSamples matters, and only to a box.  [A9]
+std::shared_ptr<const Shape> buildExactShape(const std::string& name, const ExactSolid& solid,
+                                             const TriMesh& mesh,
+                                             const ShapeSettings& settings = {});
 
 /// The half space below the plane through its own origin with normal +y; exact.  [A9]
 std::shared_ptr<const Shape> buildPlaneShape(const std::string& name);

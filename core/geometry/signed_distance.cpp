@@ -44,12 +44,10 @@ PseudoNormals pseudoNormals(const TriMesh& mesh)
 
 }  // namespace
 
-SignedDistance SignedDistance::plane()
+SignedDistance::SignedDistance(const ExactSolid& solid, double spacing) : solid_(solid)
 {
-    SignedDistance field;
-    field.isPlane_ = true;
-    field.domain_ = field.surfaceBox_ = Aabb::everything();
-    return field;
+    nodes_.spacing = spacing;
+    domain_ = surfaceBox_ = solid.box();
 }
 
 SignedDistance::SignedDistance(const TriMesh& mesh, GridNodes nodes, bool refined)
@@ -175,7 +173,7 @@ std::size_t SignedDistance::cellIndex(const Vec3& pointInDomain) const
 
 double SignedDistance::gridValue(const Vec3& point) const
 {
-    if (isPlane_) return point.y();
+    if (solid_) return solid_->value(point);
     const Vec3 inside = point.cwiseMax(domain_.min).cwiseMin(domain_.max);
     const double inverseSpacing = 1.0 / nodes_.spacing;
     const double x = (inside.x() - nodes_.origin.x()) * inverseSpacing;
@@ -201,13 +199,13 @@ double SignedDistance::gridValue(const Vec3& point) const
 double SignedDistance::value(const Vec3& point) const
 {
     const double phi = gridValue(point);
-    if (isPlane_ || std::abs(phi) >= band_) return phi;
+    if (solid_ || std::abs(phi) >= band_) return phi;
     return exact(point);
 }
 
 double SignedDistance::lowerBound(const Vec3& point) const
 {
-    if (isPlane_) return point.y();
+    if (solid_) return solid_->value(point);
     if (domain_.distanceTo(point) > 0.0) return surfaceBox_.distanceTo(point);
     const double phi = gridValue(point);
     return std::abs(phi) < band_ ? exact(point) : phi - kHalfDiagonal * nodes_.spacing;
@@ -215,7 +213,7 @@ double SignedDistance::lowerBound(const Vec3& point) const
 
 bool SignedDistance::isClearOf(const Vec3& point, double radius) const
 {
-    if (isPlane_) return point.y() > radius;
+    if (solid_) return solid_->value(point) > radius;
     return surfaceBox_.distanceTo(point) > radius || lowerBound(point) > radius;
 }
 
@@ -260,7 +258,7 @@ SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
 
 SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
 {
-    if (isPlane_) return {point.y(), Vec3::UnitY()};
+    if (solid_) return {solid_->value(point), solid_->gradient(point)};
     const double grid = gridValue(point);
     if (std::abs(grid) >= band_) return {grid, gridGradient(point)};
     const Closest closest = closestInCell(point);
@@ -275,6 +273,7 @@ SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
 void SignedDistance::facesNear(const Vec3& point, double tolerance,
                                std::vector<NearFace>& faces) const
 {
+    if (solid_) return solid_->facesNear(point, tolerance, faces);
     const std::size_t cell = cellIndex(point);
     for (std::uint32_t i = candidateStart_[cell]; i < candidateStart_[cell + 1]; ++i) {
         const Face& face = faces_[candidates_[i]];
@@ -293,7 +292,7 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
 
 Vec3 SignedDistance::gridGradient(const Vec3& point) const
 {
-    if (isPlane_) return Vec3::UnitY();
+    if (solid_) return solid_->gradient(point);
     const Vec3 centre = point.cwiseMax(domain_.min).cwiseMin(domain_.max);
     Vec3 gradient;
     for (int axis = 0; axis < 3; ++axis) {

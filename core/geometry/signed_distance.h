@@ -1,6 +1,8 @@
 // Signed distance to a solid: a dense grid of nodes, and near the surface the mesh itself.  [A4,
 // A5]
 //
+// A few solids have a formula for it and need neither (exact_solid.h).
+//
 // A trilinear grid rounds edges: where a box's true distance is 0 it reads +h/4 at an edge and +0.4
 // h at a corner, and a stack of ten cubes on such a field falls over at any affordable resolution.
 // So the grid only filters. Its nodes are exact and distance is 1-Lipschitz, hence the interpolated
@@ -13,8 +15,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "core/geometry/exact_solid.h"
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/math/aabb.h"
@@ -25,14 +29,16 @@ class SignedDistance {
 public:
     SignedDistance() = default;
 
-    /// The half space y < 0, exact everywhere.  [A9]
-    static SignedDistance plane();
+    /// A formula instead of a lattice, exact everywhere. `spacing` [m] is the length that searches
+    /// in the field take for small.  [A9]
+    explicit SignedDistance(const ExactSolid& solid, double spacing = 0.0);
 
     /// From a solid mesh and its filled lattice. `refined` switches the exact distance near the
     /// surface on; without it values are purely trilinear, as in the paper.
     SignedDistance(const TriMesh& mesh, GridNodes nodes, bool refined);
 
-    bool isPlane() const { return isPlane_; }
+    /// The formula; null where there is a lattice.
+    const ExactSolid* solid() const { return solid_ ? &*solid_ : nullptr; }
     double spacing() const { return nodes_.spacing; }
     const Aabb& domain() const { return domain_; }
 
@@ -76,13 +82,6 @@ public:
     double exact(const Vec3& point) const;
     double refinementBand() const { return band_; }
 
-    /// A face that passes within `tolerance` of a point, with the angle it spans there: half
-    /// a turn, or the corner's own angle at a corner [rad].
-    struct NearFace {
-        Vec3 normal;
-        double angle;
-        double height;  ///< of the point above the face's plane [m]
-    };
     /// Appends the faces of the cell that pass within `tolerance` of the point (at most a few).
     void facesNear(const Vec3& point, double tolerance, std::vector<NearFace>& faces) const;
 
@@ -106,7 +105,7 @@ private:
     Closest closestInCell(const Vec3& point) const;
     static double signedValue(const Closest& closest, const Vec3& point);
 
-    bool isPlane_ = false;
+    std::optional<ExactSolid> solid_;
     GridNodes nodes_;
     Aabb domain_;        // of the nodes
     Aabb surfaceBox_;    // of the mesh

@@ -17,6 +17,9 @@ constexpr double kMedialAxis = 0.1;
 /// precision places rays to about 1e-6 h.
 constexpr double kEdgeHit = 1e-5;
 
+/// A way that crosses the surface is looked for this fraction of h before and beyond its ends.
+constexpr double kCrossingSlack = 1e-2;
+
 Vec3 triangleNormal(const TriMesh& mesh, int triangle)
 {
     const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
@@ -50,11 +53,10 @@ Vec3 directionFromClosest(const Shape& shape, const Vec3& point)
 /// the faces beside its corners with 1e-12 m/s of rounding, and half of a sideways normal from that
 /// throws it about. Weighted by speed the rule is the same for the clear cases and continuous
 /// between.
-Vec3 sharedNormal(const std::vector<SignedDistance::NearFace>& faces, const Vec3& approach,
-                  const Vec3& hitNormal)
+Vec3 sharedNormal(const std::vector<NearFace>& faces, const Vec3& approach, const Vec3& hitNormal)
 {
     Vec3 bySpeed = Vec3::Zero(), byAngle = Vec3::Zero();
-    for (const SignedDistance::NearFace& face : faces) {
+    for (const NearFace& face : faces) {
         bySpeed += face.angle * std::max(0.0, -approach.dot(face.normal)) * face.normal;
         byAngle += face.angle * face.normal;
     }
@@ -115,23 +117,40 @@ Vec3 gradientDirection(const Shape& shape, const Vec3& point)
 
 Vec3 trueNormal(const Shape& shape, const Approach& approach)
 {
-    const double slack = 1e-2 * shape.distance.spacing();
+    const double slack = kCrossingSlack * shape.distance.spacing();
     std::optional<SurfaceHit> hit = crossedFace(shape, approach, slack);
     if (!hit) {
         hit = facedSurface(shape, approach.point, gradientDirection(shape, approach.point), slack);
     }
     const Vec3 normal = triangleNormal(shape.mesh, hit->triangle);
-    thread_local std::vector<SignedDistance::NearFace> faces;
+    thread_local std::vector<NearFace> faces;
     faces.clear();
     shape.distance.facesNear(hit->place, kEdgeHit * shape.distance.spacing(), faces);
     return faces.size() > 1 ? sharedNormal(faces, approach.velocity, normal) : normal;
+}
+
+/// The face that is crossed, or that is nearest; where several meet they share.
+Vec3 exactNormal(const ExactSolid& solid, double spacing, const Approach& approach)
+{
+    if (solid.form() == ExactSolid::Form::plane) return Vec3::UnitY();
+    if (solid.form() == ExactSolid::Form::sphere) return solid.gradient(approach.point);
+    const Vec3 outward = solid.gradient(approach.point);
+    const Vec3 place = solid.entry(approach.from, approach.to, kCrossingSlack * spacing)
+                           .value_or(approach.point - solid.value(approach.point) * outward);
+    thread_local std::vector<NearFace> faces;
+    faces.clear();
+    solid.facesNear(place, kEdgeHit * spacing, faces);
+    if (faces.empty()) return outward;
+    return faces.size() > 1 ? sharedNormal(faces, approach.velocity, outward) : faces[0].normal;
 }
 
 }  // namespace
 
 Vec3 surfaceNormal(const Shape& shape, const Approach& approach)
 {
-    if (shape.isPlane) return Vec3::UnitY();
+    if (const ExactSolid* solid = shape.distance.solid()) {
+        return exactNormal(*solid, shape.distance.spacing(), approach);
+    }
     return shape.usesTrueNormals ? trueNormal(shape, approach)
                                  : gradientDirection(shape, approach.point);
 }

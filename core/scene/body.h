@@ -13,12 +13,28 @@ using BodyId = std::int32_t;
 using ShapeId = std::int32_t;
 using MaterialId = std::int32_t;
 
+/// Resistance to rolling and to spinning on the spot. A lever arm b brakes with the couple b times
+/// the normal force; the paper's own coefficients take spin away by normal impulse, whatever the
+/// inertia.  [A49]
+struct RollingFriction {
+    double rolling = 0.0;      ///< lever arm [m]
+    double spinning = 0.0;     ///< lever arm [m]
+    double rawRolling = 0.0;   ///< the paper's [1/(kg m)]
+    double rawSpinning = 0.0;  ///< the paper's [1/(kg m)]
+
+    bool isNone() const
+    {
+        return rolling == 0.0 && spinning == 0.0 && rawRolling == 0.0 && rawSpinning == 0.0;
+    }
+};
+
 /// How a surface behaves; how it looks is render's business.
 struct Material {
     std::string name;
     double density = 1000.0;   ///< [kg/m³]
     double friction = 0.5;     ///< Coulomb coefficient [-]
     double restitution = 0.0;  ///< [-], 0 … 1
+    RollingFriction rolling = {};
 };
 
 enum class BodyKind : std::uint8_t {

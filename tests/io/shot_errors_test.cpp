@@ -41,7 +41,9 @@ std::string body(const std::string& lines)
     return kBase + "[[body]]\nname = \"b\"\nmaterial = \"wood\"\n" + lines;
 }
 
-const char* const kMaterialKeys = "(valid: density, friction, restitution, color, roughness)";
+const char* const kMaterialKeys =
+    "(valid: density, friction, restitution, rolling_friction, "
+    "rolling_friction_raw, spinning_friction, spinning_friction_raw, color, roughness)";
 const char* const kTables =
     "(valid: scree, shot, solver, material, shape, body, import, emitter, camera, render, output)";
 
@@ -148,9 +150,31 @@ std::vector<BadShot> badShots()
          "bad.toml:16:8: 'tilt' must be a number from 0 to 180, or \"random\", not 200"},
         {"Extends", "extends = \"base.toml\"\n" + kHead,
          "bad.toml:1:1: 'extends' in the shot is not supported yet by this version"},
-        {"RollingFriction", kHead + "[material.wood]\nrolling_friction = 0.0\n",
-         "bad.toml:5:1: 'rolling_friction' in [material.wood] is not supported yet by this "
-         "version"},
+        {"NegativeRollingFriction", kHead + "[material.wood]\nrolling_friction = -0.1\n",
+         "bad.toml:5:20: 'rolling_friction' must be a number of at least 0, not -0.1"},
+        {"MisspeltRollingFriction", kHead + "[material.wood]\nroling_friction = 0.1\n",
+         "bad.toml:5:1: unknown key 'roling_friction' in [material.wood]; did you mean "
+         "'rolling_friction'? (valid: density, friction, restitution, rolling_friction, "
+         "rolling_friction_raw, spinning_friction, spinning_friction_raw, color, roughness)"},
+        {"RollingFrictionTwice",
+         kHead + "[material.wood]\nrolling_friction = 0.1\nrolling_friction_raw = 0.1\n",
+         "bad.toml:6:1: 'rolling_friction_raw' cannot stand beside 'rolling_friction' in "
+         "[material.wood]"},
+        {"ExactTorus", kHead + "[shape.ring]\ntorus = {}\ncollide = \"exact\"\n",
+         "bad.toml:6:11: collide = \"exact\" is for a sphere, box or cylinder; anything else "
+         "collides as its mesh"},
+        {"ExactEllipsoid",
+         kHead + "[shape.egg]\nsphere = {}\nscale = [1, 2, 1]\ncollide = \"exact\"\n",
+         "bad.toml:6:9: 'scale' must keep the circles of an exact shape round"},
+        {"ExactShapeWithAField",
+         kHead + "[shape.ball]\nsphere = {}\nsdf = { resolution = 64 }\ncollide = \"exact\"\n",
+         "bad.toml:6:7: a shape that collides as \"exact\" has no sampled field"},
+        {"ExactShapeWithNormals",
+         kHead + "[shape.ball]\nsphere = {}\nnormals = \"smooth\"\ncollide = \"exact\"\n",
+         "bad.toml:6:11: a shape that collides as \"exact\" has exact normals"},
+        {"ExactShapeOfNoKnownKind", kHead + "[shape.ball]\nsphere = {}\ncollide = \"exakt\"\n",
+         "bad.toml:6:11: 'collide' must be one of \"mesh\", \"exact\", not \"exakt\"; did you mean "
+         "'exact'?"},
         {"Sleep", kHead + "[solver]\nsleep = true\n",
          "bad.toml:5:1: 'sleep' in [solver] is not supported yet by this version"},
         {"Contacts", kHead + "[output]\ncontacts = true\n",

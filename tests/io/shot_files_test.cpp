@@ -103,6 +103,20 @@ TEST(ShotFiles, WedgeIsASharpSolidOfTwelveTriangles)
     }
 }
 
+TEST(ShotFiles, ExactShapesAreBuiltWithTheirScaleAndTheMassOfTheSolid)
+{
+    const Shot shot = parseShotText(
+        "scree = 1\n[shot]\nname = \"s\"\nunits = \"cm\"\n[material.m]\ndensity = 1000\n"
+        "[shape.pole]\ncylinder = { radius = 10, height = 100 }\nscale = [2, 1, 2]\n"
+        "collide = \"exact\"\n[[body]]\nname = \"b\"\nshape = \"pole\"\nmaterial = \"m\"\n",
+        "s.toml");
+    const World world = buildWorld(shot);
+    const ExactSolid* solid = world.shapeOf(0).distance.solid();
+    ASSERT_NE(solid, nullptr);
+    EXPECT_TRUE(solid->half().isApprox(Vec3(0.2, 0.5, 0.2), 1e-12));
+    EXPECT_NEAR(1.0 / world.mass[0].inverseMass, 1000.0 * std::acos(-1.0) * 0.04, 1e-9);
+}
+
 TEST(ShotFiles, WedgesBuildWithNormalsOfTheMeshAndEdgeSamples)
 {
     const Shot shot = shippedShot("wedges.toml");

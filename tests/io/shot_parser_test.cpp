@@ -143,6 +143,29 @@ TEST(ShotParser, LengthsBecomeMetresButGravityDoesNotChange)
     EXPECT_EQ(shot.settings.gravity, Vec3(0.0, -9.81, 0.0));
 }
 
+TEST(ShotParser, LeverArmsOfRollingFrictionAreLengthsAndRawCoefficientsAreNot)
+{
+    const Shot shot = parseShotText(kHead +
+                                        "units = \"cm\"\n[material.tyre]\nrolling_friction = 2\n"
+                                        "spinning_friction_raw = 3\n[material.ice]\n",
+                                    "s.toml");
+    const RollingFriction& tyre = shot.materials[0].material.rolling;
+    EXPECT_DOUBLE_EQ(tyre.rolling, 0.02);
+    EXPECT_EQ(tyre.rawRolling, 0.0);
+    EXPECT_EQ(tyre.spinning, 0.0);
+    EXPECT_EQ(tyre.rawSpinning, 3.0);
+    EXPECT_TRUE(shot.materials[1].material.rolling.isNone());
+}
+
+TEST(ShotParser, OnlyAShapeThatAsksForItCollidesAsItsExactSolid)
+{
+    const Shot shot = parseShotText(
+        kHead + "[shape.a]\nsphere = {}\n[shape.b]\ncylinder = {}\ncollide = \"exact\"\n",
+        "s.toml");
+    EXPECT_FALSE(shot.shapes[0].isExact);
+    EXPECT_TRUE(shot.shapes[1].isExact);
+}
+
 TEST(ShotParser, UpTurnsOnlyTheDefaultGravity)
 {
     const Shot byDefault = parseShotText(kHead + "up = \"+z\"\n", "s.toml");

@@ -17,7 +17,7 @@ StepSettings experimentSettings()
 
 MaterialId addMaterial(World& world, double friction, double restitution, double density)
 {
-    return world.addMaterial({"material", density, friction, restitution});
+    return world.addMaterial({"material", density, friction, restitution, {}});
 }
 
 BodyId addPlane(World& world, MaterialId material, const Vec3& point, const Vec3& normal)
@@ -37,6 +37,23 @@ std::shared_ptr<const Shape> boxShape(const Vec3& size, int segments)
     auto& shape = built[{size.x(), size.y(), size.z(), static_cast<double>(segments)}];
     if (!shape) shape = buildMeshShape("box", makeBox(size, {segments, segments, segments}));
     return shape;
+}
+
+std::shared_ptr<const Shape> exactSphere(double radius)
+{
+    return buildExactShape("sphere", ExactSolid::sphere(radius), makeSphere(radius, 2));
+}
+
+std::shared_ptr<const Shape> exactBox(const Vec3& size, int segments)
+{
+    return buildExactShape("box", ExactSolid::box(size),
+                           makeBox(size, {segments, segments, segments}));
+}
+
+std::shared_ptr<const Shape> exactCylinder(double radius, double height)
+{
+    return buildExactShape("cylinder", ExactSolid::cylinder(radius, height),
+                           makeCylinder(radius, height, 20, 1));
 }
 
 BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,

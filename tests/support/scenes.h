@@ -24,6 +24,11 @@ BodyId addPlane(World& world, MaterialId material, const Vec3& point = Vec3::Zer
 /// A box of the given size with `segments` quads along each edge; built once for equal arguments.
 std::shared_ptr<const Shape> boxShape(const Vec3& size, int segments);
 
+/// Solids that collide as their formula says.  [A9]
+std::shared_ptr<const Shape> exactSphere(double radius);
+std::shared_ptr<const Shape> exactBox(const Vec3& size, int segments);
+std::shared_ptr<const Shape> exactCylinder(double radius, double height);
+
 BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
                const Pose& worldFromAsset, double mass = 1.0, const Vec3& velocity = Vec3::Zero(),
                const Vec3& angularVelocity = Vec3::Zero());

@@ -1,0 +1,19 @@
+#include "core/geometry/surface_curvature.h"
+
+namespace scree {
+
+double meanCurvature(const Shape& shape, const Vec3& point)
+{
+    if (const ExactSolid* solid = shape.distance.solid()) return solid->meanCurvature(point);
+    const double reach = 2.0 * shape.distance.spacing();
+    double divergence = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 step = reach * Vec3::Unit(axis);
+        const Vec3 ahead = shape.distance.gridGradient(point + step).normalized();
+        const Vec3 behind = shape.distance.gridGradient(point - step).normalized();
+        divergence += (ahead[axis] - behind[axis]) / (2.0 * reach);
+    }
+    return 0.5 * divergence;
+}
+
+}  // namespace scree
