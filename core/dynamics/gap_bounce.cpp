@@ -15,7 +15,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dynamics/contact_point.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/gap_contact.h"
 
@@ -42,7 +41,7 @@ public:
     ImpactPass(const StepSettings& settings, double dt, GapScratch& scratch)
         : settings_(settings),
           dt_(dt),
-          slowest_(slowestApproach(settings, dt)),
+          slowest_(1e-10 * settings.gravity.norm() * dt + 1e-15),  // [A29]
           scratch_(scratch),
           impacts_(scratch.bodies.size())
     {
