@@ -88,6 +88,12 @@ void countImpulses(const GapScratch& scratch, ImpulseCounts& counts)
 
 }  // namespace
 
+int mostSweeps(const StepSettings& settings, const GapScratch& scratch)
+{
+    const auto spare = static_cast<int>(kSpareVisits / (scratch.rows.size() + 1));
+    return std::max(settings.gapSweeps, std::min(spare, kMostSweeps));
+}
+
 double visitRow(GapRow& row, GapBody& a, GapBody& b)
 {
     const double un = velocityAt(row, a, b).dot(row.normal);
@@ -170,8 +176,7 @@ GapTally resolveGaps(const StepSettings& settings, double dt, const GapLevels& l
 
     GapTally tally;
     const double enough = 1e-9 * settings.gravity.norm() * dt + 1e-15;
-    const auto spare = static_cast<int>(kSpareVisits / (scratch.rows.size() + 1));
-    const int most = std::max(settings.gapSweeps, std::min(spare, kMostSweeps));
+    const int most = mostSweeps(settings, scratch);
     double energy = 0.0;
     while (true) {
         for (GapRow& row : scratch.rows) row.before = row.impulse;

@@ -16,6 +16,9 @@ struct GapTally {
 /// One visit. Answers how much it changed the normal velocity [m/s].
 double visitRow(GapRow& row, GapBody& a, GapBody& b);
 
+/// The sweeps a step may spend: those of the settings on a large heap, more on a small problem.
+int mostSweeps(const StepSettings& settings, const GapScratch& scratch);
+
 /// Sets the targets of all rows from their gaps and what impacts have shifted, and adds gravity.
 void addGravityToGaps(const StepSettings& settings, double dt, GapScratch& scratch);
 

@@ -14,8 +14,10 @@ namespace {
 /// Sweeps up and down over the rows of one level; its rows are few and near each other.
 constexpr int kLevelSweeps = 30;
 
-/// A row that closes this share of the smaller body past zero in a step calls for shock.
-constexpr double kVisible = 1e-5;
+/// A row that closes this share of the smaller body past zero in a step calls for shock: where the
+/// sweeps could have solved the problem to the end, and where they had to stop.
+constexpr double kWellBelow = 0.1;  // share of the visible that a level of shock may leave
+constexpr double kVisibleWhenSolved = 1e-5, kVisibleInHeaps = 1e-3;
 
 /// The bodies of a level's rows that its solve must not move, as they were.
 class HeldBodies {
@@ -72,14 +74,22 @@ double solvedEnough(const StepSettings& settings, double dt)
     return 1e-9 * settings.gravity.norm() * dt;
 }
 
-bool closesVisibly(const World& world, double dt, const GapScratch& scratch)
+/// Speed at which a row of the pair closes visibly within a step, beyond its target [m/s].
+double visibleSpeed(const World& world, const StepSettings& settings, double dt,
+                    const GapScratch& scratch, const GapRow& row)
+{
+    const bool isHeap = mostSweeps(settings, scratch) == settings.gapSweeps;
+    const double visible = isHeap ? kVisibleInHeaps : kVisibleWhenSolved;
+    return visible * smallerRadius(world, row.a, row.b) / dt;
+}
+
+bool closesVisibly(const World& world, const StepSettings& settings, double dt,
+                   const GapScratch& scratch)
 {
     for (const GapRow& row : scratch.rows) {
-        const GapBody& a = scratch.bodies[row.a];
-        const GapBody& b = scratch.bodies[row.b];
-        const double closing = dt * (velocityAt(row, a, b).dot(row.normal) - row.target);
-        if (closing >= 0.0) continue;
-        if (-closing > kVisible * smallerRadius(world, row.a, row.b)) return true;
+        const double u =
+            velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
+        if (row.target - u > visibleSpeed(world, settings, dt, scratch, row)) return true;
     }
     return false;
 }
@@ -154,7 +164,7 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
 bool propagateShockUp(const World& world, const StepSettings& settings, double dt,
                       const GapLevels& levels, GapScratch& scratch)
 {
-    if (!closesVisibly(world, dt, scratch)) return false;
+    if (!closesVisibly(world, settings, dt, scratch)) return false;
     HeldBodies held(scratch);
     std::vector<Vec3> remembered;
     for (std::size_t level = 0; level < levels.rows.size(); ++level) {
@@ -170,7 +180,12 @@ bool propagateShockUp(const World& world, const StepSettings& settings, double d
             remembered.push_back(scratch.rows[r].impulse);
         }
         for (std::size_t r : rows) prepareRow(scratch, scratch.rows[r]);
-        solveRows(scratch, rows, solvedEnough(settings, dt));
+        double enough = solvedEnough(settings, dt);
+        for (std::size_t r : rows) {
+            const double visible = visibleSpeed(world, settings, dt, scratch, scratch.rows[r]);
+            enough = std::max(enough, kWellBelow * visible);
+        }
+        solveRows(scratch, rows, enough);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             GapRow& row = scratch.rows[rows[i]];
             const Vec3 withShock = row.worldImpulse();

@@ -10,6 +10,10 @@
 namespace scree {
 namespace {
 
+/// Gaps below this share of the smaller body are contacts even when nothing moves: what lies within
+/// the slop of push-out must not come and go.
+constexpr double kLeastReach = 2e-4;
+
 /// A place that has moved less than this share of the smaller body since the last step may take
 /// over an impulse although its features have changed.
 constexpr double kSamePlace = 0.05;
@@ -44,7 +48,7 @@ double reachOf(const World& world, const StepSettings& settings, const GapScratc
     const double speed = (a.velocity - b.velocity).norm() + surfaceSpeed(world, scratch, bodies.a) +
                          surfaceSpeed(world, scratch, bodies.b);
     return dt * (speed + dt * settings.gravity.norm()) +
-           1e-3 * smallerRadius(world, bodies.a, bodies.b);
+           kLeastReach * smallerRadius(world, bodies.a, bodies.b);
 }
 
 void findGapPairs(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
@@ -63,7 +67,7 @@ void findGapPairs(const World& world, const StepSettings& settings, double dt, G
                   dt * settings.gravity.norm());
         scratch.boxes[i] =
             transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position)
-                .grown(travel + 1e-3 * shape.boundingRadius);
+                .grown(travel + kLeastReach * shape.boundingRadius);
     }
     const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
 
