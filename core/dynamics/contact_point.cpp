@@ -49,22 +49,40 @@ double slowestApproach(const StepSettings& settings, double dt)
     return 1e-10 * settings.gravity.norm() * dt + 1e-15;
 }
 
-bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
-                  const PairInertia& inertia, double restitution, double slowest,
-                  const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
+void updateApproach(const World& world, const PairRecord& pair, const PairInertia& inertia,
+                    ContactPoint& contact)
+{
+    const bool ownedByA = contact.sampleBody == pair.bodies.a;
+    const Mat3& inverseS = ownedByA ? inertia.ownInverseA : inertia.ownInverseB;
+    const Mat3& inverseF = ownedByA ? inertia.ownInverseB : inertia.ownInverseA;
+    contact.u = pointVelocity(world.motion[contact.sampleBody], inverseS, contact.rS) -
+                pointVelocity(world.motion[contact.fieldBody], inverseF, contact.rF);
+}
+
+void applyContact(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactPoint& contact, const PairInertia& inertia, double restitution,
+                  ImpulseCounts& counts)
+{
+    const bool ownedByA = contact.sampleBody == pair.bodies.a;
+    const PassInertia& ofS = ownedByA ? inertia.passA : inertia.passB;
+    const PassInertia& ofF = ownedByA ? inertia.passB : inertia.passA;
+    const Mat3 k = collisionMatrix(ofS, contact.rS) + collisionMatrix(ofF, contact.rF);
+    const ContactImpulse j = contactImpulse(k, contact.u, contact.normal, restitution,
+                                            pair.friction, settings.frictionFallback);
+    applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, j.impulse);
+    applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -j.impulse);
+    countImpulse(counts, j.kind);
+}
+
+bool applyDeepest(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactFrames& frames, const PairInertia& inertia, double restitution,
+                  double slowest, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
 {
     for (const Touch& touch : deepestFirst) {
         const ContactPoint contact =
             placeContact(world, pair, touch, frames, inertia.ownInverseA, inertia.ownInverseB);
         if (contact.u.dot(contact.normal) >= -slowest) continue;
-        const PassInertia& ofS = touch.sampleOnA ? inertia.passA : inertia.passB;
-        const PassInertia& ofF = touch.sampleOnA ? inertia.passB : inertia.passA;
-        const Mat3 k = collisionMatrix(ofS, contact.rS) + collisionMatrix(ofF, contact.rF);
-        const ContactImpulse j =
-            contactImpulse(k, contact.u, contact.normal, restitution, pair.friction);
-        applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, j.impulse);
-        applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -j.impulse);
-        countImpulse(counts, j.kind);
+        applyContact(world, settings, pair, contact, inertia, restitution, counts);
         return true;
     }
     return false;

@@ -40,9 +40,18 @@ struct PairInertia {
 /// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
 double slowestApproach(const StepSettings& settings, double dt);
 
+/// Takes u from the bodies' present velocities; point and normal stay.
+void updateApproach(const World& world, const PairRecord& pair, const PairInertia& inertia,
+                    ContactPoint& contact);
+
+/// Applies the impulse of one approaching contact to both bodies.
+void applyContact(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactPoint& contact, const PairInertia& inertia, double restitution,
+                  ImpulseCounts& counts);
+
 /// Applies the impulse of the deepest touch that approaches. False when there is none.
-bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
-                  const PairInertia& inertia, double restitution, double slowest,
-                  const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
+bool applyDeepest(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactFrames& frames, const PairInertia& inertia, double restitution,
+                  double slowest, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
 
 }  // namespace scree

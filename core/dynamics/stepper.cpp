@@ -146,6 +146,7 @@ Stepper::~Stepper() = default;
 
 StepReport Stepper::step(World& world, double dt)
 {
+    world.assignKinds();
     findPairs(world, settings_, dt, *scratch_);
     return stepFoundPairs(world, dt);
 }
@@ -155,6 +156,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     StepReport report;
     report.dt = dt;
     StepScratch& scratch = *scratch_;
+    aimKeyedBodies(world, dt);
     shuffleOrder(world, settings_.seed);
     beginStep(world, settings_, dt, scratch);
 
@@ -172,7 +174,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
         const PhaseTimer timer(report, Phase::contactGraph);
         graph = buildContactGraph(world, settings_, dt, scratch);
     }
-    addGravity(world, settings_, dt);
+    addForces(world, scratch.forces, dt);
     {
         const PhaseTimer timer(report, Phase::contact);
         report.contactImpulses =
@@ -217,7 +219,9 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
                                   const std::function<void(const World&, double)>& afterStep)
 {
     FrameReport frame;
+    world.frameDuration = frameDuration;
     while (true) {
+        world.assignKinds();
         const double remaining = frameDuration - world.clock.frameTimeDone;
         StepLength length;
         StepReport limitReport;
