@@ -103,6 +103,8 @@ std::string encodeStats(const FrameStats& stats, const World& world)
         {"kinetic_energy_J", frame.kineticEnergy},
         {"potential_energy_J", frame.potentialEnergy},
         {"momentum", {frame.momentum.x(), frame.momentum.y(), frame.momentum.z()}},
+        {"angular_momentum",
+         {frame.angularMomentum.x(), frame.angularMomentum.y(), frame.angularMomentum.z()}},
         {"bodies_awake", frame.bodiesAwake},
         {"phase_ms", phaseTimes(sum)},
         {"state_hash", toHex(frame.stateHash)},

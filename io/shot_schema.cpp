@@ -178,6 +178,7 @@ std::string expectationOf(const ShotKey& key)
         case KeyType::numberOrList:
             return "a number" + range + ", or " + count + " such numbers" + listPattern(key.count);
         case KeyType::words:
+            if (!*key.choices) return "a list of names in quotes";
             return "a list of words from " + quotedChoices(key.choices);
         case KeyType::table:
             return "a table";

@@ -18,7 +18,7 @@ enum class KeyType {
     integers,      ///< a list of exactly `count`
     numbers,       ///< a list of exactly `count`
     numberOrList,  ///< one number, or a list of exactly `count`
-    words,         ///< a list of any length, each one of `choices`
+    words,         ///< a list of any length, each one of `choices` if there are any
     table,
     namedTables,  ///< [material.NAME]: a table for each name
     tableList,    ///< [[body]]
@@ -38,6 +38,7 @@ struct ShotKey {
     bool isOpen = false;              ///< the limits themselves are not allowed
     const char* choices = "";         ///< of words, "a|b|c"
     const char* plannedChoices = "";  ///< known to the format, refused by this version
+    bool isFile = false;              ///< text that names a file relative to the shot
     bool isRequired = false;
     const char* excludes = "";  ///< keys of the same table that cannot stand beside it, "a|b|c"
     bool isPlanned = false;     ///< known to the format, refused by this version

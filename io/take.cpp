@@ -121,6 +121,7 @@ void restoreState(World& world, const FrameState& state)
     world.motion = state.motion;
     world.order = state.order;
     world.clock = state.clock;
+    // Who is keyed and who is free follows from the clock; the next step begins with it.
 }
 
 TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& world,

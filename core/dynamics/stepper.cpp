@@ -130,7 +130,10 @@ void describeState(const World& world, const Vec3& gravity, FrameReport& report)
         if (!world.mass[b].isMovable()) continue;
         ++report.bodiesAwake;
         report.kineticEnergy += kineticEnergy(world.motion[b], world.mass[b]);
-        report.momentum += world.motion[b].velocity / world.mass[b].inverseMass;
+        const BodyMotion& motion = world.motion[b];
+        const Vec3 momentum = motion.velocity / world.mass[b].inverseMass;
+        report.momentum += momentum;
+        report.angularMomentum += motion.position.cross(momentum) + motion.angularMomentum;
     }
     report.stateHash = stateHash(world);
 }

@@ -284,7 +284,7 @@ TEST(ShotSchema, ExplanationsTellTypeRangeUnitDefaultAndMeaning)
     EXPECT_EQ(explainKey("contact_iterations"), text);
     EXPECT_EQ(explainKey("material.wood.friction"), explainKey("material.friction"));
     EXPECT_EQ(explainKey("material.mesh.friction"), explainKey("material.friction"));
-    EXPECT_NE(explainKey("body.keys").find("not supported yet"), std::string::npos);
+    EXPECT_NE(explainKey("output.contacts").find("not supported yet"), std::string::npos);
     EXPECT_NE(explainKey("solver.substeps").find("Keys: min, max, safety."), std::string::npos);
 }
 
@@ -303,8 +303,8 @@ TEST(ShotSchema, AnUnknownKeyIsAnsweredWithTheNearest)
               "'solver.contact_iterations'?");
     EXPECT_EQ(message("frictoin"), "no key 'frictoin' in shot files; did you mean 'friction'?");
     EXPECT_EQ(message("qqqqqqqqqqqq"),
-              "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, shot, solver, "
-              "material, shape, body, camera, render, output");
+              "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, extends, shot, "
+              "solver, material, shape, body, force, pair, camera, render, output");
 }
 
 TEST(NearestWord, ForgivesSlipsButNotOtherWords)
