@@ -11,11 +11,19 @@
 namespace scree::test {
 namespace {
 
+/// Too thin for the default of twelve voxels; exact distances near the surface make up for that.
+std::shared_ptr<const Shape> thinBox(const Vec3& size, int segments)
+{
+    ShapeSettings settings;
+    settings.resolution = 256;
+    return buildMeshShape("thin", makeBox(size, {segments, segments, segments}), settings);
+}
+
 /// How many of `shots` balls of 1 cm radius at 100 m/s get through a static plate of 1 cm.
 int tunnelled(int shots, int stepsAllowed, double frame)
 {
     const auto ball = buildMeshShape("ball", makeSphere(0.01, 2));
-    const auto plate = boxShape({1.0, 1.0, 0.01}, 2);
+    const auto plate = thinBox({1.0, 1.0, 0.01}, 2);
     int count = 0;
     for (int i = 0; i < shots; ++i) {
         const auto u = [&](int k) {
@@ -57,7 +65,7 @@ bool rodPassesPost(int stepsAllowed)
     const Vec3 post(0.5, 0.0, -0.5);
     addBody(world, boxShape({0.03, 1.0, 0.03}, 4), material, {post, Quat::Identity()}, 0.0);
     const BodyId rod =
-        addBody(world, boxShape({2.0, 0.02, 0.02}, 20), material, {Vec3::Zero(), Quat::Identity()},
+        addBody(world, thinBox({2.0, 0.02, 0.02}, 20), material, {Vec3::Zero(), Quat::Identity()},
                 1.0, Vec3::Zero(), {0.0, 100.0, 0.0});
     StepSettings settings = experimentSettings();
     settings.gravity.setZero();

@@ -150,7 +150,7 @@ void simulate(const Shot& shot, const std::filesystem::path& folder, int steps)
     }
 }
 
-TEST(ShotMotion, KillingAndResumingAcrossARepeatedReleaseGivesTheSameTake)
+TEST(ShotMotion, KillingAndResumingAcrossAReleaseGivesTheSameTake)
 {
     const TemporaryFolder folder;
     const Shot shot = parseShotText(kShot, "push.toml");
@@ -173,10 +173,10 @@ TEST(ShotMotion, AKeyedBodyMovesInTheTakeAndInWhatExportersAreTold)
     simulate(shot, folder / "take", 0);
     const TakeReader take(folder / "take");
     EXPECT_EQ(take.info().bodies[1].kind, BodyKind::keyed);
-    EXPECT_FALSE(take.scene().bodies[0].moves);
-    EXPECT_TRUE(take.scene().bodies[1].moves);
-    const SceneFrame early = readFrameFile(take.paths().frame(1002)).scene;
-    const SceneFrame later = readFrameFile(take.paths().frame(1005)).scene;
+    EXPECT_FALSE(take.describe().bodies[0].moves);
+    EXPECT_TRUE(take.describe().bodies[1].moves);
+    const SceneFrame early = take.readFrame(1002);
+    const SceneFrame later = take.readFrame(1005);
     EXPECT_NEAR(early.worldFromAsset[1].position.x(), -30.0 + 30.0 / 5.5, 1e-9);
     EXPECT_NEAR(later.worldFromAsset[1].position.x(), -30.0 + 4.0 * 30.0 / 5.5, 1e-9);
     // Velocities too, for motion blur: 30 cm and 90° in 5.5 frames.
