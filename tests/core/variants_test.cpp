@@ -64,7 +64,7 @@ struct HeapResult {
 
 HeapResult dropHeap(std::uint64_t seed, CollisionVariant collision)
 {
-    World world = makeDrop(seed, 18);
+    World world = makeDrop(seed, 12);
     StepSettings settings = experimentSettings();
     settings.collision = collision;
     const double before = totalEnergy(world, settings);
@@ -81,7 +81,7 @@ HeapResult dropHeap(std::uint64_t seed, CollisionVariant collision)
 TEST(E22Variants, LaggedCollisionsEndInAHeapLikeReevolvedOnes)
 {
     HeapResult lagged, reevolved;
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1, 2}) {
         const HeapResult a = dropHeap(seed, CollisionVariant::lagged);
         const HeapResult b = dropHeap(seed, CollisionVariant::reevolve);
         EXPECT_NEAR(a.energyLost, b.energyLost, 0.2 * b.energyLost) << seed;
@@ -139,12 +139,12 @@ TEST(E22Variants, StrictStandsAStackOfTenOnFieldsWithNodesOnTheFaces)
         addBody(world, gridCube(), material, {{0.0, 0.5 + i, 0.0}, Quat::Identity()});
     }
     Stepper stepper(strictSettings());
-    for (int k = 0; k < 3 * 240; ++k) stepper.step(world, kDt);
+    for (int k = 0; k < 240; ++k) stepper.step(world, kDt);
     EXPECT_NEAR(world.motion[10].position.y(), 9.5, 2e-3);
     EXPECT_LE(std::hypot(world.motion[10].position.x(), world.motion[10].position.z()), 5e-3);
 }
 
-/// How far the top of a stack of n cubes has sunk or strayed in half a second [m].
+/// How far the top of a stack of n cubes has sunk or strayed in a quarter of a second [m].
 double stackError(int n, int sweeps, bool shock)
 {
     World world;
@@ -160,14 +160,14 @@ double stackError(int n, int sweeps, bool shock)
     settings.pushOut = false;  // which would hide what contact leaves
     Stepper stepper(settings);
     const Vec3 start = world.motion[n].position;
-    for (int k = 0; k < 120; ++k) stepper.step(world, kDt);
+    for (int k = 0; k < 60; ++k) stepper.step(world, kDt);
     return (world.motion[n].position - start).norm();
 }
 
 /// The least number of contact sweeps that keeps the top within 1 mm, or -1 beyond `most`.
 int sweepsNeeded(int n, bool shock, int most)
 {
-    for (int sweeps = 1; sweeps <= most; sweeps = sweeps < 4 ? sweeps + 1 : sweeps * 5 / 4) {
+    for (int sweeps = 1; sweeps <= most; sweeps *= 2) {
         if (stackError(n, sweeps, shock) <= 1e-3) return sweeps;
     }
     return -1;
@@ -178,7 +178,7 @@ TEST(E26ShockPropagation, SparesAtLeastFourFifthsOfTheSweepsOfAStackOfTwenty)
     std::printf("%6s %12s %12s\n", "cubes", "with shock", "without");
     for (const int n : {5, 10, 20}) {
         const int with = sweepsNeeded(n, true, 10);
-        const int most = n == 20 ? 5 * with : 60;
+        const int most = n == 20 ? 5 * with : 32;
         const int without = sweepsNeeded(n, false, most);
         std::printf(
             "%6d %12d %12s\n", n, with,

@@ -86,7 +86,7 @@ std::vector<BadShot> badShots()
          "collision_iterations, collision_pair_impulses, contact_iterations, level_iterations, "
          "pair_impulses, shock_propagation, shock_pair_impulses, push_out, "
          "push_out_level_iterations, push_out_pair_impulses, orientation, substeps, maximum_spin, "
-         "hover, penetration)"},
+         "hover, penetration, strict, collision, combine)"},
         {"TextInsteadOfNumber", kHead + "fps = \"24\"\n",
          "bad.toml:4:7: 'fps' must be a number above 0 and below 10000, not \"24\""},
         {"NumberInsteadOfInteger", kHead + "[solver]\ncontact_iterations = 2.5\n",
@@ -134,7 +134,7 @@ std::vector<BadShot> badShots()
         {"KeyOfAnUnknownName",
          body("shape = \"block\"\nmotion = \"keyed\"\nkeys = [{ frame = 5, positon = [0, 0, 0] "
               "}]\n"),
-         "bad.toml:12:21: unknown key 'positon' in [[keys]]; did you mean 'position'? (valid: "
+         "bad.toml:12:9: [[keys]] lacks 'position': 3 numbers [x, y, z]\nbad.toml:12:22: unknown key 'positon' in [[keys]]; did you mean 'position'? (valid: "
          "frame, position, rotation, orientation)"},
         {"KeysOfADynamicBody", body("shape = \"block\"\nrelease = 1010\n"),
          "bad.toml:11:11: 'release' is for bodies with motion = \"keyed\""},
@@ -348,7 +348,7 @@ TEST(ShotErrors, ProblemsOfAPoseFileAreLocatedInThatFile)
         FAIL() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()),
-                  shot + ":12:10: 'motion' must be one of \"dynamic\", \"static\", not 1\n" +  //
+                  shot + ":12:10: 'motion' must be one of \"dynamic\", \"static\", \"keyed\", not 1\n" +  //
                       poses + ":3:1: the line has 6 numbers; expected 7: x y z qw qx qy qz\n" +
                       poses + ":4:5: 'zero' is not a finite number\n" +  //
                       poses + ":5:8: the orientation qw qx qy qz is zero\n" + poses +
