@@ -16,8 +16,8 @@ struct GapTally {
 /// One visit. Answers how much it changed the normal velocity [m/s].
 double visitRow(GapRow& row, GapBody& a, GapBody& b);
 
-/// Sets the targets of all rows from their gaps and what impacts have shifted, and adds gravity.
-void addGravityToGaps(const StepSettings& settings, double dt, GapScratch& scratch);
+/// Sets the targets of all rows from their gaps and what impacts have shifted, and adds the forces.
+void addForcesToGaps(double dt, GapScratch& scratch);
 
 /// Sweeps over all rows until velocities stay as they are, or the sweeps are used up. Begins with
 /// the impulses that rows remember, or, when nothing is remembered, with the weights of the levels.
