@@ -304,14 +304,15 @@ void NearFeatures::findContacts(const PlacedPair& pair, double reach,
         }
     };
     // An exact ball touches with whatever of it is nearest: one place, never a corner.
-    const auto faceBall = [&](const Shape& ball, const Shape& surface, const Vec3& centre, bool ofA) {
+    const auto faceBall = [&](const Shape& ball, const Shape& surface, const Vec3& centre,
+                              bool ofA) {
         const double radius = ball.distance.solid()->half().x();
         const double gap = surface.distance.value(centre) - radius;
         if (gap >= reach) return;
         const Vec3 n = surface.distance.gridGradient(centre).normalized();
         const Vec3 normal = (ofA ? 1.0 : -1.0) * ((ofA ? worldFromB : worldFromA) * n);
-        const Vec3 onA = ofA ? Vec3(-radius * normal)
-                             : Vec3(worldFromA * centre + (radius + gap) * normal);
+        const Vec3 onA =
+            ofA ? Vec3(-radius * normal) : Vec3(worldFromA * centre + (radius + gap) * normal);
         push(featureId(Kind::ball, ofA ? 0 : 1), onA, normal, gap);
     };
     if (isBall(*pair.shapeA)) {
