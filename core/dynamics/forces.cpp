@@ -81,7 +81,7 @@ void findForces(const World& world, const StepSettings& settings, double dt,
         if (!world.mass[b].isMovable()) continue;
         const BodyMotion& motion = world.motion[b];
         const double inverseMass = world.mass[b].inverseMass;
-        const double area = 0.25 * world.shapeOf(static_cast<BodyId>(b)).surfaceArea;
+        const double area = 0.25 * world.shapeOf(static_cast<BodyId>(b)).unitMass.area;
         const double airGrip = 0.5 * kAirDensity * area * inverseMass;
         forces[b].acceleration = settings.gravity + inverseMass * world.info[b].force;
         for (const ForceField& field : world.fields) {

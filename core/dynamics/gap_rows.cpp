@@ -24,8 +24,7 @@ void readBodies(const World& world, const StepSettings& settings, double dt, Gap
         body.velocity = world.motion[i].velocity;
         body.spin = inertia.inverseInertia * world.motion[i].angularMomentum;
         body.inverseMass = inertia.inverseMass;
-        // A keyed body has an inverse inertia to tell its spin, and none for impulses.
-        body.inverseInertia = inertia.isMovable() ? inertia.inverseInertia : Mat3(Mat3::Zero());
+        body.inverseInertia = inertia.turningByImpulse();
         body.pull = scratch.forces[i].acceleration;
         body.torque = scratch.forces[i].torque;
         body.angularImpulse = body.shift = body.turn = Vec3::Zero();

@@ -16,6 +16,9 @@ struct PassInertia {
     Mat3 inverseInertia = Mat3::Zero();  // world
 
     bool isMovable() const { return inverseMass > 0.0; }
+
+    /// How impulses turn the body: not at all if it cannot be moved.
+    Mat3 turningByImpulse() const { return isMovable() ? inverseInertia : Mat3(Mat3::Zero()); }
 };
 
 inline PassInertia passInertia(const BodyMass& mass, const Quat& orientation)

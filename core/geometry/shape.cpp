@@ -113,12 +113,6 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
         shape->boundingRadius = std::max(shape->boundingRadius, p.norm());
     }
 
-    for (Eigen::Index t = 0; t < shape->mesh.triangles.cols(); ++t) {
-        const Eigen::Vector3i corner = shape->mesh.triangles.col(t);
-        const Vec3 a = shape->mesh.points.col(corner[0]), b = shape->mesh.points.col(corner[1]);
-        const Vec3 c = shape->mesh.points.col(corner[2]);
-        shape->surfaceArea += 0.5 * (b - a).cross(c - a).norm();
-    }
     shape->rays = SurfaceRays(shape->mesh);
     shape->innerThickness = measureThickness(shape->mesh, shape->rays, shape->box);
     shape->usesTrueNormals =

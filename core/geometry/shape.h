@@ -56,7 +56,6 @@ struct Shape {
     TriMesh mesh;                 ///< in the object frame [m]
     Aabb box;                     ///< of the mesh, object frame
     double boundingRadius = 0.0;  ///< of the mesh about the centre of mass [m]
-    double surfaceArea = 0.0;     ///< of the mesh [m²]
     double innerThickness = 0.0;  ///< first percentile of the inscribed-ball diameter [m]  [A16]
     bool usesTrueNormals = false;
 

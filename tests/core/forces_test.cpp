@@ -118,7 +118,7 @@ TEST(Forces, AFallingBodyInStillAirReachesTheTerminalSpeedOfTheDragFormula)
     world.fields.push_back(air);
     run(world, experimentSettings(), 10.0);
     // m g = ½ ρ c A v²; the area of the mesh ball is 0.7 % below that of a true one.
-    const double area = 0.25 * world.shapeOf(ball).surfaceArea;
+    const double area = 0.25 * world.shapeOf(ball).unitMass.area;
     EXPECT_NEAR(area, kPi * 0.01, 0.01 * kPi * 0.01);
     const double terminal = std::sqrt(2.0 * 0.05 * 9.8 / (1.2 * 0.5 * area));
     // The implicit step reaches v(1 + k dt) = ... within a share k dt of the terminal speed.
