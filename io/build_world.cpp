@@ -73,6 +73,12 @@ public:
         for (const ShotMaterial& material : shot_.materials) {
             materialOfName_.emplace(material.material.name, world_.addMaterial(material.material));
         }
+        for (const ShotPair& pair : shot_.pairs) {
+            world_.materialPairs.push_back({materialOfName_.at(pair.a), materialOfName_.at(pair.b),
+                                            pair.friction, pair.restitution});
+        }
+        world_.fields = shot_.fields;
+        world_.frameDuration = 1.0 / shot_.framesPerSecond;
         for (const ShotBody& body : shot_.bodies) add(body);
         problems_.throwIfAny();
         bearTheFirst();
@@ -101,6 +107,13 @@ private:
         definition.velocity = body.velocity;
         definition.angularVelocity = body.angularVelocity;
         definition.mass = body.mass;
+        definition.force = body.force;
+        definition.torque = body.torque;
+        definition.groups = body.groups;
+        if (body.kind == BodyKind::keyed) {
+            definition.script = std::make_shared<MotionScript>(body.keys, body.interpolation);
+            if (body.releaseFrame) definition.keyedUntil = *body.releaseFrame - shot_.firstFrame;
+        }
         if (body.birth) {
             definition.birth = {body.birth->frame - shot_.firstFrame, body.birth->clearance};
         }
@@ -221,7 +234,7 @@ SceneDescription describeScene(const Shot& shot, const World& world, double plan
         described.name = world.info[i].name;
         described.mesh = entry->second;
         described.material = world.materialOf(body).name;
-        described.moves = world.info[i].kind == BodyKind::dynamic;
+        described.moves = world.info[i].kind != BodyKind::fixed;
         const BodyMass& mass = world.massWhenBorn(body);
         described.mass = mass.isMovable() ? 1.0 / mass.inverseMass : 0.0;
         scene.bodies.push_back(described);

@@ -106,6 +106,8 @@ std::string encodeStats(const FrameStats& stats, const World& world)
         {"kinetic_energy_J", frame.kineticEnergy},
         {"potential_energy_J", frame.potentialEnergy},
         {"momentum", {frame.momentum.x(), frame.momentum.y(), frame.momentum.z()}},
+        {"angular_momentum",
+         {frame.angularMomentum.x(), frame.angularMomentum.y(), frame.angularMomentum.z()}},
         {"bodies_awake", frame.bodiesAwake},
         {"births",
          {{"born", frame.births.born},

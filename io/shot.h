@@ -16,6 +16,8 @@
 #include "core/geometry/shape.h"
 #include "core/math/types.h"
 #include "core/scene/body.h"
+#include "core/scene/force_field.h"
+#include "core/scene/motion_script.h"
 
 namespace scree {
 
@@ -94,8 +96,20 @@ struct ShotBody {
     Vec3 velocity = Vec3::Zero();         ///< [m/s]
     Vec3 angularVelocity = Vec3::Zero();  ///< world axes [rad/s]
     std::optional<double> mass;           ///< [kg]
-    std::optional<ShotBirth> birth;       ///< without: there from the start
+    Vec3 force = Vec3::Zero();            ///< [N]
+    Vec3 torque = Vec3::Zero();           ///< [N m]
+    CollisionGroups groups;
+    std::vector<MotionKey> keys;  ///< of a keyed body; times since the first frame [s], poses [m]
+    KeyInterpolation interpolation = KeyInterpolation::smooth;
+    std::optional<int> releaseFrame;  ///< at which a keyed body becomes dynamic
+    std::optional<ShotBirth> birth;   ///< without: there from the start
     SourceLocation location;
+};
+
+/// Two materials against each other, a ≤ b.
+struct ShotPair {
+    std::string a, b;
+    std::optional<double> friction, restitution;
 };
 
 struct ShotCamera {
@@ -130,6 +144,8 @@ struct Shot {
     std::vector<ShotMaterial> materials;
     std::vector<ShotShape> shapes;
     std::vector<ShotBody> bodies;
+    std::vector<ForceField> fields;  ///< SI
+    std::vector<ShotPair> pairs;
     std::vector<ShotCamera> cameras;
     ShotRender render;
     ShotOutput output;

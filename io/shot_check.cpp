@@ -204,7 +204,7 @@ private:
     {
         const std::vector<std::string> choices = splitWords(key.choices);
         if (node.kind != Kind::text) return refuse(node, key);
-        if (contains(choices, node.text)) return true;
+        if (choices.empty() || contains(choices, node.text)) return true;
         if (contains(splitWords(key.plannedChoices), node.text)) {
             problems_.add(node.where, "'" + std::string(nameOf(key)) + "' = " + quoted(node) +
                                           " is not supported yet; this version knows only " +

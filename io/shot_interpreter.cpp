@@ -11,6 +11,7 @@
 #include "io/pose_file.h"
 #include "io/shot_check.h"
 #include "io/shot_import.h"
+#include "io/shot_motion.h"
 #include "io/subframes.h"
 
 namespace scree {
@@ -41,10 +42,22 @@ double metresPerUnit(const std::string& unit)
     return 1.0;
 }
 
+CombineRule combineRuleOf(const std::string& word)
+{
+    if (word == "min") return CombineRule::minimum;
+    if (word == "mean") return CombineRule::mean;
+    if (word == "geometric") return CombineRule::geometric;
+    if (word == "multiply") return CombineRule::multiply;
+    return CombineRule::maximum;
+}
+
 class Interpreter {
 public:
     Interpreter(const ShotNode& tree, const std::string& shotPath, ProblemList& problems)
-        : tree_(tree), folder_(std::filesystem::path(shotPath).parent_path()), problems_(problems)
+        : tree_(tree),
+          folder_(std::filesystem::path(shotPath).parent_path()),
+          problems_(problems),
+          groups_(tree, problems)
     {
     }
 
@@ -53,7 +66,9 @@ public:
         readShotTable();
         if (const ShotNode* solver = tree_.find("solver")) readSolver(*solver);
         readMaterials();
+        readMaterialPairs(tree_, shot_, problems_);
         readShapes();
+        readForceFields(tree_, shot_, problems_);
         if (const ShotNode* bodies = tree_.find("body")) {
             for (const ShotNode& body : bodies->items) readBody(body);
         }
@@ -112,6 +127,15 @@ private:
         settings.orientation = table.find("orientation")->text == "euler"
                                    ? OrientationUpdate::euler
                                    : OrientationUpdate::secondOrder;
+        settings.collision = table.find("collision")->text == "lagged" ? CollisionVariant::lagged
+                                                                       : CollisionVariant::reevolve;
+        const ShotNode& combine = *table.find("combine");
+        settings.frictionRule = combineRuleOf(combine.find("friction")->text);
+        settings.restitutionRule = combineRuleOf(combine.find("restitution")->text);
+        if (table.find("strict")->boolean) {
+            makeStrict(settings);
+            isStrict_ = true;
+        }
         settings.maximumSpinPerStep = table.find("maximum_spin")->number * kRadiansPerDegree;
         settings.hoverLimit = table.find("hover")->number;
 
@@ -233,7 +257,8 @@ private:
                 settings.voxel = voxel->number * shot_.metresPerUnit;
             }
         }
-        settings.field = node.find("field")->text == "grid" ? FieldMode::grid : FieldMode::refined;
+        const bool isGrid = isStrict_ || node.find("field")->text == "grid";
+        settings.field = isGrid ? FieldMode::grid : FieldMode::refined;
         const std::string& normals = node.find("normals")->text;
         settings.normals = normals == "true"     ? NormalMode::trueNormals
                            : normals == "smooth" ? NormalMode::smooth
@@ -283,6 +308,8 @@ private:
         readReferences(node, body);
         if (const ShotNode* plane = node.find("plane")) readPlane(node, *plane, body);
         readMotion(node, body);
+        readBodyForces(node, body, problems_);
+        body.groups = groups_.read(node);
 
         // A copy count that is wrong or too large is reported, and nothing is expanded.
         const std::vector<Pose> copies = readCopies(node);
@@ -290,8 +317,10 @@ private:
         bool isNew = true;
         for (std::size_t i = 0; i < copies.size() && isNew; ++i) {
             ShotBody copy = body;
-            copy.worldFromAsset = copies[i];
-            copy.worldFromAsset.position *= shot_.metresPerUnit;
+            if (body.kind != BodyKind::keyed) {
+                copy.worldFromAsset = copies[i];
+                copy.worldFromAsset.position *= shot_.metresPerUnit;
+            }
             if (!isSingle && !body.name.empty()) copy.name = nameOfCopy(body.name, i);
             isNew = claimName(node, copy.name);
             if (isNew) shot_.bodies.push_back(std::move(copy));
@@ -336,6 +365,7 @@ private:
             shape.name += "_";
         }
         shape.source = placed.shape;
+        if (isStrict_) shape.settings.field = FieldMode::grid;
         shape.location = where;
         shapeNames_.push_back(shape.name);
         shot_.shapes.push_back(shape);
@@ -442,8 +472,12 @@ private:
 
     void readMotion(const ShotNode& node, ShotBody& body)
     {
-        const bool isStatic = node.find("motion")->text == "static";
-        body.kind = isStatic ? BodyKind::fixed : BodyKind::dynamic;
+        const std::string& motion = node.find("motion")->text;
+        const bool isStatic = motion == "static";
+        body.kind = isStatic            ? BodyKind::fixed
+                    : motion == "keyed" ? BodyKind::keyed
+                                        : BodyKind::dynamic;
+        readKeyedMotion(node, shot_, body, problems_);
         if (const ShotNode* velocity = node.find("velocity")) {
             body.velocity = toVec3(*velocity) * shot_.metresPerUnit;
             if (isStatic && !body.velocity.isZero(0.0)) {
@@ -459,6 +493,9 @@ private:
         if (const ShotNode* mass = node.find("mass")) {
             body.mass = mass->number;
             if (isStatic) report(*mass, "a static body has no 'mass': nothing moves it");
+            if (body.kind == BodyKind::keyed && !body.releaseFrame) {
+                report(*mass, "a keyed body that is never released has no 'mass'");
+            }
         }
     }
 
@@ -591,6 +628,8 @@ private:
     std::vector<std::string> materialNames_, shapeNames_;
     std::unordered_map<std::string, SourceLocation> ownerOfName_;  // asked, never walked
     bool isTooManyReported_ = false;
+    bool isStrict_ = false;
+    GroupNames groups_;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "io/nearest_word.h"
 #include "io/problem_list.h"
 #include "io/shot_check.h"
+#include "io/shot_extends.h"
 #include "io/shot_interpreter.h"
 #include "io/shot_schema.h"
 #include "io/shot_tree.h"
@@ -260,6 +261,39 @@ std::string readWholeFile(const std::string& path)
     return text.str();
 }
 
+ShotNode readTree(const std::string& text, const std::string& path)
+{
+    try {
+        return readToml(text, path);
+    } catch (const toml::parse_error& error) {
+        throw Error(ErrorKind::badInput, placeOf(error.source(), path),
+                    std::string(error.description()));
+    }
+}
+
+/// Follows `extends` down to a shot that stands on nothing. `above` are the files on the way here.
+ShotNode withBase(ShotNode tree, const std::string& path, std::vector<std::string> above)
+{
+    const ShotEntry* extends = tree.entry("extends");
+    if (!extends || extends->node.kind != ShotNode::Kind::text) return tree;
+    const std::filesystem::path named = extends->node.text;
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    const std::string base = (folder / named).lexically_normal().string();
+    above.push_back(std::filesystem::path(path).lexically_normal().string());
+    if (std::find(above.begin(), above.end(), base) != above.end()) {
+        throw Error(ErrorKind::badInput, extends->node.where,
+                    "'extends' goes round in a circle: \"" + base + "\" extends this shot");
+    }
+    if (!std::filesystem::exists(base)) {
+        throw Error(ErrorKind::missingInput, extends->node.where,
+                    "shot file \"" + base + "\" does not exist");
+    }
+    std::erase_if(tree.entries, [](const ShotEntry& entry) { return entry.key == "extends"; });
+    ShotNode below = withBase(readTree(readWholeFile(base), base), base, above);
+    rebaseFiles(below, named.parent_path());
+    return laidOver(std::move(below), tree);
+}
+
 }  // namespace
 
 Shot parseShot(const std::string& path, const std::vector<std::string>& overrides)
@@ -270,13 +304,7 @@ Shot parseShot(const std::string& path, const std::vector<std::string>& override
 Shot parseShotText(const std::string& text, const std::string& path,
                    const std::vector<std::string>& overrides)
 {
-    ShotNode tree;
-    try {
-        tree = readToml(text, path);
-    } catch (const toml::parse_error& error) {
-        throw Error(ErrorKind::badInput, placeOf(error.source(), path),
-                    std::string(error.description()));
-    }
+    ShotNode tree = withBase(readTree(text, path), path, {});
 
     ProblemList problems(path);
     for (const std::string& setting : overrides) Override(setting, problems).apply(tree);

@@ -1,5 +1,6 @@
-// Text → Shot. A shot file is TOML; what it may say is in shot_schema.h. Reading happens in four
-// steps, each of which adds to one list of problems: TOML to a tree, overrides into the tree, the
+// Text → Shot. A shot file is TOML; what it may say is in shot_schema.h. Reading happens in five
+// steps, most of which add to one list of problems: TOML to a tree, that laid over the tree of the
+// shot it extends (shot_extends.h), overrides into the tree, the
 // tree against the schema (shot_check.h), the tree's meaning (shot_interpreter.h).
 #pragma once
 

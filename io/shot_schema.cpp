@@ -182,6 +182,7 @@ std::string expectationOf(const ShotKey& key)
         case KeyType::textOrTexts:
             return "text in quotes, or a list of such texts";
         case KeyType::words:
+            if (!*key.choices) return "a list of names in quotes";
             return "a list of words from " + quotedChoices(key.choices);
         case KeyType::table:
             return "a table";

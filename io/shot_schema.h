@@ -20,7 +20,7 @@ enum class KeyType {
     numberOrList,  ///< one number, or a list of exactly `count`
     numberOrWord,  ///< one number, or one of `choices`
     textOrTexts,   ///< one text, or a list of any length but zero
-    words,         ///< a list of any length, each one of `choices`
+    words,         ///< a list of any length, each one of `choices` if there are any
     table,
     namedTables,  ///< [material.NAME]: a table for each name
     tableList,    ///< [[body]]
@@ -40,6 +40,7 @@ struct ShotKey {
     bool isOpen = false;              ///< the limits themselves are not allowed
     const char* choices = "";         ///< of words, "a|b|c"
     const char* plannedChoices = "";  ///< known to the format, refused by this version
+    bool isFile = false;              ///< text that names a file relative to the shot
     bool isRequired = false;
     const char* excludes = "";  ///< keys of the same table that cannot stand beside it, "a|b|c"
     bool isPlanned = false;     ///< known to the format, refused by this version

@@ -19,8 +19,10 @@ const std::vector<ShotKey> kFileKeys = {
              "instead of guessing."},
     {.path = "extends",
      .type = text,
-     .isPlanned = true,
-     .help = "Another shot file whose keys hold wherever this one says nothing."},
+     .isFile = true,
+     .help = "Another shot file, relative to this one, whose keys hold wherever this one says "
+             "nothing. Bodies of the same name are taken together key by key, others are added; "
+             "any other list is replaced as a whole."},
 };
 
 const std::vector<ShotKey> kShotKeys = {
@@ -236,8 +238,35 @@ const std::vector<ShotKey> kSolverKeys = {
      .help = "Whether bodies at rest cost no time until something moves them."},
     {.path = "solver.strict",
      .type = boolean,
-     .isPlanned = true,
-     .help = "The paper without any of the repairs documented beside it."},
+     .byDefault = "false",
+     .help = "The paper without the repairs documented beside it, whatever the other keys say: "
+             "orientation \"euler\", field \"grid\" for all shapes, sliding friction that may add "
+             "energy, shock that freezes free clusters, contacts that brake rolling. For "
+             "comparison only."},
+    {.path = "solver.collision",
+     .type = word,
+     .byDefault = "\"reevolve\"",
+     .choices = "reevolve|lagged",
+     .help = "How a colliding pair is worked on. \"reevolve\" looks again after every impulse; "
+             "\"lagged\" looks once a visit, which is faster for bodies of many points and coarser "
+             "in the outcome. Resting contact always looks again."},
+    {.path = "solver.combine",
+     .type = table,
+     .byDefault = "{}",
+     .help = "How a pair's properties follow from its two materials. [[pair]] makes exceptions."},
+    {.path = "solver.combine.friction",
+     .type = word,
+     .byDefault = "\"max\"",
+     .choices = "min|max|mean|geometric|multiply",
+     .help =
+         "With \"max\", the paper's, a slippery body on a rough floor is rough; with \"min\" it "
+         "is slippery. \"geometric\" and \"multiply\" are 0 when either is."},
+    {.path = "solver.combine.restitution",
+     .type = word,
+     .byDefault = "\"min\"",
+     .choices = "min|max|mean|geometric|multiply",
+     .help = "With \"min\", the paper's, a bouncy ball lands dead on sand; with \"max\" it bounces "
+             "on anything."},
 };
 
 const std::vector<ShotKey> kMaterialKeys = {
@@ -435,6 +464,7 @@ const std::vector<ShotKey> kShapeKeys = {
      .help = "Bands on each half sphere."},
     {.path = "shape.file",
      .type = text,
+     .isFile = true,
      .excludes = "torus|box|sphere|cylinder|capsule",
      .help =
          "Mesh to read (obj, ply, stl, glb, gltf or fbx), relative to the shot file; all its nodes "
@@ -510,7 +540,8 @@ const std::vector<ShotKey> kBodyKeys = {
      .help = "Name of a [shape.NAME]. Each body has a shape or a plane."},
     {.path = "body.plane",
      .type = table,
-     .excludes = "shape|position|rotation|orientation|velocity|spin|mass|grid|poses",
+     .excludes = "shape|position|rotation|orientation|velocity|spin|mass|grid|poses|force|torque|"
+                 "start|keys",
      .help = "Everything on one side of a plane is solid. Only static bodies can be planes."},
     {.path = "body.plane.point",
      .type = numbers,
@@ -528,15 +559,14 @@ const std::vector<ShotKey> kBodyKeys = {
     {.path = "body.motion",
      .type = word,
      .byDefault = "\"dynamic\"",
-     .choices = "dynamic|static",
-     .plannedChoices = "keyed",
+     .choices = "dynamic|static|keyed",
      .help = "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move, "
-             "whatever hits them."},
+             "whatever hits them; \"keyed\" ones follow their keys, whatever is in their way."},
     {.path = "body.position",
      .type = numbers,
      .unit = "shot's unit of length",
      .byDefault = "[0.0, 0.0, 0.0]",
-     .excludes = "plane|poses",
+     .excludes = "plane|poses|keys",
      .help = "Where the asset's own origin stands at the first frame."},
     {.path = "body.rotation",
      .type = numbers,
@@ -544,24 +574,24 @@ const std::vector<ShotKey> kBodyKeys = {
      .byDefault = "[0.0, 0.0, 0.0]",
      .min = -360000,
      .max = 360000,
-     .excludes = "orientation|plane|poses",
+     .excludes = "orientation|plane|poses|keys",
      .help = "Angles about the world's x, then y, then z axis: R = Rz Ry Rx."},
     {.path = "body.orientation",
      .type = numbers,
      .count = 4,
-     .excludes = "rotation|plane|poses",
+     .excludes = "rotation|plane|poses|keys",
      .help = "Rotation as a quaternion [w, x, y, z], instead of rotation; it is normalised."},
     {.path = "body.velocity",
      .type = numbers,
      .unit = "shot's unit of length per second",
      .byDefault = "[0.0, 0.0, 0.0]",
-     .excludes = "plane",
+     .excludes = "plane|keys",
      .help = "Of the centre of mass at the first frame. Fast thin bodies need many sub-steps."},
     {.path = "body.spin",
      .type = numbers,
      .unit = "degrees/s",
      .byDefault = "[0.0, 0.0, 0.0]",
-     .excludes = "plane",
+     .excludes = "plane|keys",
      .help = "Angular velocity about the world's axes at the first frame."},
     {.path = "body.mass",
      .unit = "kg",
@@ -571,7 +601,7 @@ const std::vector<ShotKey> kBodyKeys = {
      .help = "Instead of density times volume."},
     {.path = "body.grid",
      .type = table,
-     .excludes = "plane|poses",
+     .excludes = "plane|poses|keys",
      .help = "Copies in rows about the position, which is the middle of the block; they are named "
              "NAME_0000, NAME_0001, … with x running fastest, then y, then z."},
     {.path = "body.grid.count",
@@ -588,25 +618,161 @@ const std::vector<ShotKey> kBodyKeys = {
              "inside each other."},
     {.path = "body.poses",
      .type = text,
-     .excludes = "plane|position|rotation|orientation|grid",
+     .isFile = true,
+     .excludes = "plane|position|rotation|orientation|grid|keys",
      .help = "Text file, relative to the shot, with a line \"x y z qw qx qy qz\" for each copy; "
              "they are named NAME_0000, NAME_0001, …. What follows # is a comment."},
-    {.path = "body.force", .type = numbers, .isPlanned = true, .help = "Constant force, N."},
-    {.path = "body.torque", .type = numbers, .isPlanned = true, .help = "Constant torque, N m."},
-    {.path = "body.group", .type = text, .isPlanned = true, .help = "Name for collides."},
+    {.path = "body.force",
+     .type = numbers,
+     .unit = "N",
+     .excludes = "plane",
+     .help = "Constant force at the centre of mass, along the world's axes, whatever the unit of "
+             "length. Small against weight it is hardly seen: one newton is the weight of 0.1 kg."},
+    {.path = "body.torque",
+     .type = numbers,
+     .unit = "N m",
+     .excludes = "plane",
+     .help = "Constant torque about the world's axes. Nothing but contact brakes a free body: it "
+             "spins faster and faster, and fast spin costs sub-steps."},
+    {.path = "body.group",
+     .type = text,
+     .help = "Name of the group this body is in, for collides and unmoved_by of any body."},
     {.path = "body.collides",
      .type = words,
-     .isPlanned = true,
-     .help = "Groups this body collides with."},
-    {.path = "body.start", .type = word, .isPlanned = true, .help = "Awake or asleep at first."},
-    {.path = "body.release",
-     .isPlanned = true,
-     .help = "Frame at which a keyed body becomes dynamic."},
-    {.path = "body.keys", .type = tableList, .isPlanned = true, .help = "Poses of keyed motion."},
+     .help = "Groups this body collides with; without it, all bodies. Both of a pair must accept "
+             "the other. An empty list passes through everything, the ground too."},
+    {.path = "body.unmoved_by",
+     .type = words,
+     .help = "Groups that cannot move this body although it moves them, as if it were infinitely "
+             "heavy: debris that must not push the hero. Momentum is not kept between the two."},
+    {.path = "body.start",
+     .type = word,
+     .byDefault = "\"awake\"",
+     .choices = "awake",
+     .plannedChoices = "asleep",
+     .excludes = "plane",
+     .help = "Whether the body moves from the first frame on."},
+    {.path = "body.keys",
+     .type = tableList,
+     .excludes = "plane|position|rotation|orientation|velocity|spin|grid|poses",
+     .help =
+         "Poses of keyed motion in order of time: keys = [{ frame = 1001, position = [0, 1, 0] "
+         "}, { frame = 1060.5, position = [4, 1, 0], rotation = [0, 90, 0] }]. Before the first "
+         "and after the last the body stands still."},
+    {.path = "body.keys.frame",
+     .unit = "frames",
+     .min = -1000000000,
+     .max = 1000000000,
+     .isRequired = true,
+     .help = "When; between frames is allowed. Frames before the shot's first are too."},
+    {.path = "body.keys.position",
+     .type = numbers,
+     .unit = "shot's unit of length",
+     .isRequired = true,
+     .help =
+         "Where the asset's own origin is. Fast motion costs sub-steps while anything is near."},
+    {.path = "body.keys.rotation",
+     .type = numbers,
+     .unit = "degrees",
+     .min = -360000,
+     .max = 360000,
+     .excludes = "orientation",
+     .help = "As body.rotation. From key to key the body turns by the shorter way, so that a full "
+             "turn takes three keys or more."},
+    {.path = "body.keys.orientation",
+     .type = numbers,
+     .count = 4,
+     .excludes = "rotation",
+     .help = "Rotation as a quaternion [w, x, y, z], instead of rotation; it is normalised."},
     {.path = "body.interpolate",
      .type = word,
-     .isPlanned = true,
-     .help = "How keyed motion goes from key to key."},
+     .choices = "smooth|linear",
+     .help = "How keyed motion goes from key to key. \"smooth\", which is taken without this key, "
+             "starts and ends at rest, passes keys without a kink and never overshoots; \"linear\" "
+             "has constant speed from key to key, and its jumps of speed kick what it carries."},
+    {.path = "body.release",
+     .type = integer,
+     .unit = "frame",
+     .min = -1000000000,
+     .max = 1000000000,
+     .help = "Frame at which a keyed body becomes dynamic, with the velocity it has just then."},
+};
+
+const std::vector<ShotKey> kForceKeys = {
+    {.path = "force",
+     .type = tableList,
+     .help = "Fields of force that fill space, each [[force]] one of them. They act on the centres "
+             "of mass of dynamic bodies and turn nothing."},
+    {.path = "force.name", .type = text, .help = "What it is called in reports."},
+    {.path = "force.type",
+     .type = word,
+     .choices = "wind|radial|vortex",
+     .isRequired = true,
+     .help = "\"wind\" drags bodies along with moving air; \"radial\" pushes away from its center, "
+             "or pulls with a strength below 0; \"vortex\" drives around the axis through center."},
+    {.path = "force.strength",
+     .unit = "m/s²; of wind: shot's unit of length per second",
+     .excludes = "keys",
+     .help = "Acceleration by a radial force or a vortex, the same for light and heavy bodies; "
+             "speed of the air of a wind. Gravity is 9.81: less hardly lifts anything."},
+    {.path = "force.keys",
+     .type = tableList,
+     .help = "Strength that changes: keys = [{ frame = 1001, strength = 0 }, { frame = 1024, "
+             "strength = 20 }]; straight from key to key, held before and after."},
+    {.path = "force.keys.frame",
+     .unit = "frames",
+     .min = -1000000000,
+     .max = 1000000000,
+     .isRequired = true,
+     .help = "When; between frames is allowed."},
+    {.path = "force.keys.strength", .isRequired = true, .help = "As force.strength."},
+    {.path = "force.direction",
+     .type = numbers,
+     .help = "Of the wind, or of the vortex's axis: with the thumb along it, the fingers of the "
+             "right hand show the sense. Any length but zero."},
+    {.path = "force.center",
+     .type = numbers,
+     .unit = "shot's unit of length",
+     .byDefault = "[0.0, 0.0, 0.0]",
+     .help = "Where a radial force comes from, what a vortex's axis passes through, where a wind "
+             "with a falloff is strongest."},
+    {.path = "force.falloff",
+     .type = word,
+     .byDefault = "\"none\"",
+     .choices = "none|linear|smooth|inverse_square",
+     .help = "How strength fades with distance from the center, of a vortex from its axis: "
+             "\"linear\" and \"smooth\" end at reach, \"inverse_square\" is halved there and "
+             "felt everywhere."},
+    {.path = "force.reach",
+     .unit = "shot's unit of length",
+     .min = 0,
+     .isOpen = true,
+     .help = "The distance that falloff speaks of."},
+    {.path = "force.drag",
+     .min = 0,
+     .max = kInfinity,
+     .help = "Drag coefficient of bodies in a wind, on a quarter of their surface, which is what a "
+             "convex body shows on average; 1 when left out. Large values make light bodies move "
+             "with the air at once."},
+};
+
+const std::vector<ShotKey> kPairKeys = {
+    {.path = "pair",
+     .type = tableList,
+     .help = "Friction and restitution of two materials against each other, instead of what "
+             "solver.combine makes of them."},
+    {.path = "pair.of",
+     .type = words,
+     .isRequired = true,
+     .help = "The two materials, in any order; twice the same for a material against itself."},
+    {.path = "pair.friction",
+     .min = 0,
+     .max = kInfinity,
+     .help = "As material.friction, for this pair."},
+    {.path = "pair.restitution",
+     .min = 0,
+     .max = 1,
+     .help = "As material.restitution, for this pair."},
 };
 
 const std::vector<ShotKey> kImportKeys = {
@@ -617,6 +783,7 @@ const std::vector<ShotKey> kImportKeys = {
          "it stands and under its own name."},
     {.path = "import.file",
      .type = text,
+     .isFile = true,
      .isRequired = true,
      .help =
          "obj, ply, stl, glb, gltf or fbx, relative to the shot file. glTF is in metres and FBX "
@@ -717,6 +884,7 @@ const std::vector<ShotKey> kEmitterKeys = {
      .help = "From place to place along x, y and z."},
     {.path = "emitter.poses",
      .type = text,
+     .isFile = true,
      .excludes = "box|layout|tilt",
      .help = "Text file, relative to the shot, with a line \"x y z qw qx qy qz\" for each place: "
              "place after place, and again from its beginning."},
@@ -747,13 +915,6 @@ const std::vector<ShotKey> kEmitterKeys = {
      .help = "While another body stands in a body's place: \"wait\" tries again at every frame, "
              "\"skip\" leaves the body out, \"fail\" ends the run. Those that never came are "
              "counted when the shot ends."},
-};
-
-const std::vector<ShotKey> kPlannedTables = {
-    {.path = "pair",
-     .type = tableList,
-     .isPlanned = true,
-     .help = "Friction and restitution of two materials against each other."},
 };
 
 const std::vector<ShotKey> kLookKeys = {
@@ -838,7 +999,7 @@ const std::vector<ShotKey>& shotKeys()
         std::vector<ShotKey> keys;
         for (const auto* part :
              {&kFileKeys, &kShotKeys, &kSolverKeys, &kMaterialKeys, &kShapeKeys, &kBodyKeys,
-              &kImportKeys, &kEmitterKeys, &kPlannedTables, &kLookKeys}) {
+              &kForceKeys, &kPairKeys, &kImportKeys, &kEmitterKeys, &kLookKeys}) {
             keys.insert(keys.end(), part->begin(), part->end());
         }
         return keys;

@@ -122,6 +122,7 @@ void restoreState(World& world, const FrameState& state)
     world.motion = state.motion;
     world.order = state.order;
     world.clock = state.clock;
+    // Who is keyed and who is free follows from the clock; the next step begins with it.
     SCREE_CHECK(state.bornAt.empty() == world.births.empty(), "the state is of another world");
     if (!state.bornAt.empty()) world.restoreBirths(state.bornAt);
 }

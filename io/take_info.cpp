@@ -24,11 +24,24 @@ std::uint64_t fromHex(const std::string& text)
     return value;
 }
 
+const char* motionWord(BodyKind kind)
+{
+    switch (kind) {
+        case BodyKind::dynamic:
+            return "dynamic";
+        case BodyKind::keyed:
+            return "keyed";
+        case BodyKind::fixed:
+            break;
+    }
+    return "static";
+}
+
 Json toJson(const TakeBody& body)
 {
     Json json = {{"name", body.name}, {body.isPlane ? "plane" : "shape", body.shape}};
     json["material"] = body.material;
-    json["motion"] = body.kind == BodyKind::dynamic ? "dynamic" : "static";
+    json["motion"] = motionWord(body.kind);
     json["mass"] = body.mass;
     return json;
 }
@@ -40,7 +53,9 @@ TakeBody bodyFromJson(const Json& json)
     body.isPlane = json.contains("plane");
     body.shape = json.at(body.isPlane ? "plane" : "shape");
     body.material = json.at("material");
-    body.kind = json.at("motion") == "dynamic" ? BodyKind::dynamic : BodyKind::fixed;
+    body.kind = json.at("motion") == "dynamic" ? BodyKind::dynamic
+                : json.at("motion") == "keyed" ? BodyKind::keyed
+                                               : BodyKind::fixed;
     body.mass = json.at("mass");
     return body;
 }

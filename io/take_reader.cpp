@@ -81,7 +81,7 @@ SceneDescription TakeReader::describe() const
             throw Error(ErrorKind::inputOutput, {paths_.info().string(), 0, 0},
                         "damaged: no shape \"" + body.shape + "\" for body \"" + body.name + "\"");
         scene.bodies.push_back({body.name, mesh->second, body.material, body.mass,
-                                body.kind == BodyKind::dynamic, info_.firstFrame});
+                                body.kind != BodyKind::fixed, info_.firstFrame});
     }
     tellBirths(scene);
     const double half = planeHalfWidth(scene);

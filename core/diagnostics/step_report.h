@@ -77,6 +77,7 @@ struct FrameReport {
     BodyId fastestBody = -1;                            ///< who asked for the shortest step
     double kineticEnergy = 0.0, potentialEnergy = 0.0;  ///< at the end of the frame [J]
     Vec3 momentum = Vec3::Zero();                       ///< [kg m/s]
+    Vec3 angularMomentum = Vec3::Zero();                ///< about the world's origin [kg m²/s]
     int bodiesAwake = 0;                                ///< dynamic bodies that are simulated
     double worstOverlapRatio = 0.0;  ///< deepestAfterPushOut / longest box edge of the smaller body
     BirthReport births;              ///< at the end of the frame

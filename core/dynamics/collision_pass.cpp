@@ -32,37 +32,100 @@ PlacedPair place(const World& world, const PairRecord& pair, const StepScratch& 
                      placing == Placing::aFalls ? scratch.driftPose[b] : scratch.fallPose[b]);
 }
 
+/// Where a pair is worked on in a visit by collision, and with what.
+struct CollisionVisit {
+    PlacedPair placed, now;
+    PairInertia inertia;
+};
+
+CollisionVisit beginVisit(const World& world, const PairRecord& pair, const StepScratch& scratch,
+                          Placing placing)
+{
+    const auto [a, b] = pair.bodies;
+    const PlacedPair placed = place(world, pair, scratch, placing);
+    const PassInertia ofA = passInertia(world.mass[a], placed.worldFromA.orientation);
+    const PassInertia ofB = passInertia(world.mass[b], placed.worldFromB.orientation);
+    return {
+        placed,
+        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody()),
+        {ofA.inverseInertia, ofB.inverseInertia, heldIf(pair.aIsHeld, ofA),
+         heldIf(pair.bIsHeld, ofB)}};
+}
+
+/// Impulses at contacts found once: whichever is deepest among those that still approach, until
+/// each has been seen to separate. One that separates is dropped for good.  [A25]
+void resolveLagged(World& world, const StepSettings& settings, double dt, PairRecord& pair,
+                   StepScratch& scratch, Placing placing, ImpulseCounts& counts,
+                   std::int64_t& loopsAtTheirCap)
+{
+    constexpr std::size_t kImpulsesPerSample = 10;
+    const CollisionVisit visit = beginVisit(world, pair, scratch, placing);
+    std::vector<Touch> touches;
+    pair.proximity.findTouches(visit.placed, pair.tau, touches);
+    std::sort(touches.begin(), touches.end(), isDeeper);
+    const ContactFrames frames{visit.placed, visit.now, visit.placed};
+    std::vector<ContactPoint> contacts;
+    for (const Touch& touch : touches) {
+        contacts.push_back(placeContact(world, pair, touch, frames, visit.inertia.ownInverseA,
+                                        visit.inertia.ownInverseB, settings));
+    }
+    const double slowest = slowestApproach(settings, dt);
+    const auto separates = [&](ContactPoint& contact) {
+        updateApproach(world, pair, visit.inertia, contact);
+        return contact.u.dot(contact.normal) >= -slowest;
+    };
+    std::size_t left = kImpulsesPerSample * contacts.size();
+    bool isMoved = false;
+    while (true) {
+        std::erase_if(contacts, separates);
+        if (contacts.empty()) break;
+        if (left-- == 0) {
+            ++loopsAtTheirCap;
+            break;
+        }
+        applyContact(world, settings, pair, contacts.front(), frames, visit.inertia,
+                     pair.restitution, counts);
+        isMoved = true;
+    }
+    if (isMoved) noteImpulse(world, settings, dt, pair.bodies, scratch);
+}
+
 /// Re-evolves the pair after every impulse until nothing is both interfering and approaching. [A24]
-void resolvePair(World& world, const StepSettings& settings, double dt, PairRecord& pair,
-                 StepScratch& scratch, Placing placing, ImpulseCounts& counts,
-                 std::int64_t& loopsAtTheirCap)
+void resolveReevolving(World& world, const StepSettings& settings, double dt, PairRecord& pair,
+                       StepScratch& scratch, Placing placing, ImpulseCounts& counts,
+                       std::int64_t& loopsAtTheirCap)
 {
     std::vector<Touch> touches;
     for (int n = 0; n < settings.collisionPairImpulses; ++n) {
-        const PlacedPair placed = place(world, pair, scratch, placing);
+        const CollisionVisit visit = beginVisit(world, pair, scratch, placing);
         touches.clear();
-        pair.proximity.findTouches(placed, pair.tau, touches);
+        pair.proximity.findTouches(visit.placed, pair.tau, touches);
         std::sort(touches.begin(), touches.end(), isDeeper);
-        const auto [a, b] = pair.bodies;
-        const PassInertia ofA = passInertia(world.mass[a], placed.worldFromA.orientation);
-        const PassInertia ofB = passInertia(world.mass[b], placed.worldFromB.orientation);
-        const PlacedPair now = placePair(world, pair, world.motion[a].worldFromBody(),
-                                         world.motion[b].worldFromBody());
-        const bool applied = applyDeepest(world, pair, {placed, now, placed},
-                                          {ofA.inverseInertia, ofB.inverseInertia, ofA, ofB},
-                                          pair.restitution, settings, dt, touches, counts);
+        const bool applied =
+            applyDeepest(world, settings, pair, {visit.placed, visit.now, visit.placed},
+                         visit.inertia, pair.restitution, dt, touches, counts);
         if (!applied) return;
-        predictBody(world, settings, dt, a, scratch);
-        predictBody(world, settings, dt, b, scratch);
+        noteImpulse(world, settings, dt, pair.bodies, scratch);
     }
     ++loopsAtTheirCap;
 }
 
-void findInterference(const World& world, StepScratch& scratch)
+void resolvePair(World& world, const StepSettings& settings, double dt, PairRecord& pair,
+                 StepScratch& scratch, Placing placing, ImpulseCounts& counts,
+                 std::int64_t& loopsAtTheirCap)
+{
+    const bool isLagged = settings.collision == CollisionVariant::lagged;
+    (isLagged ? resolveLagged : resolveReevolving)(world, settings, dt, pair, scratch, placing,
+                                                   counts, loopsAtTheirCap);
+}
+
+void findInterference(const World& world, const StepSettings& settings, StepScratch& scratch)
 {
     parallelFor(scratch.pairCount, kPairGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             PairRecord& pair = scratch.pairs[i];
+            if (settings.skipStamps && pair.searched == stampOf(pair, scratch)) continue;
+            pair.searched = stampOf(pair, scratch);
             pair.interferesNow =
                 pair.proximity.interferes(place(world, pair, scratch, Placing::bothFall), pair.tau);
             pair.isTouched = pair.isTouched || pair.interferesNow;
@@ -93,7 +156,7 @@ ImpulseCounts resolveCollisions(World& world, const StepSettings& settings, doub
     ImpulseCounts counts;
     for (int iteration = 1; iteration < settings.collisionIterations; ++iteration) {
         widenPairs(world, settings, dt, scratch);
-        findInterference(world, scratch);
+        findInterference(world, settings, scratch);
         const std::int64_t before = counts.total();
         for (std::size_t i : scratch.pairOrder) {
             PairRecord& pair = scratch.pairs[i];
@@ -105,7 +168,7 @@ ImpulseCounts resolveCollisions(World& world, const StepSettings& settings, doub
     }
 
     widenPairs(world, settings, dt, scratch);
-    findInterference(world, scratch);
+    findInterference(world, settings, scratch);
     findLoneFalls(world, scratch);
     for (std::size_t i : scratch.pairOrder) {
         PairRecord& pair = scratch.pairs[i];

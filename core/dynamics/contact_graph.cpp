@@ -119,35 +119,38 @@ bool leaves(PairRecord& pair, const PlacedPair& fallen, const PlacedPair& drifte
     return deepestPhi(pair, fallen) - deepestPhi(pair, drifted) > 0.1 * fallHeight;
 }
 
-void findFalls(const World& world, const StepSettings& settings, double dt, StepScratch& scratch)
+void findFalls(const World& world, double dt, StepScratch& scratch)
 {
-    const double fallHeight = dt * dt * settings.gravity.norm();
     parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             PairRecord& pair = scratch.pairs[i];
             const auto [a, b] = pair.bodies;
             const PlacedPair drifted =
                 placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
-            const auto test = [&](BodyId body, const Pose& poseA, const Pose& poseB, bool& falls,
-                                  bool& leavesIt) {
+            const auto test = [&](BodyId body, bool isHeld, const Pose& poseA, const Pose& poseB,
+                                  bool& falls, bool& leavesIt) {
+                const double fallHeight = dt * dt * scratch.forces[body].acceleration.norm();
                 const PlacedPair fallen = placePair(world, pair, poseA, poseB);
-                falls = world.mass[body].isMovable() && pair.proximity.interferes(fallen, pair.tau);
+                falls = world.mass[body].isMovable() && !isHeld &&
+                        pair.proximity.interferes(fallen, pair.tau);
                 leavesIt = falls && leaves(pair, fallen, drifted, fallHeight);
             };
-            test(a, scratch.fallPose[a], scratch.driftPose[b], pair.aFallsOnB, pair.aLeavesB);
-            test(b, scratch.driftPose[a], scratch.fallPose[b], pair.bFallsOnA, pair.bLeavesA);
+            test(a, pair.aIsHeld, scratch.fallPose[a], scratch.driftPose[b], pair.aFallsOnB,
+                 pair.aLeavesB);
+            test(b, pair.bIsHeld, scratch.driftPose[a], scratch.fallPose[b], pair.bFallsOnA,
+                 pair.bLeavesA);
         }
     });
 }
 
-/// Without gravity nothing falls: of two bodies that touch the heavier carries the lighter, equals
-/// carry each other.
+/// Without any force nothing falls: of two bodies that touch the heavier carries the lighter,
+/// equals carry each other.
 void settleWeightless(const World& world, StepScratch& scratch)
 {
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         PairRecord& pair = scratch.pairs[i];
-        const double inverseA = world.mass[pair.bodies.a].inverseMass;
-        const double inverseB = world.mass[pair.bodies.b].inverseMass;
+        const double inverseA = pair.aIsHeld ? 0.0 : world.mass[pair.bodies.a].inverseMass;
+        const double inverseB = pair.bIsHeld ? 0.0 : world.mass[pair.bodies.b].inverseMass;
         pair.aFallsOnB = pair.isTouched && inverseA >= inverseB;
         pair.bFallsOnA = pair.isTouched && inverseB >= inverseA;
     }
@@ -174,14 +177,16 @@ GraphLevels levelsOf(const World& world, const StepScratch& scratch, bool withLe
 /// Touching pairs that `takes` accepts, level by level, in processing order.
 template <class Takes>
 std::vector<ContactLevel> pairsByLevel(const World& world, const StepScratch& scratch,
-                                       const GraphLevels& graph, const Takes& takes)
+                                       const GraphLevels& graph, bool freezeUnsupported,
+                                       const Takes& takes)
 {
     std::vector<ContactLevel> levels(1 + *std::max_element(graph.level.begin(), graph.level.end()));
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         if (!world.mass[b].isMovable()) continue;
         ContactLevel& level = levels[graph.level[b]];
         ++level.bodies;
-        if (graph.isSupported[b]) level.supportedBodies.push_back(static_cast<BodyId>(b));
+        if (graph.isSupported[b] || freezeUnsupported)
+            level.supportedBodies.push_back(static_cast<BodyId>(b));
     }
     for (std::size_t i : scratch.pairOrder) {
         const PairRecord& pair = scratch.pairs[i];
@@ -250,18 +255,23 @@ ContactGraph buildContactGraph(const World& world, const StepSettings& settings,
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         predictBody(world, settings, dt, static_cast<BodyId>(b), scratch);
     }
-    if (settings.gravity.isZero()) {
+    const bool isWeightless =
+        std::all_of(scratch.forces.begin(), scratch.forces.end(), [](const AppliedForce& force) {
+            return force.acceleration.isZero(0.0) && force.torque.isZero(0.0);
+        });
+    if (isWeightless) {
         settleWeightless(world, scratch);
     } else {
-        findFalls(world, settings, dt, scratch);
+        findFalls(world, dt, scratch);
     }
 
     ContactGraph graph;
     graph.levels = levelsOf(world, scratch, true);
-    graph.contact = pairsByLevel(world, scratch, graph.levels, [](const PairRecord& pair) {
-        return pair.aFallsOnB || pair.bFallsOnA;
-    });
-    graph.overlap = pairsByLevel(world, scratch, levelsOf(world, scratch, false),
+    const bool freezeUnsupported = settings.freezeUnsupported;
+    graph.contact =
+        pairsByLevel(world, scratch, graph.levels, freezeUnsupported,
+                     [](const PairRecord& pair) { return pair.aFallsOnB || pair.bFallsOnA; });
+    graph.overlap = pairsByLevel(world, scratch, levelsOf(world, scratch, false), freezeUnsupported,
                                  [](const PairRecord&) { return true; });
     for (const ContactLevel& level : graph.contact) {
         graph.contactPairs += static_cast<std::int64_t>(level.pairs.size());

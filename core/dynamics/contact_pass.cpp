@@ -32,11 +32,15 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
     const auto [a, b] = pair.bodies;
     const auto inertiaOf = [&](BodyId body) {
         const bool isFrozen = sweep.isFrozen && (*sweep.isFrozen)[body];
-        return isFrozen ? PassInertia{} : scratch.inertia[body];
+        return heldIf(isFrozen, scratch.inertia[body]);
     };
     const PairInertia inertia{scratch.inertia[a].inverseInertia, scratch.inertia[b].inverseInertia,
-                              inertiaOf(a), inertiaOf(b)};
+                              heldIf(pair.aIsHeld, inertiaOf(a)),
+                              heldIf(pair.bIsHeld, inertiaOf(b))};
     if (!inertia.passA.isMovable() && !inertia.passB.isMovable()) return;
+    // Whether a visit has anything to do depends on the motion of the two alone, not on e or on who
+    // is frozen.
+    if (settings.skipStamps && pair.quiet == stampOf(pair, scratch)) return;
 
     const PlacedPair now =
         placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
@@ -47,11 +51,13 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
             placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
         pair.proximity.findTouches(predicted, pair.tau, touches);
         std::sort(touches.begin(), touches.end(), isDeeper);
-        const bool applied = applyDeepest(world, pair, {now, now, predicted}, inertia,
-                                          sweep.restitution, settings, dt, touches, tally.impulses);
-        if (!applied) return;
-        predictBody(world, settings, dt, a, scratch);
-        predictBody(world, settings, dt, b, scratch);
+        const bool applied = applyDeepest(world, settings, pair, {now, now, predicted}, inertia,
+                                          sweep.restitution, dt, touches, tally.impulses);
+        if (!applied) {
+            pair.quiet = stampOf(pair, scratch);
+            return;
+        }
+        noteImpulse(world, settings, dt, pair.bodies, scratch);
     }
     ++tally.loopsAtTheirCap;
 }
@@ -96,6 +102,7 @@ ImpulseCounts resolveContacts(World& world, const ContactGraph& graph, const Ste
                               double dt, StepScratch& scratch, std::int64_t& loopsAtTheirCap)
 {
     predictAll(world, settings, dt, scratch);
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) scratch.pairs[i].quiet = {};
     ImpulseCounts counts;
     for (int k = 1; k <= settings.contactIterations; ++k) {
         const Sweep sweep{-1.0 + static_cast<double>(k) / settings.contactIterations,

@@ -64,12 +64,6 @@ Touch movedToDeepest(const PlacedPair& placed, const Touch& touch, const Vec3& w
     return moved;
 }
 
-/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
-double slowestApproach(const StepSettings& settings, double dt)
-{
-    return 1e-10 * settings.gravity.norm() * dt + 1e-15;
-}
-
 /// The finite body of a pair with the smaller volume.  [A50]
 const Shape& finerShape(const World& world, const BodyPair& bodies)
 {
@@ -81,12 +75,11 @@ const Shape& finerShape(const World& world, const BodyPair& bodies)
 }
 
 /// Sticking friction, and with it resistance to rolling and spinning.
-RollingImpulse rollingAt(const World& world, const PairRecord& pair, const Touch& touch,
+RollingImpulse rollingAt(const World& world, const StepSettings& settings, const PairRecord& pair,
                          const ContactPoint& contact, const ContactFrames& frames,
-                         const PairInertia& inertia, const Vec3& sticking,
-                         const StepSettings& settings)
+                         const PairInertia& inertia, const Vec3& sticking)
 {
-    const bool ownedByA = touch.sampleOnA;
+    const bool ownedByA = contact.sampleBody == pair.bodies.a;
     const Mat3& ownS = ownedByA ? inertia.ownInverseA : inertia.ownInverseB;
     const Mat3& ownF = ownedByA ? inertia.ownInverseB : inertia.ownInverseA;
     const Vec3 spin = ownS * world.motion[contact.sampleBody].angularMomentum -
@@ -122,8 +115,45 @@ ContactPoint placeContact(const World& world, const PairRecord& pair, const Touc
     return placeAsIs(world, pair, moved, frames, inverseInertiaA, inverseInertiaB);
 }
 
-bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
-                  const PairInertia& inertia, double restitution, const StepSettings& settings,
+double slowestApproach(const StepSettings& settings, double dt)
+{
+    return 1e-10 * settings.gravity.norm() * dt + 1e-15;
+}
+
+void updateApproach(const World& world, const PairRecord& pair, const PairInertia& inertia,
+                    ContactPoint& contact)
+{
+    const bool ownedByA = contact.sampleBody == pair.bodies.a;
+    const Mat3& inverseS = ownedByA ? inertia.ownInverseA : inertia.ownInverseB;
+    const Mat3& inverseF = ownedByA ? inertia.ownInverseB : inertia.ownInverseA;
+    contact.u = pointVelocity(world.motion[contact.sampleBody], inverseS, contact.rS) -
+                pointVelocity(world.motion[contact.fieldBody], inverseF, contact.rF);
+}
+
+void applyContact(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactPoint& contact, const ContactFrames& frames,
+                  const PairInertia& inertia, double restitution, ImpulseCounts& counts)
+{
+    const bool ownedByA = contact.sampleBody == pair.bodies.a;
+    const PassInertia& ofS = ownedByA ? inertia.passA : inertia.passB;
+    const PassInertia& ofF = ownedByA ? inertia.passB : inertia.passA;
+    const Mat3 k = collisionMatrix(ofS, contact.rS) + collisionMatrix(ofF, contact.rF);
+    const ContactImpulse j = contactImpulse(k, contact.u, contact.normal, restitution,
+                                            pair.friction, settings.frictionFallback);
+    RollingImpulse applied{j.impulse};
+    if (j.kind == FrictionCase::sticking && !pair.rolling.isNone()) {
+        applied = rollingAt(world, settings, pair, contact, frames, inertia, j.impulse);
+        ++(applied.isDropped ? counts.rollingDropped : counts.rolling);
+    }
+    applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, applied.impulse);
+    applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -applied.impulse);
+    applyCouple(world.motion[contact.sampleBody], ofS, applied.couple);
+    applyCouple(world.motion[contact.fieldBody], ofF, -applied.couple);
+    countImpulse(counts, j.kind);
+}
+
+bool applyDeepest(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactFrames& frames, const PairInertia& inertia, double restitution,
                   double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
 {
     const double slowest = slowestApproach(settings, dt);
@@ -131,21 +161,7 @@ bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& fra
         const ContactPoint contact = placeContact(world, pair, touch, frames, inertia.ownInverseA,
                                                   inertia.ownInverseB, settings);
         if (contact.u.dot(contact.normal) >= -slowest) continue;
-        const PassInertia& ofS = touch.sampleOnA ? inertia.passA : inertia.passB;
-        const PassInertia& ofF = touch.sampleOnA ? inertia.passB : inertia.passA;
-        const Mat3 k = collisionMatrix(ofS, contact.rS) + collisionMatrix(ofF, contact.rF);
-        const ContactImpulse j =
-            contactImpulse(k, contact.u, contact.normal, restitution, pair.friction);
-        RollingImpulse applied{j.impulse};
-        if (j.kind == FrictionCase::sticking && !pair.rolling.isNone()) {
-            applied = rollingAt(world, pair, touch, contact, frames, inertia, j.impulse, settings);
-            ++(applied.isDropped ? counts.rollingDropped : counts.rolling);
-        }
-        applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, applied.impulse);
-        applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -applied.impulse);
-        applyCouple(world.motion[contact.sampleBody], ofS, applied.couple);
-        applyCouple(world.motion[contact.fieldBody], ofF, -applied.couple);
-        countImpulse(counts, j.kind);
+        applyContact(world, settings, pair, contact, frames, inertia, restitution, counts);
         return true;
     }
     return false;

@@ -39,10 +39,22 @@ struct PairInertia {
     PassInertia passA, passB;
 };
 
-/// Applies the impulse of the deepest touch that approaches, with rolling friction where it sticks.
-/// False when there is none.
-bool applyDeepest(World& world, const PairRecord& pair, const ContactFrames& frames,
-                  const PairInertia& inertia, double restitution, const StepSettings& settings,
+/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
+double slowestApproach(const StepSettings& settings, double dt);
+
+/// Takes u from the bodies' present velocities; point and normal stay.
+void updateApproach(const World& world, const PairRecord& pair, const PairInertia& inertia,
+                    ContactPoint& contact);
+
+/// Applies the impulse of one approaching contact to both bodies, with rolling friction where it
+/// sticks. The contact must have been placed in these frames.
+void applyContact(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactPoint& contact, const ContactFrames& frames,
+                  const PairInertia& inertia, double restitution, ImpulseCounts& counts);
+
+/// Applies the impulse of the deepest touch that approaches. False when there is none.
+bool applyDeepest(World& world, const StepSettings& settings, const PairRecord& pair,
+                  const ContactFrames& frames, const PairInertia& inertia, double restitution,
                   double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
 
 }  // namespace scree

@@ -71,7 +71,7 @@ double workOf(const Vec3& impulse, const Mat3& collisionMatrix, const Vec3& u)
 }
 
 ContactImpulse contactImpulse(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double e,
-                              double mu)
+                              double mu, FrictionFallback fallback)
 {
     const double un = u.dot(n);
     const Vec3 kn = collisionMatrix * n;
@@ -88,12 +88,16 @@ ContactImpulse contactImpulse(const Mat3& collisionMatrix, const Vec3& u, const 
     if (slip > kNoSlip * u.norm()) {
         const Vec3 direction = n - mu / slip * ut;
         const double d = kn.dot(direction);
-        if (d > kJam * nkn) {
+        const bool isPlain = fallback == FrictionFallback::plainKinetic;
+        if (d > (isPlain ? 0.0 : kJam * nkn)) {
             const Vec3 sliding = -(1.0 + e) * un / d * direction;
-            if (workOf(sliding, collisionMatrix, u) <= 0.0) return {sliding, FrictionCase::sliding};
+            if (isPlain || workOf(sliding, collisionMatrix, u) <= 0.0) {
+                return {sliding, FrictionCase::sliding};
+            }
         }
     }
-    if (!sticking) return {frictionless, FrictionCase::fallback};
+    if (!sticking || fallback == FrictionFallback::plainKinetic)
+        return {frictionless, FrictionCase::fallback};
     return {blend(collisionMatrix, u, n, mu, frictionless, *sticking), FrictionCase::fallback};
 }
 

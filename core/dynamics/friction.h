@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/diagnostics/step_report.h"
+#include "core/dynamics/settings.h"
 #include "core/math/types.h"
 
 namespace scree {
@@ -20,9 +21,9 @@ struct ContactImpulse {
 
 /// The impulse for an approaching contact (u·n < 0). K must be symmetric positive definite; e in
 /// [−1, 1], mu ≥ 0. Afterwards u'·n = −e u·n, the impulse lies in the friction cone, never pulls
-/// and never adds energy.
+/// and never adds energy; the last only with the fallback that blends.
 ContactImpulse contactImpulse(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double e,
-                              double mu);
+                              double mu, FrictionFallback fallback = FrictionFallback::blend);
 
 /// Change of kinetic energy by impulse j: u·j + ½ jᵀKj.
 double workOf(const Vec3& impulse, const Mat3& collisionMatrix, const Vec3& u);

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/contact_point.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/gap_contact.h"
 
@@ -41,7 +42,7 @@ public:
     ImpactPass(const StepSettings& settings, double dt, GapScratch& scratch)
         : settings_(settings),
           dt_(dt),
-          slowest_(1e-10 * settings.gravity.norm() * dt + 1e-15),  // [A29]
+          slowest_(slowestApproach(settings, dt)),
           scratch_(scratch),
           impacts_(scratch.bodies.size())
     {
@@ -64,18 +65,13 @@ public:
     }
 
 private:
-    Vec3 gravityOf(const GapBody& body) const
-    {
-        return body.inverseMass > 0.0 ? settings_.gravity : Vec3::Zero();
-    }
-
     /// False when the row is not going to be hit within the step.
     bool impactOf(GapRow& row, Impact& impact) const
     {
         const GapBody& a = scratch_.bodies[row.a];
         const GapBody& b = scratch_.bodies[row.b];
         const Vec3 relative = velocityAt(row, a, b);
-        const Vec3 gravity = gravityOf(a) - gravityOf(b);
+        const Vec3 gravity = a.pull - b.pull;
         const double u = relative.dot(row.normal);
         const double g = gravity.dot(row.normal);
         const double s = std::max(row.gap, 0.0);
@@ -96,7 +92,7 @@ private:
         if (speed >= -slowest_) return false;
         // What lies on something that lies on the ground falls back on it with all of gravity, even
         // if both are free to fall.
-        const double pull = row.isCarried ? settings_.gravity.norm() : -g;
+        const double pull = row.isCarried ? std::max(a.pull.norm(), b.pull.norm()) : -g;
         if (2.0 * row.restitution * -speed <= pull * (dt_ - time)) return false;
         impact = {&row, relative + time * gravity, time, u - (1.0 + row.restitution) * speed};
         return true;

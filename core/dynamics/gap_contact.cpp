@@ -131,18 +131,15 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
     return changed;
 }
 
-void addGravityToGaps(const StepSettings& settings, double dt, GapScratch& scratch)
+void addForcesToGaps(double dt, GapScratch& scratch)
 {
     // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
     // g dt²/2 too far.
     std::vector<char> isStopped(scratch.bodies.size(), 0);
-    const auto gravityOf = [&](const GapBody& body) {
-        return body.inverseMass > 0.0 ? settings.gravity : Vec3::Zero();
-    };
     for (const GapRow& row : scratch.rows) {
         const GapBody& a = scratch.bodies[row.a];
         const GapBody& b = scratch.bodies[row.b];
-        const double g = (gravityOf(a) - gravityOf(b)).dot(row.normal);
+        const double g = (a.pull - b.pull).dot(row.normal);
         const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
                            dt * (velocityAt(row, a, b).dot(row.normal) + 0.5 * dt * g);
         if (end < 0.0 || row.impulse.x() > 0.0) isStopped[row.a] = isStopped[row.b] = 1;
@@ -152,8 +149,13 @@ void addGravityToGaps(const StepSettings& settings, double dt, GapScratch& scrat
         body.velocityBefore = body.velocity;
         body.spinBefore = body.spin;
         if (body.inverseMass == 0.0) continue;
-        body.velocity += dt * settings.gravity;
-        if (!isStopped[i]) body.shift -= 0.5 * dt * dt * settings.gravity;
+        const Vec3 turning = body.inverseInertia * body.torque;
+        body.velocity += dt * body.pull;
+        body.spin += dt * turning;
+        body.angularImpulse += dt * body.torque;
+        if (isStopped[i]) continue;
+        body.shift -= 0.5 * dt * dt * body.pull;
+        body.turn -= 0.5 * dt * dt * turning;
     }
     for (GapRow& row : scratch.rows) {
         const GapBody& a = scratch.bodies[row.a];

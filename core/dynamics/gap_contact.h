@@ -19,8 +19,8 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b);
 /// The sweeps a step may spend: those of the settings on a large heap, more on a small problem.
 int mostSweeps(const StepSettings& settings, const GapScratch& scratch);
 
-/// Sets the targets of all rows from their gaps and what impacts have shifted, and adds gravity.
-void addGravityToGaps(const StepSettings& settings, double dt, GapScratch& scratch);
+/// Sets the targets of all rows from their gaps and what impacts have shifted, and adds the forces.
+void addForcesToGaps(double dt, GapScratch& scratch);
 
 /// Sweeps over all rows until velocities stay as they are, or the sweeps are used up. Begins with
 /// the impulses that rows remember, or, when nothing is remembered, with the weights of the levels.

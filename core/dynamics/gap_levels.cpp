@@ -96,7 +96,7 @@ bool closesVisibly(const World& world, const StepSettings& settings, double dt,
 
 }  // namespace
 
-GapLevels buildGapLevels(const StepSettings& settings, double dt, const GapScratch& scratch)
+GapLevels buildGapLevels(double dt, const GapScratch& scratch)
 {
     const std::size_t count = scratch.bodies.size();
     std::vector<char> isFixed(count);
@@ -107,9 +107,10 @@ GapLevels buildGapLevels(const StepSettings& settings, double dt, const GapScrat
         const GapBody& b = scratch.bodies[row.b];
         const double drift = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
                              dt * velocityAt(row, a, b).dot(row.normal);
-        const double fall = dt * dt * settings.gravity.dot(row.normal);
-        if (a.inverseMass > 0.0 && drift + fall < 0.0) edges.push_back({row.b, row.a});
-        if (b.inverseMass > 0.0 && drift - fall < 0.0) edges.push_back({row.a, row.b});
+        const double fallOfA = dt * dt * a.pull.dot(row.normal);
+        const double fallOfB = dt * dt * b.pull.dot(row.normal);
+        if (a.inverseMass > 0.0 && drift + fallOfA < 0.0) edges.push_back({row.b, row.a});
+        if (b.inverseMass > 0.0 && drift - fallOfB < 0.0) edges.push_back({row.a, row.b});
     }
     GapLevels levels;
     levels.graph = computeLevels(count, edges, isFixed);

@@ -13,12 +13,12 @@ struct GapLevels {
     std::vector<std::vector<std::size_t>> rows;  ///< by level: rows whose higher body is in it
 };
 
-/// With the velocities before gravity.
-GapLevels buildGapLevels(const StepSettings& settings, double dt, const GapScratch& scratch);
+/// With the velocities before forces.
+GapLevels buildGapLevels(double dt, const GapScratch& scratch);
 
 /// Impulses from nothing, level by level from the top: what rests is held up by what is below as if
 /// that could not give way, and hands its weight down. Exact for a stack, and a beginning for a
-/// heap. Velocities must have felt gravity and no contact yet.
+/// heap. Velocities must have felt forces and no contact yet.
 void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
                     GapScratch& scratch);
 

@@ -47,18 +47,17 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
 
 void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
+    advancePositions(world, settings, dt);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        if (!world.mass[i].isMovable()) continue;
         BodyMotion& motion = world.motion[i];
         GapBody& body = scratch.bodies[i];
-        const Pose next = predictPose(motion, world.mass[i], motion.velocity,
-                                      motion.angularMomentum, settings.orientation, dt);
+        if (world.mass[i].isMovable()) {
+            motion.position += body.shift;
+            motion.orientation = rotated(motion.orientation, body.turn);
+        }
         // From here on the shift is the whole displacement: what the rows need for their gaps.
-        const Vec3 turn = dt * body.spin + body.turn;
-        motion.position = next.position + body.shift;
-        motion.orientation = rotated(next.orientation, body.turn);
         body.shift += dt * motion.velocity;
-        body.turn = turn;
+        body.turn += dt * body.spin;
     }
 }
 

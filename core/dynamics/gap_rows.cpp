@@ -18,8 +18,9 @@ constexpr double kLeastReach = 2e-4;
 /// over an impulse although its features have changed.
 constexpr double kSamePlace = 0.05;
 
-void readBodies(const World& world, GapScratch& scratch)
+void readBodies(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
+    findForces(world, settings, dt, scratch.forces);
     scratch.bodies.resize(world.bodyCount());
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const PassInertia inertia = passInertia(world.mass[i], world.motion[i].orientation);
@@ -27,49 +28,57 @@ void readBodies(const World& world, GapScratch& scratch)
         body.velocity = world.motion[i].velocity;
         body.spin = inertia.inverseInertia * world.motion[i].angularMomentum;
         body.inverseMass = inertia.inverseMass;
-        body.inverseInertia = inertia.inverseInertia;
+        body.inverseInertia = inertia.turningByImpulse();
+        body.pull = scratch.forces[i].acceleration;
+        body.torque = scratch.forces[i].torque;
         body.angularImpulse = body.shift = body.turn = Vec3::Zero();
     }
 }
 
-double surfaceSpeed(const World& world, const GapScratch& scratch, BodyId body)
+/// By the spin, at the end of a step of dt.
+double surfaceSpeed(const World& world, const GapScratch& scratch, BodyId body, double dt)
 {
     const Shape& shape = world.shapeOf(body);
     if (shape.isPlane) return 0.0;
-    return scratch.bodies[body].spin.norm() * shape.boundingRadius;
+    const GapBody& b = scratch.bodies[body];
+    return (b.spin.norm() + dt * (b.inverseInertia * b.torque).norm()) * shape.boundingRadius;
 }
 
-/// Gaps that may close within the step.
-double reachOf(const World& world, const StepSettings& settings, const GapScratch& scratch,
-               BodyPair bodies, double dt)
+/// Gaps that may close within the step. What both are pulled by alike counts too: one of them may
+/// be held up.
+double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
 {
     const GapBody& a = scratch.bodies[bodies.a];
     const GapBody& b = scratch.bodies[bodies.b];
-    const double speed = (a.velocity - b.velocity).norm() + surfaceSpeed(world, scratch, bodies.a) +
-                         surfaceSpeed(world, scratch, bodies.b);
-    return dt * (speed + dt * settings.gravity.norm()) +
-           kLeastReach * smallerRadius(world, bodies.a, bodies.b);
+    const double speed = (a.velocity - b.velocity).norm() +
+                         surfaceSpeed(world, scratch, bodies.a, dt) +
+                         surfaceSpeed(world, scratch, bodies.b, dt);
+    const double pull = std::max({a.pull.norm(), b.pull.norm(), (a.pull - b.pull).norm()});
+    return dt * (speed + dt * pull) + kLeastReach * smallerRadius(world, bodies.a, bodies.b);
 }
 
-void findGapPairs(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+/// Everything the body may touch within the step.
+Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, double dt)
+{
+    if (!world.isBorn(body)) return {};  // an empty box meets nothing
+    const Shape& shape = world.shapeOf(body);
+    const Aabb box = boxAt(shape, world.motion[body].worldFromBody());
+    if (shape.isPlane) return box;
+    const GapBody& b = scratch.bodies[body];
+    const double travel =
+        dt * (b.velocity.norm() + surfaceSpeed(world, scratch, body, dt) + dt * b.pull.norm());
+    return box.grown(travel + kLeastReach * shape.boundingRadius);
+}
+
+void findGapPairs(const World& world, double dt, GapScratch& scratch)
 {
     scratch.boxes.resize(world.bodyCount());
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        const auto body = static_cast<BodyId>(i);
-        const Shape& shape = world.shapeOf(body);
-        const Pose pose = world.motion[i].worldFromBody();
-        if (shape.isPlane) {
-            scratch.boxes[i] = shape.box;
-            continue;
-        }
-        const double travel =
-            dt * (scratch.bodies[i].velocity.norm() + surfaceSpeed(world, scratch, body) +
-                  dt * settings.gravity.norm());
-        scratch.boxes[i] =
-            transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position)
-                .grown(travel + kLeastReach * shape.boundingRadius);
+        scratch.boxes[i] = boxWithin(world, scratch, static_cast<BodyId>(i), dt);
     }
-    const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
+    std::vector<BodyPair>& found = scratch.candidates;
+    found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
+    std::erase_if(found, [&](BodyPair pair) { return !mayCollide(world, pair); });
 
     // Both lists are sorted: pairs that stay keep what they know.
     std::vector<GapPair> pairs(found.size());
@@ -170,8 +179,8 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
 
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
-    readBodies(world, scratch);
-    findGapPairs(world, settings, dt, scratch);
+    readBodies(world, settings, dt, scratch);
+    findGapPairs(world, dt, scratch);
     parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             GapPair& pair = scratch.pairs[i];
@@ -180,8 +189,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
             const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
                                     world.motion[a].worldFromBody(),
                                     world.motion[b].worldFromBody()};
-            pair.near.findContacts(placed, reachOf(world, settings, scratch, pair.bodies, dt),
-                                   pair.contacts);
+            pair.near.findContacts(placed, reachOf(world, scratch, pair.bodies, dt), pair.contacts);
         }
     });
 
@@ -201,8 +209,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
         for (std::size_t place = begin; place < end; ++place) {
             const GapPair& pair = scratch.pairs[scratch.order[place]];
             const auto [a, b] = pair.bodies;
-            const Material& ofA = world.materialOf(a);
-            const Material& ofB = world.materialOf(b);
+            const PairSurface surface = surfaceOf(world, settings, pair.bodies);
             const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
             const auto known =
                 std::equal_range(memory.begin(), memory.end(), RememberedContact{a, b},
@@ -218,8 +225,8 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                 row.rB = contact.rA + bFromA;
                 row.normal = contact.normal;
                 row.gap = contact.gap;
-                row.friction = std::max(ofA.friction, ofB.friction);  // [A27]
-                row.restitution = std::min(ofA.restitution, ofB.restitution);
+                row.friction = surface.friction;
+                row.restitution = surface.restitution;
                 row.target = 0.0;
                 row.wasHit = false;
                 row.impulse = Vec3::Zero();

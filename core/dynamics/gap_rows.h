@@ -19,8 +19,9 @@ struct GapBody {
     Vec3 velocity, spin;              ///< [m/s], [rad/s]
     double inverseMass;               ///< [1/kg]; 0: cannot be moved
     Mat3 inverseInertia;              ///< world
-    Vec3 velocityBefore, spinBefore;  ///< gravity
-    Vec3 angularImpulse;              ///< of the impacts of this step [kg m²/s]
+    Vec3 pull, torque;                ///< that act throughout the step [m/s²], [N m]
+    Vec3 velocityBefore, spinBefore;  ///< those forces
+    Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
     Vec3 shift, turn;  ///< added to the motion of this step: not everything moves for all
                        ///< of it with its final velocity [m], [rad]
 };
@@ -58,6 +59,8 @@ struct GapPair {
 struct GapScratch {
     BroadPhase broadPhase;
     std::vector<Aabb> boxes;
+    std::vector<BodyPair> candidates;  ///< what it found, without pairs that groups keep apart
+    std::vector<AppliedForce> forces;
     std::vector<GapPair> pairs;  ///< sorted by bodies
     std::vector<GapBody> bodies;
     std::vector<GapRow> rows;        ///< pair by pair
@@ -65,7 +68,7 @@ struct GapScratch {
 };
 
 /// Finds all contacts that may close within dt and lays them out as rows, with the impulses that
-/// the world remembers.
+/// the world remembers. Keyed bodies must have been aimed.
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
 
 /// Bounding radius of the smaller body of a pair [m].

@@ -9,19 +9,30 @@
 
 namespace scree {
 
-/// The inertia a pass works with: world axes, zero when the body cannot be moved in this pass.
+/// The inertia a pass works with: world axes. Without inverse mass the body cannot be moved in this
+/// pass; the inverse inertia of a keyed one then only tells how it spins.
 struct PassInertia {
     double inverseMass = 0.0;
     Mat3 inverseInertia = Mat3::Zero();  // world
 
     bool isMovable() const { return inverseMass > 0.0; }
+
+    /// How impulses turn the body: not at all if it cannot be moved.
+    Mat3 turningByImpulse() const { return isMovable() ? inverseInertia : Mat3(Mat3::Zero()); }
 };
 
 inline PassInertia passInertia(const BodyMass& mass, const Quat& orientation)
 {
-    if (!mass.isMovable()) return {};
+    if (mass.inverseInertia.isZero(0.0)) return {};
     return {mass.inverseMass,
             inverseInertiaWorld(orientation.toRotationMatrix(), mass.inverseInertia)};
+}
+
+/// The same for a pass or a pair that may not move the body.  [A45, A57]
+inline PassInertia heldIf(bool isHeld, PassInertia inertia)
+{
+    if (isHeld) inertia.inverseMass = 0.0;
+    return inertia;
 }
 
 /// Zero for a body that cannot be moved.

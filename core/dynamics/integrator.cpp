@@ -6,6 +6,18 @@
 
 namespace scree {
 
+namespace {
+
+/// L = I ω.
+Vec3 momentumOfSpin(const BodyMotion& motion, const BodyMass& mass, const Vec3& w)
+{
+    const Quat& q = motion.orientation;
+    const Vec3 inBody = q.conjugate() * w;
+    return q * Vec3(inBody.cwiseQuotient(mass.inverseInertia));
+}
+
+}  // namespace
+
 Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& velocity,
                  const Vec3& angularMomentum, OrientationUpdate update, double dt)
 {
@@ -22,6 +34,28 @@ Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& veloci
     return {now.position + dt * velocity, rotated(now.orientation, turn)};
 }
 
+void aimKeyedBodies(World& world, double dt)
+{
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (world.info[b].kind != BodyKind::keyed) continue;
+        BodyMotion& motion = world.motion[b];
+        const Pose next = world.scriptedPose(static_cast<BodyId>(b), world.time(dt));
+        const Quat turn = next.orientation * motion.orientation.conjugate();
+        motion.velocity = (next.position - motion.position) / dt;
+        motion.angularMomentum = momentumOfSpin(motion, world.mass[b], rotationVector(turn) / dt);
+    }
+}
+
+Pose poseAfter(const World& world, const StepSettings& settings, BodyId body, double dt)
+{
+    if (world.info[body].kind == BodyKind::keyed) {
+        return world.scriptedPose(body, world.time(dt));
+    }
+    const BodyMotion& motion = world.motion[body];
+    return predictPose(motion, world.mass[body], motion.velocity, motion.angularMomentum,
+                       settings.orientation, dt);
+}
+
 void addGravity(World& world, const StepSettings& settings, double dt)
 {
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
@@ -32,11 +66,15 @@ void addGravity(World& world, const StepSettings& settings, double dt)
 void advancePositions(World& world, const StepSettings& settings, double dt)
 {
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        const auto body = static_cast<BodyId>(b);
         BodyMotion& motion = world.motion[b];
-        const Pose next = predictPose(motion, world.mass[b], motion.velocity,
-                                      motion.angularMomentum, settings.orientation, dt);
+        const Pose next = poseAfter(world, settings, body, dt);
+        const bool isKeyed = world.info[b].kind == BodyKind::keyed;
+        const Vec3 w = isKeyed ? angularVelocity(motion, world.mass[b]) : Vec3(Vec3::Zero());
         motion.position = next.position;
         motion.orientation = next.orientation;
+        // What a script keeps while it turns a body is the spin, not the angular momentum.
+        if (isKeyed) motion.angularMomentum = momentumOfSpin(motion, world.mass[b], w);
     }
 }
 

@@ -16,7 +16,14 @@ Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& veloci
 /// v += dt g for every movable body.  [A17 step 3]
 void addGravity(World& world, const StepSettings& settings, double dt);
 
-/// x and q of every movable body by predictPose with its present velocities.  [A17 step 5]
+/// Gives keyed bodies the velocities that take them where their scripts are after dt: differences
+/// over the step, so that what they carry neither lags nor sinks.  [A54]
+void aimKeyedBodies(World& world, double dt);
+
+/// Where the body is after dt with its present velocities: by predictPose, or on its script.
+Pose poseAfter(const World& world, const StepSettings& settings, BodyId body, double dt);
+
+/// x and q of every body by poseAfter.  [A17 step 5]
 void advancePositions(World& world, const StepSettings& settings, double dt);
 
 /// ω = I⁻¹ L [rad/s].

@@ -48,10 +48,11 @@ bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen,
 {
     const auto [a, b] = pair.bodies;
     const auto inertiaOf = [&](BodyId body) {
-        return isFrozen[body] ? PassInertia{}
-                              : passInertia(world.mass[body], world.motion[body].orientation);
+        return heldIf(isFrozen[body],
+                      passInertia(world.mass[body], world.motion[body].orientation));
     };
-    const PassInertia inertiaA = inertiaOf(a), inertiaB = inertiaOf(b);
+    const PassInertia inertiaA = heldIf(pair.aIsHeld, inertiaOf(a));
+    const PassInertia inertiaB = heldIf(pair.bIsHeld, inertiaOf(b));
     if (!inertiaA.isMovable() && !inertiaB.isMovable()) return false;
 
     thread_local std::vector<Touch> touches;

@@ -19,11 +19,11 @@ struct Blocks {
 
 Blocks blocksOf(const StickingContact& contact)
 {
+    const Mat3 turningS = contact.inertiaS.turningByImpulse();
+    const Mat3 turningF = contact.inertiaF.turningByImpulse();
     return {collisionMatrix(contact.inertiaS, contact.rS) +
                 collisionMatrix(contact.inertiaF, contact.rF),
-            -skew(contact.rS) * contact.inertiaS.inverseInertia -
-                skew(contact.rF) * contact.inertiaF.inverseInertia,
-            contact.inertiaS.inverseInertia + contact.inertiaF.inverseInertia};
+            -skew(contact.rS) * turningS - skew(contact.rF) * turningF, turningS + turningF};
 }
 
 /// Resistance about a unit axis, as loss of spin by normal impulse [1/(kg m)]. A lever arm b

@@ -10,16 +10,36 @@
 namespace scree {
 namespace {
 
-/// Everything the body may touch while it moves on freely for `time`.
-Aabb sweptBox(const World& world, BodyId body, const StepSettings& settings, double time)
+/// Everything a keyed body may touch in the next `time`: around the present box, since a script may
+/// go anywhere at the speeds it has.
+Aabb scriptedBox(const World& world, BodyId body, double time)
 {
     const Shape& shape = world.shapeOf(body);
     const BodyMotion& motion = world.motion[body];
+    const ScriptBounds bounds =
+        world.info[body].script->boundsBetween(world.time(), world.time(time));
+    double speed = 0.0;
+    for (const Vec3& v : bounds.velocities) speed = std::max(speed, v.norm());
+    const double arm = shape.bodyFromAsset.position.norm();
+    const double turn = std::min(bounds.spin * time, 2.0);
+    const double reach = speed * time + turn * (arm + shape.boundingRadius);
+    return boxAt(shape, motion.worldFromBody()).grown(reach + contourValue(shape, shape));
+}
+
+/// Everything the body may touch while it moves on freely for `time`.
+Aabb sweptBox(const World& world, BodyId body, const AppliedForce& force, double time)
+{
     if (!world.isBorn(body)) return {};  // an empty box meets nothing
+    if (world.info[body].kind == BodyKind::keyed) return scriptedBox(world, body, time);
+    const Shape& shape = world.shapeOf(body);
+    const BodyMotion& motion = world.motion[body];
     Aabb box = boxAt(shape, motion.worldFromBody());
     if (!world.mass[body].isMovable()) return box;
 
-    const double turn = angularVelocity(motion, world.mass[body]).norm() * time;
+    const Mat3 inverseInertia = passInertia(world.mass[body], motion.orientation).inverseInertia;
+    const double spin = (inverseInertia * motion.angularMomentum).norm() +
+                        (inverseInertia * force.torque).norm() * time;
+    const double turn = spin * time;
     const Vec3 radius = Vec3::Constant(shape.boundingRadius);
     const Aabb sphere{motion.position - radius, motion.position + radius};
     box = box.grown(std::min(turn, 2.0) * shape.boundingRadius);
@@ -27,29 +47,49 @@ Aabb sweptBox(const World& world, BodyId body, const StepSettings& settings, dou
 
     // The path is a parabola between drift and fall: a box around both ends holds it.
     const Vec3 drift = time * motion.velocity;
-    const Vec3 fall = drift + time * time * settings.gravity;
+    const Vec3 fall = drift + time * time * force.acceleration;
     Aabb swept = box;
     swept.include(Aabb{box.min + drift, box.max + drift});
     swept.include(Aabb{box.min + fall, box.max + fall});
     return swept.grown(contourValue(shape, shape));
 }
 
-void describePair(const World& world, BodyPair bodies, PairRecord& record)
+const MaterialPair* exceptionFor(const World& world, BodyPair bodies)
 {
-    const Material& a = world.materialOf(bodies.a);
-    const Material& b = world.materialOf(bodies.b);
+    const MaterialId a = world.info[bodies.a].material, b = world.info[bodies.b].material;
+    for (const MaterialPair& pair : world.materialPairs) {
+        if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return &pair;
+    }
+    return nullptr;
+}
+
+/// The pairs whose swept boxes meet and that may collide, sorted.
+const std::vector<BodyPair>& findCandidates(const World& world, StepScratch& scratch)
+{
+    scratch.candidates = scratch.broadPhase.findPairs(scratch.sweptBoxes, world.mass);
+    std::erase_if(scratch.candidates, [&](BodyPair pair) { return !mayCollide(world, pair); });
+    return scratch.candidates;
+}
+
+void describePair(const World& world, const StepSettings& settings, BodyPair bodies,
+                  PairRecord& record)
+{
     record.bodies = bodies;
     record.tau = contourValue(world.shapeOf(bodies.a), world.shapeOf(bodies.b));
-    record.friction = std::max(a.friction, b.friction);  // [A27]
-    record.restitution = std::min(a.restitution, b.restitution);
-    record.rolling = largerOf(a.rolling, b.rolling);
+    const PairSurface surface = surfaceOf(world, settings, bodies);
+    record.friction = surface.friction;
+    record.restitution = surface.restitution;
+    record.rolling = surface.rolling;
+    const CollisionGroups &groupsA = world.info[bodies.a].groups,
+                          &groupsB = world.info[bodies.b].groups;
+    record.aIsHeld = (groupsA.unmovedBy & groupsB.group) != 0;
+    record.bIsHeld = (groupsB.unmovedBy & groupsA.group) != 0;
     record.interferesNow = record.isTouched = false;
     record.aFallsOnB = record.bFallsOnA = record.aLeavesB = record.bLeavesA = false;
 }
 
 double speedOfSurface(const World& world, BodyId body)
 {
-    if (!world.mass[body].isMovable()) return 0.0;
     return angularVelocity(world.motion[body], world.mass[body]).norm() *
            world.shapeOf(body).boundingRadius;
 }
@@ -71,6 +111,29 @@ double lookMargin(const World& world, const StepSettings& settings, BodyPair bod
 
 }  // namespace
 
+bool mayCollide(const World& world, BodyPair pair)
+{
+    const CollisionGroups &a = world.info[pair.a].groups, &b = world.info[pair.b].groups;
+    if (!(a.collidesWith & b.group) || !(b.collidesWith & a.group)) return false;
+    const bool aMoves = world.mass[pair.a].isMovable() && !(a.unmovedBy & b.group);
+    const bool bMoves = world.mass[pair.b].isMovable() && !(b.unmovedBy & a.group);
+    return aMoves || bMoves;
+}
+
+PairSurface surfaceOf(const World& world, const StepSettings& settings, BodyPair bodies)
+{
+    const Material& a = world.materialOf(bodies.a);
+    const Material& b = world.materialOf(bodies.b);
+    PairSurface surface{combined(settings.frictionRule, a.friction, b.friction),
+                        combined(settings.restitutionRule, a.restitution, b.restitution),
+                        largerOf(a.rolling, b.rolling)};
+    if (const MaterialPair* special = exceptionFor(world, bodies)) {
+        surface.friction = special->friction.value_or(surface.friction);
+        surface.restitution = special->restitution.value_or(surface.restitution);
+    }
+    return surface;
+}
+
 Aabb boxAt(const Shape& shape, const Pose& pose)
 {
     if (shape.isPlane) return shape.box;
@@ -81,14 +144,18 @@ void findPairs(const World& world, const StepSettings& settings, double remainin
                StepScratch& scratch)
 {
     const std::size_t bodies = world.bodyCount();
+    findForces(world, settings, remaining, scratch.forces);
     scratch.sweptBoxes.resize(bodies);
     for (std::size_t b = 0; b < bodies; ++b) {
-        scratch.sweptBoxes[b] = sweptBox(world, static_cast<BodyId>(b), settings, remaining);
+        scratch.sweptBoxes[b] =
+            sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
     }
-    const auto& found = scratch.broadPhase.findPairs(scratch.sweptBoxes, world.mass);
+    const auto& found = findCandidates(world, scratch);
     scratch.pairCount = found.size();
     if (scratch.pairs.size() < found.size()) scratch.pairs.resize(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i) describePair(world, found[i], scratch.pairs[i]);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        describePair(world, settings, found[i], scratch.pairs[i]);
+    }
 }
 
 void sortPairs(const World& world, StepScratch& scratch)
@@ -113,17 +180,21 @@ void sortPairs(const World& world, StepScratch& scratch)
 void beginStep(const World& world, const StepSettings& settings, double dt, StepScratch& scratch)
 {
     const std::size_t bodies = world.bodyCount();
+    findForces(world, settings, dt, scratch.forces);
+    scratch.moves.assign(bodies, 0);
     scratch.inertia.resize(bodies);
     scratch.fallPose.resize(bodies);
     scratch.driftPose.resize(bodies);
     for (std::size_t b = 0; b < bodies; ++b) {
         scratch.inertia[b] = passInertia(world.mass[b], world.motion[b].orientation);
-        scratch.driftPose[b] = scratch.fallPose[b] = world.motion[b].worldFromBody();
+        scratch.driftPose[b] = scratch.fallPose[b] =
+            poseAfter(world, settings, static_cast<BodyId>(b), dt);
         predictBody(world, settings, dt, static_cast<BodyId>(b), scratch);
     }
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         PairRecord& pair = scratch.pairs[i];
         pair.proximity.reset(lookMargin(world, settings, pair.bodies, dt));
+        pair.searched = pair.quiet = {};
     }
     sortPairs(world, scratch);
 }
@@ -138,26 +209,37 @@ void widenPairs(const World& world, const StepSettings& settings, double dt, Ste
         Aabb reached = boxAt(shape, scratch.fallPose[b]);
         reached.include(boxAt(shape, scratch.driftPose[b]));
         if (scratch.sweptBoxes[b].contains(reached)) continue;
-        scratch.sweptBoxes[b].include(sweptBox(world, body, settings, 2.0 * dt));
+        scratch.sweptBoxes[b].include(sweptBox(world, body, scratch.forces[b], 2.0 * dt));
         isWider = true;
     }
     if (!isWider) return;
 
     // Old and new list are both sorted and the new one contains the old one.
-    const auto& found = scratch.broadPhase.findPairs(scratch.sweptBoxes, world.mass);
+    const auto& found = findCandidates(world, scratch);
     std::vector<PairRecord> wider(std::max(found.size(), scratch.pairs.size()));
     std::size_t old = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (old < scratch.pairCount && scratch.pairs[old].bodies == found[i]) {
             wider[i] = std::move(scratch.pairs[old++]);
         } else {
-            describePair(world, found[i], wider[i]);
+            describePair(world, settings, found[i], wider[i]);
             wider[i].proximity.reset(lookMargin(world, settings, found[i], dt));
         }
     }
     scratch.pairs = std::move(wider);
     scratch.pairCount = found.size();
     sortPairs(world, scratch);
+}
+
+void noteImpulse(const World& world, const StepSettings& settings, double dt, BodyPair bodies,
+                 StepScratch& scratch)
+{
+    for (const BodyId body : {bodies.a, bodies.b}) {
+        // A body that cannot be moved is shared by threads: it is not even written to.
+        if (!world.mass[body].isMovable()) continue;
+        predictBody(world, settings, dt, body, scratch);
+        ++scratch.moves[body];
+    }
 }
 
 void predictBody(const World& world, const StepSettings& settings, double dt, BodyId body,
@@ -168,10 +250,17 @@ void predictBody(const World& world, const StepSettings& settings, double dt, Bo
     if (!mass.isMovable()) return;
     scratch.driftPose[body] = predictPose(motion, mass, motion.velocity, motion.angularMomentum,
                                           settings.orientation, dt);
-    // Gravity turns nothing: the fall differs from the drift by its displacement alone.
+    const AppliedForce& force = scratch.forces[body];
+    if (!force.torque.isZero(0.0)) {
+        scratch.fallPose[body] =
+            predictPose(motion, mass, motion.velocity + dt * force.acceleration,
+                        motion.angularMomentum + dt * force.torque, settings.orientation, dt);
+        return;
+    }
+    // Without a torque the fall differs from the drift by its displacement alone.
     scratch.fallPose[body].orientation = scratch.driftPose[body].orientation;
     scratch.fallPose[body].position =
-        motion.position + dt * (motion.velocity + dt * settings.gravity);
+        motion.position + dt * (motion.velocity + dt * force.acceleration);
 }
 
 }  // namespace scree

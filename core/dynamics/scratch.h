@@ -2,16 +2,25 @@
 // dropping it between two steps changes nothing but time.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/collision/broad_phase.h"
 #include "core/collision/interference.h"
 #include "core/diagnostics/step_report.h"
+#include "core/dynamics/forces.h"
 #include "core/dynamics/impulse.h"
 #include "core/dynamics/settings.h"
 #include "core/scene/world.h"
 
 namespace scree {
+
+/// How often the two bodies of a pair had been moved by impulses when something about the pair was
+/// found out: as long as the counts are the same, it is known.  [A15]
+struct SkipStamp {
+    std::uint32_t a = ~0u, b = ~0u;
+    friend bool operator==(const SkipStamp&, const SkipStamp&) = default;
+};
 
 /// A pair that may meet in this step.
 struct PairRecord {
@@ -19,23 +28,30 @@ struct PairRecord {
     double tau = 0.0;                          ///< contour value [m]  [A7]
     double friction = 0.0, restitution = 0.0;  ///< of the pair  [A27]
     RollingFriction rolling;                   ///< of the pair  [A27, A49]
+    bool aIsHeld = false;  ///< b may not move a: of infinite mass in this pair  [A57]
+    bool bIsHeld = false;
     bool interferesNow = false;  ///< at the common predicted positions of this collision iteration
     bool aFallsOnB = false;      ///< moved by its own fall alone, a interferes with b  [A36]
     bool bFallsOnA = false;
     bool aLeavesB = false;  ///< a falls on b, but away from it: they overlap already
     bool bLeavesA = false;
     bool isTouched = false;  ///< in the set P: contact may process it  [A26]
+    SkipStamp searched;      ///< interferesNow is known for this state of the bodies
+    SkipStamp quiet;         ///< in this state a visit by contact had nothing to do
     Proximity proximity;
 };
 
 struct StepScratch {
     BroadPhase broadPhase;
+    std::vector<BodyPair> candidates;    // what it found, without pairs that groups keep apart
     std::vector<Aabb> sweptBoxes;        // per body: all it may reach in the rest of the frame
     std::vector<PairRecord> pairs;       // sorted by bodies
     std::size_t pairCount = 0;           // records in use; the others keep their memory
     std::vector<std::size_t> pairOrder;  // order of processing  [A21]
     std::vector<std::size_t> rank;       // per body: its place in World::order
 
+    std::vector<AppliedForce> forces;  // per body, throughout the step
+    std::vector<std::uint32_t> moves;  // per body: impulses received in this step
     std::vector<PassInertia> inertia;  // per body, at the current orientation
     std::vector<Pose> fallPose;        // per body: predicted with gravity
     std::vector<Pose> driftPose;       // per body: predicted without
@@ -44,7 +60,20 @@ struct StepScratch {
 /// The world box of a placed shape; a plane's is everything.
 Aabb boxAt(const Shape& shape, const Pose& pose);
 
-/// Lays out the pairs for a step that lasts dt of the `remaining` time of the frame.
+/// What two surfaces are to each other.
+struct PairSurface {
+    double friction, restitution;
+    RollingFriction rolling;
+};
+
+/// By the rules of combination, unless the world has an exception for the two materials.  [A27]
+PairSurface surfaceOf(const World& world, const StepSettings& settings, BodyPair bodies);
+
+/// Whether groups let the pair collide, and anything could come of it.  [A57]
+bool mayCollide(const World& world, BodyPair pair);
+
+/// Lays out the pairs for a step that lasts dt of the `remaining` time of the frame. Keyed bodies
+/// are swept along their scripts.
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch);
 
@@ -61,6 +90,16 @@ void sortPairs(const World& world, StepScratch& scratch);
 /// Both predictions of one body from its present velocities; those of a body that cannot be moved
 /// are set by beginStep and stay, so that threads may share it.
 void predictBody(const World& world, const StepSettings& settings, double dt, BodyId body,
+                 StepScratch& scratch);
+
+/// The stamp of a pair as its bodies are.
+inline SkipStamp stampOf(const PairRecord& pair, const StepScratch& scratch)
+{
+    return {scratch.moves[pair.bodies.a], scratch.moves[pair.bodies.b]};
+}
+
+/// After an impulse between the pair: predicts both bodies and lets their stamps be known as old.
+void noteImpulse(const World& world, const StepSettings& settings, double dt, BodyPair bodies,
                  StepScratch& scratch);
 
 inline PlacedPair placePair(const World& world, const PairRecord& pair, const Pose& worldFromA,

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/math/types.h"
+#include "core/scene/pair_rules.h"
 
 namespace scree {
 
@@ -12,6 +13,18 @@ namespace scree {
 enum class OrientationUpdate {
     euler,        ///< the paper's: gains energy when tumbling
     secondOrder,  ///< one more 3-vector solve, error of third order per step
+};
+
+/// How a colliding pair is worked on.  [A24, A25]
+enum class CollisionVariant {
+    reevolve,  ///< both bodies are predicted anew after every impulse
+    lagged,    ///< samples, normals and levers are found once per visit: faster, coarser
+};
+
+/// What an impulse is when neither sticking nor sliding is admissible.  [A33]
+enum class FrictionFallback {
+    blend,         ///< as much of sticking as cone and energy allow
+    plainKinetic,  ///< the paper's sliding formula, whatever it does to the energy
 };
 
 /// How long a step may be.  [A16]
@@ -46,12 +59,24 @@ struct StepSettings {
     int gapSweeps =
         8;  ///< of method `scree`, over all contacts of a large heap [-]; too few: it sinks
     OrientationUpdate orientation = OrientationUpdate::secondOrder;
-    bool slideSmoothSamples = true;  ///< off, round bodies are braked as they roll  [A40]
-    bool curvatureScaling = true;    ///< rolling friction grows where surfaces fit  [A50]
+    CollisionVariant collision = CollisionVariant::reevolve;
+    CombineRule frictionRule = CombineRule::maximum;     ///< of a pair, from its materials  [A27]
+    CombineRule restitutionRule = CombineRule::minimum;  ///< likewise
+    bool freezeUnsupported = false;  ///< shock also freezes what rests on nothing fixed: the
+                                     ///< paper's, and it makes momentum out of nothing  [A47]
+    FrictionFallback frictionFallback = FrictionFallback::blend;
+    bool skipStamps = true;  ///< do not test again what cannot have changed: only time  [A15]
+    /// A contact of a smooth mesh slides along it to where it is deepest now; without it a rolling
+    /// body is braked.  [A40]
+    bool slideSmoothSamples = true;
+    bool curvatureScaling = true;  ///< rolling resistance grows where curvature is low  [A50]
 
     SubstepLimits substeps;
     double maximumSpinPerStep = 0.3;  ///< rotation in one step at safety 1 … [rad]  [A16 beta]
     double hoverLimit = 5e-4;         ///< resting gap as a fraction of the inner thickness [-]
 };
+
+/// The paper without the repairs documented beside it; shapes want FieldMode::grid with it.  [A60]
+void makeStrict(StepSettings& settings);
 
 }  // namespace scree

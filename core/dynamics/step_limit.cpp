@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/dynamics/integrator.h"
 
@@ -18,11 +19,35 @@ double thickness(const World& world, BodyId body)
     return shape.isPlane ? std::numeric_limits<double>::infinity() : shape.innerThickness;
 }
 
-double surfaceSpin(const World& world, BodyId body)
+/// How a body may move in the rest of the frame, as far as its present motion or its script tell.
+struct Outlook {
+    std::vector<Vec3> velocities;  // of a keyed body anything in their hull, else the present one
+    double spin = 0.0;             // [rad/s]
+    double surfaceSpeed = 0.0;     // by the spin [m/s]
+};
+
+Outlook outlookOf(const World& world, BodyId body, double remaining)
 {
-    if (!world.mass[body].isMovable()) return 0.0;
-    return angularVelocity(world.motion[body], world.mass[body]).norm() *
-           world.shapeOf(body).boundingRadius;
+    const Shape& shape = world.shapeOf(body);
+    if (world.info[body].kind == BodyKind::keyed) {
+        const ScriptBounds bounds =
+            world.info[body].script->boundsBetween(world.time(), world.time(remaining));
+        // The script moves the asset's origin, about which the centre of mass turns.
+        const double arm = shape.bodyFromAsset.position.norm() + shape.boundingRadius;
+        return {bounds.velocities, bounds.spin, bounds.spin * arm};
+    }
+    const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
+    return {{world.motion[body].velocity}, spin, spin > 0.0 ? spin * shape.boundingRadius : 0.0};
+}
+
+/// The largest relative speed of two surfaces.
+double relativeSpeed(const Outlook& a, const Outlook& b)
+{
+    double fastest = 0.0;
+    for (const Vec3& v : a.velocities) {
+        for (const Vec3& w : b.velocities) fastest = std::max(fastest, (v - w).norm());
+    }
+    return fastest + a.surfaceSpeed + b.surfaceSpeed;
 }
 
 /// The dt with s dt + g dt² = length.
@@ -42,28 +67,29 @@ void tighten(StepLength& limit, double dt, StepLimit by, BodyId body)
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
                       double remaining, const StepScratch& scratch)
 {
-    const double g = settings.gravity.norm();
     const double alpha = kAlphaPerSafety * settings.substeps.safety;
+    std::vector<Outlook> outlooks;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        outlooks.push_back(outlookOf(world, static_cast<BodyId>(b), remaining));
+    }
     StepLength limit{remaining, StepLimit::frame, -1, false};
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         const auto [a, b] = scratch.pairs[i].bodies;
         const double thinner = std::min(thickness(world, a), thickness(world, b));
-        const double s = (world.motion[a].velocity - world.motion[b].velocity).norm() +
-                         surfaceSpin(world, a) + surfaceSpin(world, b);
-        const bool bothFall = world.mass[a].isMovable() && world.mass[b].isMovable();
+        const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
         const BodyId faster =
             world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
-        tighten(limit, timeToPass(alpha * thinner, s, bothFall ? 0.0 : g), StepLimit::relativeSpeed,
-                faster);
+        const double s = relativeSpeed(outlooks[a], outlooks[b]);
+        tighten(limit, timeToPass(alpha * thinner, s, (pullA - pullB).norm()),
+                StepLimit::relativeSpeed, faster);
+        const double g = std::max(pullA.norm(), pullB.norm());
         if (g > 0.0 && settings.method == Method::paper) {
             tighten(limit, std::sqrt(settings.hoverLimit * thinner / g), StepLimit::hover, faster);
         }
     }
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (!world.mass[b].isMovable()) continue;
-        const double spin = angularVelocity(world.motion[b], world.mass[b]).norm();
-        if (spin > 0.0) {
-            tighten(limit, settings.maximumSpinPerStep / spin, StepLimit::spin,
+        if (outlooks[b].spin > 0.0) {
+            tighten(limit, settings.maximumSpinPerStep / outlooks[b].spin, StepLimit::spin,
                     static_cast<BodyId>(b));
         }
     }

@@ -135,7 +135,10 @@ void describeState(const World& world, const Vec3& gravity, FrameReport& report)
         if (!world.mass[b].isMovable()) continue;
         ++report.bodiesAwake;
         report.kineticEnergy += kineticEnergy(world.motion[b], world.mass[b]);
-        report.momentum += world.motion[b].velocity / world.mass[b].inverseMass;
+        const BodyMotion& motion = world.motion[b];
+        const Vec3 momentum = motion.velocity / world.mass[b].inverseMass;
+        report.momentum += momentum;
+        report.angularMomentum += motion.position.cross(momentum) + motion.angularMomentum;
     }
     report.stateHash = stateHash(world);
 }
@@ -153,6 +156,7 @@ Stepper::~Stepper() = default;
 
 StepReport Stepper::step(World& world, double dt)
 {
+    world.assignKinds();
     if (settings_.method == Method::scree) return stepGaps(world, dt);
     findPairs(world, settings_, dt, *scratch_);
     return stepFoundPairs(world, dt);
@@ -163,6 +167,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     StepReport report;
     report.dt = dt;
     StepScratch& scratch = *scratch_;
+    aimKeyedBodies(world, dt);
     shuffleOrder(world, settings_.seed);
     beginStep(world, settings_, dt, scratch);
 
@@ -180,7 +185,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
         const PhaseTimer timer(report, Phase::contactGraph);
         graph = buildContactGraph(world, settings_, dt, scratch);
     }
-    addGravity(world, settings_, dt);
+    addForces(world, scratch.forces, dt);
     {
         const PhaseTimer timer(report, Phase::contact);
         report.contactImpulses =
@@ -225,6 +230,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     StepReport report;
     report.dt = dt;
     GapScratch& scratch = *gaps_;
+    aimKeyedBodies(world, dt);
     {
         const PhaseTimer timer(report, Phase::contactGraph);
         buildRows(world, settings_, dt, scratch);
@@ -235,11 +241,11 @@ StepReport Stepper::stepGaps(World& world, double dt)
     {
         const PhaseTimer timer(report, Phase::collision);
         report.collisionImpulses = resolveImpacts(settings_, dt, scratch, report.loopsAtTheirCap);
-        levels = buildGapLevels(settings_, dt, scratch);
+        levels = buildGapLevels(dt, scratch);
     }
     {
         const PhaseTimer timer(report, Phase::contact);
-        addGravityToGaps(settings_, dt, scratch);
+        addForcesToGaps(dt, scratch);
         const bool isRemembered = !world.contactMemory.contacts.empty();
         report.contactImpulses = resolveGaps(settings_, dt, levels, isRemembered, scratch).impulses;
     }
@@ -276,7 +282,9 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
                                   const std::function<void(const World&, double)>& afterStep)
 {
     FrameReport frame;
+    world.frameDuration = frameDuration;
     while (true) {
+        world.assignKinds();
         const double remaining = frameDuration - world.clock.frameTimeDone;
         StepLength length;
         StepReport limitReport;

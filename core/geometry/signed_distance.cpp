@@ -57,12 +57,12 @@ SignedDistance::SignedDistance(const TriMesh& mesh, GridNodes nodes, bool refine
     domain_.max = nodes_.origin + nodes_.spacing * Vec3(nodes_.count[0] - 1, nodes_.count[1] - 1,
                                                         nodes_.count[2] - 1);
     for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) surfaceBox_.include(mesh.points.col(v));
-    if (refined) {
-        // One per cent more than the bound covers single-precision nodes and the contour value tau.
-        band_ = 1.01 * kHalfDiagonal * nodes_.spacing;
-        buildFaces(mesh);
-        buildCandidates();
-    }
+    // One per cent more than the bound covers single-precision nodes and the contour value tau.
+    band_ = 1.01 * kHalfDiagonal * nodes_.spacing;
+    buildFaces(mesh);
+    buildCandidates();
+    // True normals ask for the faces of a cell even where distances are the grid's alone.
+    if (!refined) band_ = 0.0;
 }
 
 void SignedDistance::buildFaces(const TriMesh& mesh)

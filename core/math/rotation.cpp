@@ -110,6 +110,17 @@ Quat exponentialMap(const Vec3& rotationVector)
     return Quat(cosine, v.x(), v.y(), v.z());
 }
 
+Vec3 rotationVector(const Quat& rotation)
+{
+    // q and −q are the same rotation; the one with w ≥ 0 turns by at most π.
+    const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
+    const Vec3 axisTimesSine = sign * Vec3(rotation.x(), rotation.y(), rotation.z());
+    const double sine = axisTimesSine.norm(), cosine = sign * rotation.w();
+    if (sine < 1e-12) return 2.0 * axisTimesSine;
+    const double angle = 2.0 * (cosine > 0.0 ? arcTangent(sine / cosine) : kPi / 2.0);
+    return angle / sine * axisTimesSine;
+}
+
 Quat fromEulerXyz(const Vec3& angles)
 {
     return (exponentialMap({0.0, 0.0, angles.z()}) * exponentialMap({0.0, angles.y(), 0.0}) *

@@ -25,6 +25,9 @@ Mat3 skew(const Vec3& a);
 /// The quaternion of a rotation vector (axis × angle [rad]): exp of the pure quaternion θ/2.
 Quat exponentialMap(const Vec3& rotationVector);
 
+/// The rotation vector of a unit quaternion, by the shorter way round: length 0 … π [rad].
+Vec3 rotationVector(const Quat& rotation);
+
 /// The unit quaternion of R = Rz·Ry·Rx for angles [rad] about x, y, z: about x first.
 Quat fromEulerXyz(const Vec3& angles);
 

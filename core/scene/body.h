@@ -3,11 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <string>
 
 #include "core/math/types.h"
 
 namespace scree {
+
+class MotionScript;
 
 using BodyId = std::int32_t;
 using ShapeId = std::int32_t;
@@ -40,6 +44,7 @@ struct Material {
 enum class BodyKind : std::uint8_t {
     dynamic,  ///< moved by forces and impulses
     fixed,    ///< never moves: infinite mass  [A53]
+    keyed,    ///< follows its script, whatever hits it: infinite mass  [A54]
 };
 
 /// The state: all that changes in time. Angular momentum, not angular velocity, is the state,
@@ -53,7 +58,9 @@ struct BodyMotion {
     Pose worldFromBody() const { return {position, orientation}; }
 };
 
-/// "Cannot be moved" has one meaning: both zero. Static and frozen bodies look alike to a kernel.
+/// "Cannot be moved" has one meaning: no inverse mass. Static, keyed and frozen bodies look alike
+/// to a kernel. A keyed body keeps its inverse inertia, which no impulse sees, because its spin is
+/// kept as angular momentum like everybody's: so it is released with the spin it has.  [A55]
 struct BodyMass {
     double inverseMass = 0.0;            ///< [1/kg]
     Vec3 inverseInertia = Vec3::Zero();  ///< of the principal moments, body axes [1/(kg m²)]
@@ -81,12 +88,28 @@ struct PlannedBirth {
 inline constexpr std::int32_t kUnborn = -1;   ///< not yet
 inline constexpr std::int32_t kSkipped = -2;  ///< never
 
+/// With whom a body collides: each body is in one group, given as a bit.  [A57]
+struct CollisionGroups {
+    std::uint64_t group = 1;
+    std::uint64_t collidesWith = ~std::uint64_t{0};  ///< both of a pair must accept the other
+    std::uint64_t unmovedBy = 0;  ///< to these the body is of infinite mass: it moves them only
+};
+
 /// What a step rarely needs.
 struct BodyInfo {
     std::string name;  ///< unique in the world
     ShapeId shape = 0;
     MaterialId material = 0;
     BodyKind kind = BodyKind::dynamic;
+    double freeInverseMass = 0.0;  ///< [1/kg] while it is dynamic; 0 for what is always static
+    CollisionGroups groups;
+    Vec3 force = Vec3::Zero();   ///< constant, at the centre of mass [N]
+    Vec3 torque = Vec3::Zero();  ///< constant, world axes [N m]
+
+    // Its motion while it is keyed: in the frames keyedFrom … keyedUntil − 1 since time zero.
+    std::shared_ptr<const MotionScript> script;  ///< of the asset; null: never keyed
+    std::int64_t keyedFrom = 0;
+    std::int64_t keyedUntil = std::numeric_limits<std::int64_t>::max();
 };
 
 }  // namespace scree

@@ -34,13 +34,13 @@ BodyId World::addBody(const BodyDefinition& definition)
     state.orientation = worldFromBody.orientation.normalized();
 
     BodyMass inertia;
-    if (definition.kind == BodyKind::dynamic) {
+    if (definition.kind != BodyKind::fixed) {
         const double density = definition.mass ? *definition.mass / shape.unitMass.volume
                                                : materials_[definition.material].density;
         const double weight = density * shape.unitMass.volume;
         if (shape.isPlane || !(weight > 0.0)) {
             throw Error(ErrorKind::badInput,
-                        "body '" + definition.name + "' is dynamic but " +
+                        "body '" + definition.name + "' is not static but " +
                             (shape.isPlane ? "a plane has no mass" : "its mass is not positive"));
         }
         const Vec3 moments = density * shape.unitMass.moments;
@@ -54,15 +54,33 @@ BodyId World::addBody(const BodyDefinition& definition)
 
     const auto id = static_cast<BodyId>(motion.size());
     if (definition.birth) {
-        SCREE_CHECK(inertia.isMovable(), definition.name);
+        SCREE_CHECK(definition.kind == BodyKind::dynamic && !definition.script, definition.name);
         births.push_back({id, definition.birth->frame, definition.birth->clearance, inertia});
         inertia = {};
     }
     motion.push_back(state);
     mass.push_back(inertia);
     bornAt.push_back(definition.birth ? kUnborn : 0);
-    info.push_back({definition.name, definition.shape, definition.material, definition.kind});
+    BodyInfo described;
+    described.name = definition.name;
+    described.shape = definition.shape;
+    described.material = definition.material;
+    described.kind = definition.kind;
+    described.freeInverseMass = inertia.inverseMass;
+    described.groups = definition.groups;
+    described.force = definition.force;
+    described.torque = definition.torque;
+    described.script = definition.script;
+    described.keyedFrom = definition.keyedFrom;
+    described.keyedUntil = definition.keyedUntil;
+    info.push_back(std::move(described));
     order.push_back(id);
+    if (definition.kind == BodyKind::keyed) {
+        SCREE_CHECK(definition.script, definition.name);
+        setKind(id, BodyKind::keyed);
+        const Pose start = scriptedPose(id, 0.0);
+        motion[id] = {start.position, start.orientation, Vec3::Zero(), Vec3::Zero()};
+    }
     return id;
 }
 
@@ -87,6 +105,35 @@ const BodyMass& World::massWhenBorn(BodyId body) const
         std::lower_bound(births.begin(), births.end(), body,
                          [](const PlannedBirth& b, BodyId id) { return b.body < id; });
     return birth != births.end() && birth->body == body ? birth->mass : mass[body];
+}
+
+void World::setKind(BodyId body, BodyKind kind)
+{
+    info[body].kind = kind;
+    mass[body].inverseMass = kind == BodyKind::dynamic ? info[body].freeInverseMass : 0.0;
+}
+
+Pose World::scriptedPose(BodyId body, double atTime) const
+{
+    return info[body].script->at(atTime) * inverse(shapeOf(body).bodyFromAsset);
+}
+
+void World::assignKinds()
+{
+    for (BodyId body = 0; body < static_cast<BodyId>(bodyCount()); ++body) {
+        const BodyInfo& described = info[body];
+        if (!described.script) continue;
+        const bool isKeyed =
+            clock.frame >= described.keyedFrom && clock.frame < described.keyedUntil;
+        setKind(body, isKeyed ? BodyKind::keyed : BodyKind::dynamic);
+
+        // Put on the script a body that comes under it in this very moment.
+        const bool isFrameStart = clock.subStep == 0 && clock.frameTimeDone == 0.0;
+        if (!isKeyed || !isFrameStart || clock.frame != described.keyedFrom) continue;
+        const Pose pose = scriptedPose(body, time());
+        motion[body].position = pose.position;
+        motion[body].orientation = pose.orientation;
+    }
 }
 
 Pose World::worldFromAsset(BodyId body) const

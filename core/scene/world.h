@@ -12,6 +12,9 @@
 #include "core/geometry/shape.h"
 #include "core/scene/body.h"
 #include "core/scene/contact_memory.h"
+#include "core/scene/force_field.h"
+#include "core/scene/motion_script.h"
+#include "core/scene/pair_rules.h"
 
 namespace scree {
 
@@ -34,6 +37,13 @@ struct BodyDefinition {
     Vec3 velocity = Vec3::Zero();         ///< of the centre of mass [m/s]
     Vec3 angularVelocity = Vec3::Zero();  ///< world axes [rad/s]
     std::optional<double> mass;           ///< [kg]; otherwise density × volume
+    CollisionGroups groups;
+    Vec3 force = Vec3::Zero();   ///< [N]
+    Vec3 torque = Vec3::Zero();  ///< [N m]
+
+    std::shared_ptr<const MotionScript> script;  ///< needed by a keyed body
+    std::int64_t keyedFrom = 0;                  ///< frames since time zero; see BodyInfo
+    std::int64_t keyedUntil = std::numeric_limits<std::int64_t>::max();
 
     /// Of a dynamic body that comes later: the earliest frame since time zero.
     struct Birth {
@@ -48,13 +58,27 @@ public:
     ShapeId addShape(std::shared_ptr<const Shape> shape);
     MaterialId addMaterial(Material material);
 
-    /// Throws Error{badInput} when a dynamic body has no volume (a plane) or a mass that is not >
-    /// 0.
+    /// Throws Error{badInput} when a body that is not static has no volume (a plane) or a mass that
+    /// is not > 0. A keyed body starts where its script is at time zero.
     BodyId addBody(const BodyDefinition& definition);
 
     std::size_t bodyCount() const { return motion.size(); }
     const Shape& shapeOf(BodyId body) const { return *shapes_[info[body].shape]; }
     const Material& materialOf(BodyId body) const { return materials_[info[body].material]; }
+
+    /// Time since the start of the shot [s], and that of the frame's beginning plus `later`.
+    double time(double later = 0.0) const
+    {
+        return static_cast<double>(clock.frame) * frameDuration + (clock.frameTimeDone + later);
+    }
+
+    /// Where a body with a script is at a time: world from body.
+    Pose scriptedPose(BodyId body, double atTime) const;
+
+    /// Makes every body with a script keyed or dynamic, as the frame that the clock stands in asks;
+    /// one that becomes keyed just now stands on its script. A function of the clock alone, so that
+    /// a resumed run finds the same.  [A55]
+    void assignKinds();
 
     /// The pose an artist would give the asset to stand where the body stands now.
     Pose worldFromAsset(BodyId body) const;
@@ -78,9 +102,14 @@ public:
     std::vector<std::int32_t> bornAt;  ///< frames since time zero, or kUnborn, kSkipped
     std::vector<PlannedBirth> births;  ///< of the bodies that come later, in order of their ids
     Clock clock;
-    ContactMemory contactMemory;  ///< of method `scree`; empty for `paper`
+    ContactMemory contactMemory;              ///< of method `scree`; empty for `paper`
+    double frameDuration = 1.0 / 24.0;        ///< what a frame of the clock means [s]
+    std::vector<ForceField> fields;           ///< act on all dynamic bodies
+    std::vector<MaterialPair> materialPairs;  ///< exceptions from the rules of combination
 
 private:
+    void setKind(BodyId body, BodyKind kind);
+
     std::vector<std::shared_ptr<const Shape>> shapes_;
     std::vector<Material> materials_;
 };

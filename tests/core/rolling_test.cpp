@@ -135,6 +135,28 @@ PassInertia randomInertia(std::uint64_t sample, std::uint64_t which)
     return inertia;
 }
 
+// A keyed body, or one that shock has frozen, keeps an inverse inertia that no impulse may see.
+TEST(E9RollingFriction, TheInertiaOfABodyThatCannotBeMovedDoesNotMatter)
+{
+    StickingContact contact;
+    contact.inertiaS = randomInertia(0, 0);
+    contact.inertiaF = heldIf(true, randomInertia(0, 1));
+    contact.rS = {0.1, -0.5, 0.2};
+    contact.rF = {0.3, 0.4, -0.1};
+    contact.normal = Vec3::UnitY();
+    contact.u = {0.02, -1.0, 0.01};
+    contact.spin = {0.5, 0.3, -0.7};
+    contact.friction = 0.8;
+    contact.impulse = collisionMatrix(contact.inertiaS, contact.rS).inverse() * -contact.u;
+    const RollingFriction resistance{0.01, 0.01, 0.0, 0.0};
+    const RollingImpulse held = rollingImpulse(contact, resistance, 1.0);
+    contact.inertiaF = {};
+    const RollingImpulse fixed = rollingImpulse(contact, resistance, 1.0);
+    EXPECT_FALSE(fixed.isDropped);
+    EXPECT_EQ(held.impulse, fixed.impulse);
+    EXPECT_EQ(held.couple, fixed.couple);
+}
+
 // Laws of the impulse with its couple for any two bodies, one of them immovable in every fifth
 // pair.
 TEST(E9RollingFriction, TenThousandRandomContactsStaySlowAndInTheConeAndGainNothing)

@@ -45,7 +45,8 @@ const char* const kMaterialKeys =
     "(valid: density, friction, restitution, rolling_friction, "
     "rolling_friction_raw, spinning_friction, spinning_friction_raw, color, roughness)";
 const char* const kTables =
-    "(valid: scree, shot, solver, material, shape, body, import, emitter, camera, render, output)";
+    "(valid: scree, extends, shot, solver, material, shape, body, force, pair, import, emitter, "
+    "camera, render, output)";
 
 std::vector<BadShot> badShots()
 {
@@ -87,7 +88,7 @@ std::vector<BadShot> badShots()
          "collision_iterations, collision_pair_impulses, contact_iterations, level_iterations, "
          "pair_impulses, shock_propagation, shock_pair_impulses, push_out, "
          "push_out_level_iterations, push_out_pair_impulses, orientation, substeps, maximum_spin, "
-         "hover, penetration)"},
+         "hover, penetration, strict, collision, combine)"},
         {"TextInsteadOfNumber", kHead + "fps = \"24\"\n",
          "bad.toml:4:7: 'fps' must be a number above 0 and below 10000, not \"24\""},
         {"NumberInsteadOfInteger", kHead + "[solver]\ncontact_iterations = 2.5\n",
@@ -119,14 +120,60 @@ std::vector<BadShot> badShots()
          "bad.toml:4:9: 'units' must be one of \"m\", \"cm\", \"mm\", \"in\", \"ft\", not "
          "\"metre\""},
         {"MisspeltWord", body("shape = \"block\"\nmotion = \"statik\"\n"),
-         "bad.toml:11:10: 'motion' must be one of \"dynamic\", \"static\", not \"statik\"; did you "
-         "mean 'static'?"},
+         "bad.toml:11:10: 'motion' must be one of \"dynamic\", \"static\", \"keyed\", not "
+         "\"statik\"; did you mean 'static'?"},
         {"MethodOfALaterVersion", kHead + "[solver]\nmethod = \"scree\"\n",
          "bad.toml:5:10: 'method' = \"scree\" is not supported yet; this version knows only "
          "paper"},
-        {"KeyedMotion", body("shape = \"block\"\nmotion = \"keyed\"\n"),
-         "bad.toml:11:10: 'motion' = \"keyed\" is not supported yet; this version knows only "
-         "dynamic, static"},
+        {"KeyedWithoutKeys", body("shape = \"block\"\nmotion = \"keyed\"\n"),
+         "bad.toml:7:1: a keyed body needs 'keys', for example keys = [{ frame = 1001, position = "
+         "[0, 0, 0] }]"},
+        {"KeysOutOfOrder",
+         body(
+             "shape = \"block\"\nmotion = \"keyed\"\nkeys = [{ frame = 5, position = [0, 0, 0] },\n"
+             "{ frame = 5, position = [1, 0, 0] }]\n"),
+         "bad.toml:13:11: keys must be in order of time, no two at the same: 5.0 after 5.0"},
+        {"KeyOfAnUnknownName",
+         body("shape = \"block\"\nmotion = \"keyed\"\nkeys = [{ frame = 5, positon = [0, 0, 0] "
+              "}]\n"),
+         "bad.toml:12:9: [[keys]] lacks 'position': 3 numbers [x, y, z]\nbad.toml:12:22: unknown "
+         "key 'positon' in [[keys]]; did you mean 'position'? (valid: "
+         "frame, position, rotation, orientation)"},
+        {"KeysOfADynamicBody", body("shape = \"block\"\nrelease = 1010\n"),
+         "bad.toml:11:11: 'release' is for bodies with motion = \"keyed\""},
+        {"ReleaseBeforeTheShot",
+         body(
+             "shape = \"block\"\nmotion = \"keyed\"\nkeys = [{ frame = 5, position = [0, 0, 0] }]\n"
+             "release = 1001\n"),
+         "bad.toml:13:11: 'release' must be a frame after the first, 1001; a body that is free "
+         "from "
+         "the beginning has motion = \"dynamic\""},
+        {"PositionBesideKeys",
+         body("shape = \"block\"\nposition = [0, 0, 0]\nmotion = \"keyed\"\n"
+              "keys = [{ frame = 5, position = [0, 0, 0] }]\n"),
+         "bad.toml:13:1: 'keys' cannot stand beside 'position' in [[body]]"},
+        {"ForceOnAStaticBody", body("shape = \"block\"\nmotion = \"static\"\nforce = [1, 0, 0]\n"),
+         "bad.toml:12:9: nothing moves this body, so it has no 'force'"},
+        {"UnknownGroup", body("shape = \"block\"\ngroup = \"props\"\ncollides = [\"porps\"]\n"),
+         "bad.toml:12:13: no body has group = \"porps\"; did you mean 'props'? (known: props)"},
+        {"AsleepAtFirst", body("shape = \"block\"\nstart = \"asleep\"\n"),
+         "bad.toml:11:9: 'start' = \"asleep\" is not supported yet; this version knows only awake"},
+        {"WindWithoutDirection", kBase + "[[force]]\ntype = \"wind\"\nstrength = 3\n",
+         "bad.toml:7:1: a wind needs a 'direction'"},
+        {"FalloffWithoutReach",
+         kBase + "[[force]]\ntype = \"radial\"\nstrength = 3\nfalloff = \"linear\"\n",
+         "bad.toml:10:11: a 'falloff' needs a 'reach'"},
+        {"UnknownForce", kBase + "[[force]]\ntype = \"magnet\"\nstrength = 3\n",
+         "bad.toml:8:8: 'type' must be one of \"wind\", \"radial\", \"vortex\", not \"magnet\""},
+        {"PairOfAnUnknownMaterial", kBase + "[[pair]]\nof = [\"wood\", \"wod\"]\nfriction = 0.1\n",
+         "bad.toml:8:15: no [material.wod] in the shot; did you mean 'wood'? (known: wood)"},
+        {"PairOfThree", kBase + "[[pair]]\nof = [\"wood\"]\nfriction = 0.1\n",
+         "bad.toml:8:6: 'of' must name two materials, like [\"steel\", \"wood\"]"},
+        {"PairWithoutAWord", kBase + "[[pair]]\nof = [\"wood\", \"wood\"]\n",
+         "bad.toml:7:1: [[pair]] says neither 'friction' nor 'restitution'"},
+        {"UnknownRule", kHead + "[solver]\ncombine = { friction = \"maxi\" }\n",
+         "bad.toml:5:24: 'friction' must be one of \"min\", \"max\", \"mean\", \"geometric\", "
+         "\"multiply\", not \"maxi\"; did you mean 'max'?"},
         {"Emitter", kHead + "[[emitter]]\nname = \"e\"\n",
          "bad.toml:4:1: [[emitter]] lacks 'shape': text in quotes, or a list of such texts\n"
          "bad.toml:4:1: [[emitter]] lacks 'material': text in quotes\n"
@@ -148,8 +195,6 @@ std::vector<BadShot> badShots()
          "you mean "
          "'wait'?\n"
          "bad.toml:16:8: 'tilt' must be a number from 0 to 180, or \"random\", not 200"},
-        {"Extends", "extends = \"base.toml\"\n" + kHead,
-         "bad.toml:1:1: 'extends' in the shot is not supported yet by this version"},
         {"NegativeRollingFriction", kHead + "[material.wood]\nrolling_friction = -0.1\n",
          "bad.toml:5:20: 'rolling_friction' must be a number of at least 0, not -0.1"},
         {"MisspeltRollingFriction", kHead + "[material.wood]\nroling_friction = 0.1\n",
@@ -175,6 +220,10 @@ std::vector<BadShot> badShots()
         {"ExactShapeOfNoKnownKind", kHead + "[shape.ball]\nsphere = {}\ncollide = \"exakt\"\n",
          "bad.toml:6:11: 'collide' must be one of \"mesh\", \"exact\", not \"exakt\"; did you mean "
          "'exact'?"},
+        {"ExtendsANumber", "extends = 3\n" + kHead,
+         "bad.toml:1:11: 'extends' must be text in quotes, not 3"},
+        {"ExtendsItself", "extends = \"bad.toml\"\n" + kHead,
+         "bad.toml:1:11: 'extends' goes round in a circle: \"bad.toml\" extends this shot"},
         {"Sleep", kHead + "[solver]\nsleep = true\n",
          "bad.toml:5:1: 'sleep' in [solver] is not supported yet by this version"},
         {"Contacts", kHead + "[output]\ncontacts = true\n",
@@ -342,12 +391,14 @@ TEST(ShotErrors, ProblemsOfAPoseFileAreLocatedInThatFile)
         parseShotText(body("shape = \"block\"\nposes = \"b.poses\"\nmotion = 1\n"), shot);
         FAIL() << "nothing was thrown";
     } catch (const Error& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  shot + ":12:10: 'motion' must be one of \"dynamic\", \"static\", not 1\n" +  //
-                      poses + ":3:1: the line has 6 numbers; expected 7: x y z qw qx qy qz\n" +
-                      poses + ":4:5: 'zero' is not a finite number\n" +  //
-                      poses + ":5:8: the orientation qw qx qy qz is zero\n" + poses +
-                      ":6:3: 'inf' is not a finite number");
+        EXPECT_EQ(
+            std::string(error.what()),
+            shot +
+                ":12:10: 'motion' must be one of \"dynamic\", \"static\", \"keyed\", not 1\n" +  //
+                poses + ":3:1: the line has 6 numbers; expected 7: x y z qw qx qy qz\n" + poses +
+                ":4:5: 'zero' is not a finite number\n" +  //
+                poses + ":5:8: the orientation qw qx qy qz is zero\n" + poses +
+                ":6:3: 'inf' is not a finite number");
     }
 }
 
@@ -378,7 +429,8 @@ TEST(ShotErrors, BadOverridesNameTheirOwnText)
     EXPECT_EQ(message("body.b=3"),
               "--set body.b=3: 'b' is a whole [body]; name one of its keys: name, shape, plane, "
               "material, motion, position, rotation, orientation, velocity, spin, mass, grid, "
-              "poses");
+              "poses, force, torque, group, collides, unmoved_by, start, keys, interpolate, "
+              "release");
     EXPECT_EQ(message("solver.sleep=true"),
               "--set solver.sleep=true: 'sleep' is not supported yet by this version");
     EXPECT_EQ(message("shot.fps.x=1"), "--set shot.fps.x=1: 'fps' has no keys of its own");

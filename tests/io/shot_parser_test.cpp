@@ -307,7 +307,7 @@ TEST(ShotSchema, ExplanationsTellTypeRangeUnitDefaultAndMeaning)
     EXPECT_EQ(explainKey("contact_iterations"), text);
     EXPECT_EQ(explainKey("material.wood.friction"), explainKey("material.friction"));
     EXPECT_EQ(explainKey("material.mesh.friction"), explainKey("material.friction"));
-    EXPECT_NE(explainKey("body.keys").find("not supported yet"), std::string::npos);
+    EXPECT_NE(explainKey("output.contacts").find("not supported yet"), std::string::npos);
     EXPECT_NE(explainKey("solver.substeps").find("Keys: min, max, safety."), std::string::npos);
 }
 
@@ -325,9 +325,10 @@ TEST(ShotSchema, AnUnknownKeyIsAnsweredWithTheNearest)
               "no key 'solver.contact_iteration' in shot files; did you mean "
               "'solver.contact_iterations'?");
     EXPECT_EQ(message("frictoin"), "no key 'frictoin' in shot files; did you mean 'friction'?");
-    EXPECT_EQ(message("qqqqqqqqqqqq"),
-              "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, shot, solver, "
-              "material, shape, body, import, emitter, camera, render, output");
+    EXPECT_EQ(
+        message("qqqqqqqqqqqq"),
+        "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, extends, shot, "
+        "solver, material, shape, body, force, pair, import, emitter, camera, render, output");
 }
 
 TEST(NearestWord, ForgivesSlipsButNotOtherWords)

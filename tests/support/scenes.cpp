@@ -1,8 +1,10 @@
 #include "tests/support/scenes.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
+#include "core/dynamics/integrator.h"
 #include "core/geometry/primitives.h"
 
 namespace scree::test {
@@ -70,6 +72,34 @@ BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId mate
     definition.angularVelocity = angularVelocity;
     if (mass > 0.0) definition.mass = mass;
     return world.addBody(definition);
+}
+
+Vec3 angularVelocityOf(const World& world, BodyId body)
+{
+    return angularVelocity(world.motion[body], world.mass[body]);
+}
+
+double largestVertexShift(const World& before, const World& after, BodyId body)
+{
+    const Points& points = after.shapeOf(body).assetMesh.points;
+    double largest = 0.0;
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+        const Vec3 p = points.col(v);
+        largest = std::max(
+            largest, (after.worldFromAsset(body) * p - before.worldFromAsset(body) * p).norm());
+    }
+    return largest;
+}
+
+double totalEnergy(const World& world, const StepSettings& settings)
+{
+    double energy = 0.0;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (!world.mass[b].isMovable()) continue;
+        energy += kineticEnergy(world.motion[b], world.mass[b]);
+        energy -= settings.gravity.dot(world.motion[b].position) / world.mass[b].inverseMass;
+    }
+    return energy;
 }
 
 }  // namespace scree::test

@@ -1,4 +1,5 @@
-// Small worlds for tests of a part of the method; the experiments themselves are in tools/verify.
+// Small worlds for tests of a part of the method, and what is measured of them; the experiments
+// themselves are in tools/verify.
 #pragma once
 
 #include <memory>
@@ -32,5 +33,13 @@ std::shared_ptr<const Shape> exactCylinder(double radius, double height);
 BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
                const Pose& worldFromAsset, double mass = 1.0, const Vec3& velocity = Vec3::Zero(),
                const Vec3& angularVelocity = Vec3::Zero());
+
+Vec3 angularVelocityOf(const World& world, BodyId body);
+
+/// Largest displacement of any vertex of the body between two worlds [m].
+double largestVertexShift(const World& before, const World& after, BodyId body);
+
+/// Kinetic plus potential energy of all movable bodies [J].
+double totalEnergy(const World& world, const StepSettings& settings);
 
 }  // namespace scree::test

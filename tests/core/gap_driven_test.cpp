@@ -1,0 +1,203 @@
+// Method `scree` and what drives bodies: keyed motion, forces, groups, pairs of materials, births.
+// [A27, A54, A56, A57]
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/dynamics/births.h"
+#include "core/dynamics/stepper.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kDt = 1.0 / 48.0;
+
+StepSettings gapSettings()
+{
+    StepSettings settings = experimentSettings();
+    settings.method = Method::scree;
+    return settings;
+}
+
+BodyId addKeyed(World& world, const Vec3& size, MaterialId material,
+                const std::vector<MotionKey>& keys)
+{
+    BodyDefinition definition;
+    definition.name = "keyed";
+    definition.shape = world.addShape(boxShape(size, 2));
+    definition.material = material;
+    definition.kind = BodyKind::keyed;
+    definition.script = std::make_shared<MotionScript>(keys, KeyInterpolation::linear);
+    return world.addBody(definition);
+}
+
+/// Frames of kDt, the clock moved on.
+void runFrames(World& world, const StepSettings& settings, double seconds)
+{
+    Stepper stepper(settings);
+    for (int k = 0; k < std::lround(seconds / kDt); ++k) stepper.advanceFrame(world, kDt);
+}
+
+TEST(GapKeyed, APusherDrivesABoxBeforeItWithItsOwnSpeed)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.3, 0.0);
+    addPlane(world, material);
+    const BodyId pusher = addKeyed(
+        world, Vec3::Ones(), material,
+        {{0.0, {{-1.5, 0.6, 0.0}, Quat::Identity()}}, {2.0, {{2.5, 0.6, 0.0}, Quat::Identity()}}});
+    const BodyId box =
+        addBody(world, boxShape(Vec3::Ones(), 2), material, {{0.0, 0.5, 0.0}, Quat::Identity()});
+    runFrames(world, gapSettings(), 1.0);
+    EXPECT_NEAR(world.motion[pusher].position.x(), 0.5, 1e-12);  // on its script
+    // Face on face, 1 m from centre to centre. The overlap that is left alone is 1e-4 of a radius.
+    EXPECT_NEAR(world.motion[box].position.x() - world.motion[pusher].position.x(), 1.0, 2e-4);
+    EXPECT_NEAR(world.motion[box].velocity.x(), 2.0, 1e-3);
+}
+
+TEST(GapKeyed, ALiftCarriesABoxWithoutLagOrSinking)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const BodyId lift = addKeyed(
+        world, {2.0, 0.2, 2.0}, material,
+        {{0.0, {{0.0, -0.1, 0.0}, Quat::Identity()}}, {2.0, {{0.0, 2.9, 0.0}, Quat::Identity()}}});
+    const BodyId box =
+        addBody(world, boxShape(Vec3::Ones(), 2), material, {{0.0, 0.5, 0.0}, Quat::Identity()});
+    Stepper stepper(gapSettings());
+    for (int k = 0; k < 72; ++k) {
+        stepper.advanceFrame(world, kDt);
+        // The gap closes to zero within each step; what is left is that of the sweeps.
+        ASSERT_NEAR(world.motion[box].position.y() - world.motion[lift].position.y(), 0.6, 1e-6)
+            << k;
+    }
+}
+
+TEST(GapKeyed, ATurntableTakesABoxRoundWithIt)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const double spin = 1.5;
+    std::vector<MotionKey> keys;
+    for (int k = 0; k <= 4; ++k) {
+        keys.push_back({0.5 * k, {{0.0, -0.1, 0.0}, exponentialMap({0.0, 0.5 * k * spin, 0.0})}});
+    }
+    const BodyId table = addKeyed(world, {3.0, 0.2, 3.0}, material, keys);
+    const Vec3 start(1.0, 0.1, 0.0);
+    const BodyId box =
+        addBody(world, boxShape(Vec3::Constant(0.2), 2), material, {start, Quat::Identity()}, 8.0,
+                Vec3(0.0, spin, 0.0).cross(start), {0.0, spin, 0.0});
+    const auto placeOnTable = [&] {
+        return Vec3(inverse(world.motion[table].worldFromBody()) * world.motion[box].position);
+    };
+    const Vec3 before = placeOnTable();
+    runFrames(world, gapSettings(), 1.0);
+    // Held by friction: m w² r = 18 N of 39 N. A step goes along the tangent and so leads outward
+    // by (w dt)²/2 of the radius: 0.023 m in a second.
+    EXPECT_LE((placeOnTable() - before).norm(), 0.03);
+    EXPECT_GT(world.motion[box].position.z(), -1.05);
+    EXPECT_LT(world.motion[box].position.z(), -0.9);  // a turn of 1.5 rad
+}
+
+/// A cube of 1 kg on the floor in no gravity, pressed on it by 30 N and pulled sideways.
+World pressedCube(double sideways)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 1.0);
+    addPlane(world, material);
+    const BodyId body =
+        addBody(world, boxShape(Vec3::Ones(), 2), material, {{0.0, 0.5, 0.0}, Quat::Identity()});
+    world.info[body].force = {sideways, -30.0, 0.0};
+    return world;
+}
+
+StepSettings weightless()
+{
+    StepSettings settings = gapSettings();
+    settings.gravity.setZero();
+    return settings;
+}
+
+TEST(GapForces, FrictionHoldsAPressedBodyUpToCoulombsLimit)
+{
+    World held = pressedCube(14.0);  // friction holds 15 N
+    const World before = held;
+    runFrames(held, weightless(), 1.0);
+    EXPECT_LE(largestVertexShift(before, held, 1), 1e-6);  // of the sweeps
+
+    World pulled = pressedCube(20.0);
+    runFrames(pulled, weightless(), 0.5);
+    EXPECT_NEAR(pulled.motion[1].velocity.x(), (20.0 - 15.0) * 0.5, 1e-3);
+}
+
+TEST(GapForces, AFreeBodyUnderAForceFliesAParabolaAndATorqueSpinsItUp)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const BodyId body =
+        addBody(world, boxShape(Vec3::Ones(), 1), material, {Vec3::Zero(), Quat::Identity()}, 4.0);
+    world.info[body].force = {8.0, 0.0, -2.0};
+    world.info[body].torque = {0.0, 0.3, 0.0};
+    runFrames(world, weightless(), 1.0);
+    // Exact ballistics: rounding only.
+    EXPECT_LE((world.motion[body].position - Vec3(1.0, 0.0, -0.25)).norm(), 1e-12);
+    EXPECT_LE((world.motion[body].velocity - Vec3(2.0, 0.0, -0.5)).norm(), 1e-12);
+    EXPECT_LE((world.motion[body].angularMomentum - Vec3(0.0, 0.3, 0.0)).norm(), 1e-12);
+    // I = m/6 about any axis of the cube: half of 0.3 / (4/6) radians in a second.
+    const Quat turned = exponentialMap({0.0, 0.5 * 0.3 * 6.0 / 4.0, 0.0});
+    EXPECT_LE(world.motion[body].orientation.angularDistance(turned), 1e-7);  // acos near 1
+}
+
+TEST(GapPairs, GroupsThatDoNotCollidePassThroughEachOther)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    for (int i = 0; i < 2; ++i) {
+        addBody(world, boxShape(Vec3::Ones(), 2), material,
+                {{3.0 * i, 1.0, 0.0}, Quat::Identity()});
+    }
+    world.info[2].groups.group = 2;
+    world.info[2].groups.collidesWith = 2;
+    runFrames(world, gapSettings(), 1.0);
+    EXPECT_NEAR(world.motion[1].position.y(), 0.5, 1e-6);
+    EXPECT_LT(world.motion[2].position.y(), -3.0);
+}
+
+TEST(GapPairs, AnExceptionForTwoMaterialsReplacesTheRule)
+{
+    World world;
+    const MaterialId rough = addMaterial(world, 0.5, 0.0), ice = addMaterial(world, 0.5, 0.0);
+    world.materialPairs.push_back({ice, rough, 0.0, std::nullopt});
+    addPlane(world, rough);
+    for (const MaterialId material : {rough, ice}) {
+        addBody(world, boxShape(Vec3::Ones(), 2), material,
+                {{0.0, 0.5, 3.0 * material}, Quat::Identity()}, 1.0, Vec3::UnitX());
+    }
+    runFrames(world, gapSettings(), 0.5);
+    EXPECT_NEAR(world.motion[1].velocity.x(), 0.0, 1e-6);
+    EXPECT_NEAR(world.motion[2].velocity.x(), 1.0, 1e-6);
+}
+
+TEST(GapBirths, NothingMeetsABodyBeforeItsBirth)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    BodyDefinition later;
+    later.name = "later";
+    later.shape = world.addShape(boxShape(Vec3::Ones(), 2));
+    later.material = material;
+    later.worldFromAsset.position = {0.0, 0.5, 0.0};
+    later.birth = {1000, BirthClearance::wait};
+    world.addBody(later);
+    const BodyId falling =
+        addBody(world, boxShape(Vec3::Ones(), 2), material, {{0.0, 2.0, 0.0}, Quat::Identity()});
+    runFrames(world, gapSettings(), 1.0);
+    EXPECT_NEAR(world.motion[falling].position.y(), 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace scree::test
