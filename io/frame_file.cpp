@@ -227,6 +227,36 @@ void addState(FrameEncoder& encoder, const FrameState& state)
     if (!state.bornAt.empty()) encoder.add("body.born_at", 1, state.bornAt);
 }
 
+/// Nothing at all for method `paper`, which remembers nothing.
+void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
+{
+    if (memory.dt == 0.0) return;
+    std::vector<std::int32_t> bodies, still;
+    std::vector<std::int64_t> features;
+    std::vector<double> place, force, position, orientation, pull;
+    for (const RememberedContact& contact : memory.contacts) {
+        bodies.insert(bodies.end(), {contact.a, contact.b});
+        features.push_back(std::bit_cast<std::int64_t>(contact.feature));
+        append(place, contact.place);
+        append(force, contact.force);
+    }
+    for (const BodyRest& rest : memory.rest) {
+        still.insert(still.end(), {rest.stillFrames, rest.isAsleep});
+        append(position, rest.position);
+        append(orientation, rest.orientation);
+        append(pull, rest.pull);
+    }
+    encoder.add<double>("memory.dt", 1, {memory.dt});
+    encoder.add("memory.bodies", 2, bodies);
+    encoder.add("memory.feature", 1, features);
+    encoder.add("memory.place", 3, place);
+    encoder.add("memory.force", 3, force);
+    encoder.add("rest.still", 2, still);
+    encoder.add("rest.position", 3, position);
+    encoder.add("rest.orientation", 4, orientation);
+    encoder.add("rest.pull", 3, pull);
+}
+
 /// Poses and velocities of one or more samples, sample after sample.
 void addPoses(FrameEncoder& encoder, const std::string& prefix, std::span<const SceneFrame> samples)
 {
@@ -275,6 +305,34 @@ void readState(const FrameDecoder& decoder, std::uint64_t bodyCount, FrameState&
                            vectorAt(velocity, i), vectorAt(angularMomentum, i)};
 }
 
+void readMemory(const FrameDecoder& decoder, std::uint64_t bodyCount, ContactMemory& memory)
+{
+    if (decoder.rowsOf("memory.dt") == 0) return;
+    memory.dt = decoder.read<double>("memory.dt", 1, 1)[0];
+    const std::uint64_t contacts = decoder.rowsOf("memory.feature");
+    const auto bodies = decoder.read<std::int32_t>("memory.bodies", contacts, 2);
+    const auto features = decoder.read<std::int64_t>("memory.feature", contacts, 1);
+    const auto place = decoder.read<double>("memory.place", contacts, 3);
+    const auto force = decoder.read<double>("memory.force", contacts, 3);
+    for (std::size_t i = 0; i < contacts; ++i) {
+        const std::int32_t a = bodies[2 * i], b = bodies[2 * i + 1];
+        const auto count = static_cast<std::int64_t>(bodyCount);
+        if (a < 0 || b < 0 || a >= count || b >= count)
+            decoder.fail("a remembered contact is of a body that does not exist");
+        memory.contacts.push_back({a, b, std::bit_cast<std::uint64_t>(features[i]),
+                                   vectorAt(place, i), vectorAt(force, i)});
+    }
+    if (decoder.rowsOf("rest.still") == 0) return;
+    const auto still = decoder.read<std::int32_t>("rest.still", bodyCount, 2);
+    const auto position = decoder.read<double>("rest.position", bodyCount, 3);
+    const auto orientation = decoder.read<double>("rest.orientation", bodyCount, 4);
+    const auto pull = decoder.read<double>("rest.pull", bodyCount, 3);
+    for (std::size_t i = 0; i < bodyCount; ++i) {
+        memory.rest.push_back({vectorAt(position, i), quaternionAt(orientation, i),
+                               vectorAt(pull, i), still[2 * i], still[2 * i + 1] != 0});
+    }
+}
+
 void readPoses(const FrameDecoder& decoder, const std::string& prefix, std::uint64_t bodyCount,
                std::span<SceneFrame> samples)
 {
@@ -319,6 +377,7 @@ std::string encodeFrame(const FrameState& state)
 
     FrameEncoder encoder;
     addState(encoder, state);
+    addMemory(encoder, state.contactMemory);
     addPoses(encoder, "asset", {&state.scene, 1});
     addBetween(encoder, state.between);
     Header header;
@@ -335,6 +394,7 @@ FrameState decodeFrame(std::string_view bytes, const std::filesystem::path& path
     state.shotHash = decoder.header().shotHash;
     state.scene.frame = static_cast<int>(decoder.header().frame);
     readState(decoder, decoder.header().bodyCount, state);
+    readMemory(decoder, decoder.header().bodyCount, state.contactMemory);
     const std::uint64_t bodyCount = decoder.header().bodyCount;
     readPoses(decoder, "asset", bodyCount, {&state.scene, 1});
     // A frame was reached from the one before; a checkpoint stands behind the frame it left.

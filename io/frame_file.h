@@ -25,6 +25,7 @@ struct FrameState {
     std::vector<BodyMotion> motion;
     std::vector<BodyId> order;
     std::vector<std::int32_t> bornAt;  ///< World::bornAt; empty when all are there from the start
+    ContactMemory contactMemory;       ///< World::contactMemory; empty for method `paper`
     SceneFrame scene;
     std::vector<SceneFrame> between;  ///< on the way here since the frame before: its number,
                                       ///< offsets ascending in 0 … 1

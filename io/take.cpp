@@ -110,6 +110,7 @@ FrameState captureState(const Shot& shot, const World& world, std::vector<SceneF
     state.motion = world.motion;
     state.order = world.order;
     if (!world.births.empty()) state.bornAt = world.bornAt;
+    state.contactMemory = world.contactMemory;
     state.scene = captureFrame(shot, world);
     state.scene.frame = shot.firstFrame + static_cast<int>(world.clock.frame);
     state.between = std::move(between);
@@ -124,6 +125,7 @@ void restoreState(World& world, const FrameState& state)
     world.clock = state.clock;
     // Who is keyed and who is free follows from the clock; the next step begins with it.
     SCREE_CHECK(state.bornAt.empty() == world.births.empty(), "the state is of another world");
+    world.contactMemory = state.contactMemory;
     if (!state.bornAt.empty()) world.restoreBirths(state.bornAt);
 }
 

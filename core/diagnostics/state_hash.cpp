@@ -23,6 +23,13 @@ std::uint64_t stateHash(const World& world)
     if (!world.births.empty()) {
         hash = hashBytes(world.bornAt.data(), world.bornAt.size() * sizeof(std::int32_t), hash);
     }
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        hash = hashBytes(contact.force.data(), sizeof(Vec3), hash);
+    }
+    for (const BodyRest& rest : world.contactMemory.rest) {
+        const std::array<std::int32_t, 2> still = {rest.stillFrames, rest.isAsleep};
+        hash = hashBytes(still.data(), sizeof still, hash);
+    }
     const std::array<std::int64_t, 2> steps = {world.clock.frame, world.clock.subStep};
     hash = hashBytes(steps.data(), sizeof steps, hash);
     return hashBytes(&world.clock.frameTimeDone, sizeof(double), hash);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/dynamics/disjoint_sets.h"
 
 namespace scree {
 namespace {
@@ -50,29 +51,6 @@ void depthFirst(const Adjacency& graph, std::uint32_t root, std::vector<char>& s
         stack.push_back({next, graph.start[next]});
     }
 }
-
-/// Representative of a set of bodies; the lowest index stands for the set.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t count) : parent_(count)
-    {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-    std::size_t find(std::size_t x)
-    {
-        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-        return x;
-    }
-    void join(std::size_t a, std::size_t b)
-    {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::size_t> parent_;
-};
 
 /// Cuts one level's pairs into islands. Islands keep the order of their first pairs.
 void cutIntoIslands(const World& world, const StepScratch& scratch, ContactLevel& level)

@@ -19,13 +19,19 @@ constexpr int kSweeps = 8;
 
 void writeVelocities(World& world, double dt, const GapScratch& scratch)
 {
+    const auto isStepped = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        if (!world.mass[i].isMovable()) continue;
+        if (!isStepped(static_cast<BodyId>(i))) continue;
         world.motion[i].velocity = scratch.bodies[i].velocity;
         world.motion[i].angularMomentum += scratch.bodies[i].angularImpulse;
     }
-    world.contactMemory.contacts.clear();
-    world.contactMemory.dt = dt;
+    // What holds sleepers is remembered for when they wake.
+    std::vector<RememberedContact> kept;
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        const bool sleeps =
+            world.contactMemory.isAsleep(contact.a) || world.contactMemory.isAsleep(contact.b);
+        if (sleeps && !isStepped(contact.a) && !isStepped(contact.b)) kept.push_back(contact);
+    }
     for (const GapPair& pair : scratch.pairs) {
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
@@ -33,16 +39,19 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
             const Vec3 impulse = row.worldImpulse();
             // What changes the angular momentum is the impulse itself: a product with an inertia
             // and its inverse would lose bits every step.
-            if (world.mass[row.a].isMovable())
-                world.motion[row.a].angularMomentum += row.rA.cross(impulse);
-            if (world.mass[row.b].isMovable())
-                world.motion[row.b].angularMomentum -= row.rB.cross(impulse);
+            if (isStepped(row.a)) world.motion[row.a].angularMomentum += row.rA.cross(impulse);
+            if (isStepped(row.b)) world.motion[row.b].angularMomentum -= row.rB.cross(impulse);
             const Quat aFromWorld = world.motion[row.a].orientation.conjugate();
-            world.contactMemory.contacts.push_back({row.a, row.b,
-                                                    pair.contacts[r - pair.begin].feature,
-                                                    aFromWorld * row.rA, impulse});
+            kept.push_back({row.a, row.b, pair.contacts[r - pair.begin].feature,
+                            aFromWorld * row.rA, impulse / dt});
         }
     }
+    std::stable_sort(kept.begin(), kept.end(),
+                     [](const RememberedContact& p, const RememberedContact& q) {
+                         return p.a < q.a || (p.a == q.a && p.b < q.b);
+                     });
+    world.contactMemory.contacts = std::move(kept);
+    world.contactMemory.dt = dt;
 }
 
 void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
@@ -51,7 +60,7 @@ void moveBodies(World& world, const StepSettings& settings, double dt, GapScratc
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         BodyMotion& motion = world.motion[i];
         GapBody& body = scratch.bodies[i];
-        if (world.mass[i].isMovable()) {
+        if (body.inverseMass > 0.0) {
             motion.position += body.shift;
             motion.orientation = rotated(motion.orientation, body.turn);
         }

@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/integrator.h"
+#include "core/dynamics/sleep.h"
 
 namespace scree {
 namespace {
@@ -18,9 +19,8 @@ constexpr double kLeastReach = 2e-4;
 /// over an impulse although its features have changed.
 constexpr double kSamePlace = 0.05;
 
-void readBodies(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+void readBodies(const World& world, GapScratch& scratch)
 {
-    findForces(world, settings, dt, scratch.forces);
     scratch.bodies.resize(world.bodyCount());
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const PassInertia inertia = passInertia(world.mass[i], world.motion[i].orientation);
@@ -32,6 +32,11 @@ void readBodies(const World& world, const StepSettings& settings, double dt, Gap
         body.pull = scratch.forces[i].acceleration;
         body.torque = scratch.forces[i].torque;
         body.angularImpulse = body.shift = body.turn = Vec3::Zero();
+        if (!world.contactMemory.isAsleep(static_cast<BodyId>(i))) continue;
+        // Who sleeps is a fixed body to all others.
+        body.inverseMass = 0.0;
+        body.inverseInertia.setZero();
+        body.pull = body.torque = Vec3::Zero();
     }
 }
 
@@ -78,7 +83,12 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
     }
     std::vector<BodyPair>& found = scratch.candidates;
     found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
-    std::erase_if(found, [&](BodyPair pair) { return !mayCollide(world, pair); });
+    std::erase_if(found, [&](BodyPair pair) {
+        const bool isMoved = scratch.bodies[pair.a].inverseMass > 0.0 ||
+                             scratch.bodies[pair.b].inverseMass > 0.0 ||
+                             isDriven(scratch.bodies[pair.a]) || isDriven(scratch.bodies[pair.b]);
+        return !isMoved || !mayCollide(world, pair);
+    });
 
     // Both lists are sorted: pairs that stay keep what they know.
     std::vector<GapPair> pairs(found.size());
@@ -101,7 +111,7 @@ Vec3 anyTangent(const Vec3& normal)
 
 /// Hands the remembered impulses of one pair to its rows: by feature, and what is left to the
 /// nearest row that got none.
-void warmStart(const World& world, double scale, const RememberedContact* begin,
+void warmStart(const World& world, double dt, const RememberedContact* begin,
                const RememberedContact* end, GapRow* firstRow, GapRow* lastRow,
                const std::vector<GapContact>& contacts)
 {
@@ -113,7 +123,7 @@ void warmStart(const World& world, double scale, const RememberedContact* begin,
     isGiven.assign(static_cast<std::size_t>(lastRow - firstRow), 0);
     const auto give = [&](std::size_t r, std::size_t m) {
         GapRow& row = firstRow[r];
-        const Vec3 impulse = scale * begin[m].impulse;
+        const Vec3 impulse = dt * begin[m].force;
         row.impulse = {std::max(impulse.dot(row.normal), 0.0), impulse.dot(row.tangent),
                        impulse.dot(row.secondTangent())};
         isTaken[m] = isGiven[r] = 1;
@@ -177,25 +187,37 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
     row.slideMass = 1.0 / (0.5 * (tt + ss) + std::sqrt(half * half + ts * ts));
 }
 
+void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+{
+    findForces(world, settings, dt, scratch.forces);
+    wakeByForces(world, scratch.forces);
+    do {
+        readBodies(world, scratch);
+        findGapPairs(world, dt, scratch);
+        parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                GapPair& pair = scratch.pairs[i];
+                pair.contacts.clear();
+                const auto [a, b] = pair.bodies;
+                const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
+                                        world.motion[a].worldFromBody(),
+                                        world.motion[b].worldFromBody()};
+                pair.near.findContacts(placed, reachOf(world, scratch, pair.bodies, dt),
+                                       pair.contacts);
+            }
+        });
+    } while (wakeByTouch(world, dt, scratch));
+}
+
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
-    readBodies(world, settings, dt, scratch);
-    findGapPairs(world, dt, scratch);
-    parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            GapPair& pair = scratch.pairs[i];
-            pair.contacts.clear();
-            const auto [a, b] = pair.bodies;
-            const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
-                                    world.motion[a].worldFromBody(),
-                                    world.motion[b].worldFromBody()};
-            pair.near.findContacts(placed, reachOf(world, scratch, pair.bodies, dt), pair.contacts);
-        }
-    });
-
     std::size_t count = 0;
     scratch.order.clear();
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        // A keyed body beside a sleeping one moves nothing.
+        if (scratch.bodies[a].inverseMass == 0.0 && scratch.bodies[b].inverseMass == 0.0)
+            scratch.pairs[i].contacts.clear();
         scratch.pairs[i].begin = count;
         count += scratch.pairs[i].contacts.size();
         scratch.pairs[i].end = count;
@@ -204,7 +226,6 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
     scratch.rows.resize(count);
 
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
-    const double scale = world.contactMemory.dt > 0.0 ? dt / world.contactMemory.dt : 0.0;
     parallelFor(scratch.order.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t place = begin; place < end; ++place) {
             const GapPair& pair = scratch.pairs[scratch.order[place]];
@@ -234,7 +255,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                 prepareRow(scratch, row);
             }
             if (known.first == known.second) continue;
-            warmStart(world, scale, &*known.first, &*known.first + (known.second - known.first),
+            warmStart(world, dt, &*known.first, &*known.first + (known.second - known.first),
                       &scratch.rows[pair.begin],
                       &scratch.rows[pair.begin] + (pair.end - pair.begin), pair.contacts);
         }

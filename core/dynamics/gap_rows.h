@@ -67,9 +67,18 @@ struct GapScratch {
     std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top
 };
 
-/// Finds all contacts that may close within dt and lays them out as rows, with the impulses that
+/// Finds all contacts that may close within dt. Wakes what they are about to disturb.
+void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch);
+
+/// Lays the contacts out as rows, with the impulses that
 /// the world remembers. Keyed bodies must have been aimed.
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
+
+/// Cannot be moved by impulses, and moves.
+inline bool isDriven(const GapBody& body)
+{
+    return body.inverseMass == 0.0 && !(body.velocity.isZero(0.0) && body.spin.isZero(0.0));
+}
 
 /// Bounding radius of the smaller body of a pair [m].
 double smallerRadius(const World& world, BodyId a, BodyId b);

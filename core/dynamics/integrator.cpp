@@ -67,6 +67,7 @@ void advancePositions(World& world, const StepSettings& settings, double dt)
 {
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         const auto body = static_cast<BodyId>(b);
+        if (world.contactMemory.isAsleep(body)) continue;
         BodyMotion& motion = world.motion[b];
         const Pose next = poseAfter(world, settings, body, dt);
         const bool isKeyed = world.info[b].kind == BodyKind::keyed;

@@ -45,6 +45,7 @@ struct StepSettings {
     Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
     std::uint64_t seed = 1;            ///< of the order of processing
     Method method = Method::paper;
+    bool sleep = true;  ///< of method `scree`: what no step moves is not stepped
 
     int collisionIterations = 5;     ///< sweeps over pairs [-]; too few: fast heaps overlap
     int collisionPairImpulses = 20;  ///< per visit of a pair [-]

@@ -17,6 +17,7 @@
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
+#include "core/dynamics/sleep.h"
 #include "core/dynamics/step_limit.h"
 
 namespace scree {
@@ -133,7 +134,7 @@ void describeState(const World& world, const Vec3& gravity, FrameReport& report)
     report.potentialEnergy = potentialEnergy(world, gravity);
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         if (!world.mass[b].isMovable()) continue;
-        ++report.bodiesAwake;
+        if (!world.contactMemory.isAsleep(static_cast<BodyId>(b))) ++report.bodiesAwake;
         report.kineticEnergy += kineticEnergy(world.motion[b], world.mass[b]);
         const BodyMotion& motion = world.motion[b];
         const Vec3 momentum = motion.velocity / world.mass[b].inverseMass;
@@ -233,6 +234,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     aimKeyedBodies(world, dt);
     {
         const PhaseTimer timer(report, Phase::contactGraph);
+        findGaps(world, settings_, dt, scratch);
         buildRows(world, settings_, dt, scratch);
     }
     // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
@@ -306,6 +308,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         const bool isLast = length.dt == remaining;
         if (afterStep) afterStep(world, isLast ? frameDuration : world.clock.frameTimeDone);
         if (isLast) {
+            if (settings_.method == Method::scree && settings_.sleep) fallAsleep(world, *gaps_);
             world.clock = {world.clock.frame + 1, 0, 0.0};
             frame.births = giveBirths(world);
             break;

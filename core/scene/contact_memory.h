@@ -1,5 +1,5 @@
-// What method `scree` remembers of its contacts from one step to the next. It is state: a resumed
-// run that had forgotten it would not go on to the same bits.
+// What method `scree` remembers from one step to the next: the forces in its contacts, and who lies
+// still. It is state: a resumed run that had forgotten it would not go on to the same bits.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,32 @@
 
 namespace scree {
 
-/// The impulse that a place of contact needed in the last step. What held a heap then holds it now.
+/// The force that a place of contact needed in the last step. What held a heap then holds it now.
 struct RememberedContact {
     BodyId a = 0, b = 0;
-    std::uint64_t feature = 0;    ///< near_features.h
-    Vec3 place = Vec3::Zero();    ///< in A's object frame [m]
-    Vec3 impulse = Vec3::Zero();  ///< on A, world [N s]
+    std::uint64_t feature = 0;  ///< near_features.h
+    Vec3 place = Vec3::Zero();  ///< in A's object frame [m]
+    Vec3 force = Vec3::Zero();  ///< on A, world [N]
+};
+
+/// Since when a body has not moved, and whether it sleeps.
+struct BodyRest {
+    Vec3 position = Vec3::Zero();         ///< where it was when it was last seen to move [m]
+    Quat orientation = Quat::Identity();  ///< likewise
+    Vec3 pull = Vec3::Zero();             ///< what acted on it when it fell asleep [m/s²]
+    std::int32_t stillFrames = 0;
+    bool isAsleep = false;
 };
 
 struct ContactMemory {
     std::vector<RememberedContact> contacts;  ///< sorted by bodies
-    double dt = 0.0;  ///< of the step that wrote it [s]; 0: nothing is known
+    std::vector<BodyRest> rest;               ///< per body; empty before the first frame
+    double dt = 0.0;                          ///< of the last step [s]; 0: there was none
+
+    bool isAsleep(BodyId body) const
+    {
+        return !rest.empty() && rest[static_cast<std::size_t>(body)].isAsleep;
+    }
 };
 
 }  // namespace scree

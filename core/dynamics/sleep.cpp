@@ -1,0 +1,129 @@
+#include "core/dynamics/sleep.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/dynamics/disjoint_sets.h"
+
+namespace scree {
+namespace {
+
+/// A body that stays within this share of its size of one place is still: an eighth of a millimetre
+/// on a ring of 2.5 m. A domino at the point of falling passes it within a few frames.
+constexpr double kStill = 1e-4;
+constexpr std::int32_t kStillFrames = 12;
+
+bool isStepped(const World& world, BodyId body)
+{
+    return world.mass[body].isMovable() && !world.contactMemory.isAsleep(body);
+}
+
+/// Upper bound of how far a point of the body has come from where it was.
+double travelled(const World& world, BodyId body, const BodyRest& rest)
+{
+    const BodyMotion& motion = world.motion[body];
+    const double turned = 2.0 * (motion.orientation * rest.orientation.conjugate()).vec().norm();
+    return (motion.position - rest.position).norm() + turned * world.shapeOf(body).boundingRadius;
+}
+
+/// Wakes every sleeping body that lies with one of `roots`, through contacts that carried.
+void wakeWith(World& world, std::vector<BodyId> roots)
+{
+    DisjointSets sets(world.bodyCount());
+    const ContactMemory& memory = world.contactMemory;
+    for (const RememberedContact& contact : memory.contacts) {
+        if (memory.isAsleep(contact.a) && memory.isAsleep(contact.b)) {
+            sets.join(static_cast<std::size_t>(contact.a), static_cast<std::size_t>(contact.b));
+        }
+    }
+    std::vector<char> wakes(world.bodyCount(), 0);
+    for (BodyId root : roots) wakes[sets.find(static_cast<std::size_t>(root))] = 1;
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        BodyRest& rest = world.contactMemory.rest[i];
+        if (!rest.isAsleep || !wakes[sets.find(i)]) continue;
+        rest.isAsleep = false;
+        rest.stillFrames = 0;
+    }
+}
+
+}  // namespace
+
+void fallAsleep(World& world, GapScratch& scratch)
+{
+    std::vector<BodyRest>& rest = world.contactMemory.rest;
+    if (rest.empty()) rest.resize(world.bodyCount());
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (!isStepped(world, body)) continue;
+        if (travelled(world, body, rest[i]) <= kStill * world.shapeOf(body).boundingRadius) {
+            ++rest[i].stillFrames;
+            continue;
+        }
+        rest[i].position = world.motion[i].position;
+        rest[i].orientation = world.motion[i].orientation;
+        rest[i].stillFrames = 0;
+    }
+
+    // A set sleeps when all of it is still and nothing that moves by a script carries it.
+    DisjointSets sets(world.bodyCount());
+    std::vector<char> isRestless(world.bodyCount(), 0);
+    for (const GapRow& row : scratch.rows) {
+        if (row.impulse.x() == 0.0) continue;
+        const auto a = static_cast<std::size_t>(row.a), b = static_cast<std::size_t>(row.b);
+        if (isStepped(world, row.a) && isStepped(world, row.b)) sets.join(a, b);
+    }
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        if (isStepped(world, static_cast<BodyId>(i)) && rest[i].stillFrames < kStillFrames)
+            isRestless[sets.find(i)] = 1;
+    }
+    for (const GapRow& row : scratch.rows) {
+        if (row.impulse.x() == 0.0) continue;
+        for (const auto& [carrier, carried] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}}) {
+            if (isDriven(scratch.bodies[carrier]))
+                isRestless[sets.find(static_cast<std::size_t>(carried))] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        if (!isStepped(world, static_cast<BodyId>(i)) || isRestless[sets.find(i)]) continue;
+        rest[i].isAsleep = true;
+        rest[i].pull = scratch.forces[i].acceleration;
+        world.motion[i].velocity = world.motion[i].angularMomentum = Vec3::Zero();
+    }
+}
+
+void wakeByForces(World& world, const std::vector<AppliedForce>& forces)
+{
+    std::vector<BodyId> roots;
+    for (std::size_t i = 0; i < world.contactMemory.rest.size(); ++i) {
+        const BodyRest& rest = world.contactMemory.rest[i];
+        if (rest.isAsleep && rest.pull != forces[i].acceleration) {
+            roots.push_back(static_cast<BodyId>(i));
+        }
+    }
+    if (!roots.empty()) wakeWith(world, std::move(roots));
+}
+
+bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
+{
+    std::vector<BodyId> roots;
+    for (const GapPair& pair : scratch.pairs) {
+        const auto [a, b] = pair.bodies;
+        const bool aSleeps = world.contactMemory.isAsleep(a);
+        if (aSleeps == world.contactMemory.isAsleep(b)) continue;
+        const GapBody& bodyA = scratch.bodies[a];
+        const GapBody& bodyB = scratch.bodies[b];
+        const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
+        for (const GapContact& contact : pair.contacts) {
+            const Vec3 u = bodyA.velocity + dt * bodyA.pull + bodyA.spin.cross(contact.rA) -
+                           bodyB.velocity - dt * bodyB.pull - bodyB.spin.cross(contact.rA + bFromA);
+            if (std::max(contact.gap, 0.0) + dt * u.dot(contact.normal) >= 0.0) continue;
+            roots.push_back(aSleeps ? a : b);
+            break;
+        }
+    }
+    if (roots.empty()) return false;
+    wakeWith(world, std::move(roots));
+    return true;
+}
+
+}  // namespace scree

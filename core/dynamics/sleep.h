@@ -1,0 +1,25 @@
+// Sleep by result: bodies that the full step leaves where they are need not be stepped.
+// [algorithm 14]
+//
+// No velocity decides. A set of touching bodies falls asleep when over kStillFrames frames every
+// one of them has stayed within kStill of its size of one place; it then has exactly no motion, and
+// costs nothing but its box. It wakes as a whole when something comes closer than its gaps allow,
+// when one of its forces changes, or when what it rests on is moved.
+#pragma once
+
+#include "core/dynamics/gap_rows.h"
+
+namespace scree {
+
+/// At the end of a frame: notes who has moved and puts to sleep what has not. `scratch` holds the
+/// rows of the last step.
+void fallAsleep(World& world, GapScratch& scratch);
+
+/// Before a step: wakes what forces no longer leave alone.
+void wakeByForces(World& world, const std::vector<AppliedForce>& forces);
+
+/// Wakes sleeping bodies that an awake or keyed one is about to touch, with all that lies with
+/// them. True when any woke: their own contacts must be found then.
+bool wakeByTouch(World& world, double dt, const GapScratch& scratch);
+
+}  // namespace scree
