@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/gap_levels.h"
 
 namespace scree {
@@ -20,7 +21,7 @@ namespace {
 
 /// Visits of rows that a step may spend beyond its ordinary sweeps: a small problem is solved to
 /// the end, a large one gets the sweeps of the settings.
-constexpr std::size_t kSpareVisits = 60000;
+constexpr std::size_t kSpareVisits = 30000;
 constexpr int kMostSweeps = 400;
 
 void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
@@ -36,44 +37,69 @@ double energyOf(const GapRow& row, const Vec3& impulse)
            (impulse.y() * impulse.y() + impulse.z() * impulse.z()) / row.slideMass;
 }
 
+/// Calls visit(row) for all rows of an island, bottom to top.
+template <class Visit>
+void forRows(GapScratch& scratch, const GapIsland& island, const Visit& visit)
+{
+    for (std::size_t i : island.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) visit(scratch.rows[r]);
+    }
+}
+
 /// One sweep up and one down; answers the largest change of a normal velocity [m/s].
-double sweep(GapScratch& scratch)
+double sweep(GapScratch& scratch, const GapIsland& island)
 {
     double residual = 0.0;
-    const auto solve = [&](std::size_t i) {
-        const GapPair& pair = scratch.pairs[i];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            GapRow& row = scratch.rows[r];
-            residual =
-                std::max(residual, visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]));
-        }
+    const auto solve = [&](GapRow& row) {
+        const double changed = visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+        residual = std::max(residual, changed);
     };
-    for (std::size_t i : scratch.order) solve(i);
-    for (std::size_t place = scratch.order.size(); place-- > 0;) solve(scratch.order[place]);
+    forRows(scratch, island, solve);
+    for (std::size_t place = island.pairs.size(); place-- > 0;) {
+        const GapPair& pair = scratch.pairs[island.pairs[place]];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) solve(scratch.rows[r]);
+    }
     return residual;
 }
 
 /// Goes on along the conjugate direction: what a sweep has changed is a gradient (Silcowitz, Niebe
 /// and Erleben 2010). Answers the energy of that change.
-double goOn(GapScratch& scratch, double energyBefore)
+double goOn(GapScratch& scratch, const GapIsland& island, double energyBefore)
 {
     double energy = 0.0;
-    for (const GapRow& row : scratch.rows) energy += energyOf(row, row.impulse - row.before);
+    forRows(scratch, island,
+            [&](const GapRow& row) { energy += energyOf(row, row.impulse - row.before); });
     const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
-    for (GapRow& row : scratch.rows) {
+    forRows(scratch, island, [&](GapRow& row) {
         const Vec3 gradient = row.impulse - row.before;
         if (beta > 1.0) {
             row.way = Vec3::Zero();  // the active set has changed: start again
-            continue;
+            return;
         }
         const Vec3 step = beta * row.way;
         row.way = step + gradient;
-        if (step.isZero(0.0)) continue;
+        if (step.isZero(0.0)) return;
         row.impulse += step;
         applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b],
                  step.x() * row.normal + step.y() * row.tangent + step.z() * row.secondTangent());
-    }
+    });
     return energy;
+}
+
+void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
+                 const GapIsland& island)
+{
+    const double enough = 1e-7 * settings.gravity.norm() * dt + 1e-15;
+    const int most = mostSweeps(settings, island);
+    forRows(scratch, island, [](GapRow& row) { row.way = Vec3::Zero(); });
+    double energy = 0.0;
+    for (int done = 1;; ++done) {
+        forRows(scratch, island, [](GapRow& row) { row.before = row.impulse; });
+        const double residual = sweep(scratch, island);
+        if (residual <= enough || done >= most) return;
+        energy = goOn(scratch, island, energy);
+    }
 }
 
 void countImpulses(const GapScratch& scratch, ImpulseCounts& counts)
@@ -88,9 +114,9 @@ void countImpulses(const GapScratch& scratch, ImpulseCounts& counts)
 
 }  // namespace
 
-int mostSweeps(const StepSettings& settings, const GapScratch& scratch)
+int mostSweeps(const StepSettings& settings, const GapIsland& island)
 {
-    const auto spare = static_cast<int>(kSpareVisits / (scratch.rows.size() + 1));
+    const auto spare = static_cast<int>(kSpareVisits / (island.rowCount + 1));
     return std::max(settings.gapSweeps, std::min(spare, kMostSweeps));
 }
 
@@ -164,31 +190,21 @@ void addForcesToGaps(double dt, GapScratch& scratch)
     }
 }
 
-GapTally resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
-                     bool isRemembered, GapScratch& scratch)
+ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+                          GapScratch& scratch)
 {
-    if (isRemembered) {
-        for (GapRow& row : scratch.rows) {
-            applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b], row.worldImpulse());
+    for (GapRow& row : scratch.rows) {
+        applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b], row.worldImpulse());
+    }
+    handWeightDown(settings, dt, levels, scratch);
+    parallelFor(scratch.islands.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            solveIsland(settings, dt, scratch, scratch.islands[i]);
         }
-    } else {
-        handWeightDown(settings, dt, levels, scratch);
-    }
-    for (GapRow& row : scratch.rows) row.way = Vec3::Zero();
-
-    GapTally tally;
-    const double enough = 1e-9 * settings.gravity.norm() * dt + 1e-15;
-    const int most = mostSweeps(settings, scratch);
-    double energy = 0.0;
-    while (true) {
-        for (GapRow& row : scratch.rows) row.before = row.impulse;
-        tally.residual = sweep(scratch);
-        ++tally.sweeps;
-        if (tally.residual <= enough || tally.sweeps >= most) break;
-        energy = goOn(scratch, energy);
-    }
-    countImpulses(scratch, tally.impulses);
-    return tally;
+    });
+    ImpulseCounts counts;
+    countImpulses(scratch, counts);
+    return counts;
 }
 
 }  // namespace scree

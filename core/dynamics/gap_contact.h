@@ -7,24 +7,20 @@
 
 namespace scree {
 
-struct GapTally {
-    ImpulseCounts impulses;
-    int sweeps = 0;
-    double residual = 0.0;  ///< largest change of a normal velocity in the last sweep [m/s]
-};
-
 /// One visit. Answers how much it changed the normal velocity [m/s].
 double visitRow(GapRow& row, GapBody& a, GapBody& b);
 
-/// The sweeps a step may spend: those of the settings on a large heap, more on a small problem.
-int mostSweeps(const StepSettings& settings, const GapScratch& scratch);
+/// The sweeps a step may spend on an island: those of the settings on a large heap, more on a small
+/// problem.
+int mostSweeps(const StepSettings& settings, const GapIsland& island);
 
 /// Sets the targets of all rows from their gaps and what impacts have shifted, and adds the forces.
 void addForcesToGaps(double dt, GapScratch& scratch);
 
-/// Sweeps over all rows until velocities stay as they are, or the sweeps are used up. Begins with
-/// the impulses that rows remember, or, when nothing is remembered, with the weights of the levels.
-GapTally resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
-                     bool isRemembered, GapScratch& scratch);
+/// Sweeps over the rows of every island until velocities stay as they are, or its sweeps are used
+/// up. Begins with the impulses that rows remember, or, on an island that remembers nothing, with
+/// the weights of the levels.
+ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+                          GapScratch& scratch);
 
 }  // namespace scree

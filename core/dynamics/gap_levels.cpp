@@ -74,24 +74,38 @@ double solvedEnough(const StepSettings& settings, double dt)
     return 1e-9 * settings.gravity.norm() * dt;
 }
 
-/// Speed at which a row of the pair closes visibly within a step, beyond its target [m/s].
+/// Speed at which a row closes visibly within a step, beyond its target [m/s].
 double visibleSpeed(const World& world, const StepSettings& settings, double dt,
                     const GapScratch& scratch, const GapRow& row)
 {
-    const bool isHeap = mostSweeps(settings, scratch) == settings.gapSweeps;
+    const bool isHeap = mostSweeps(settings, scratch.islands[row.island]) == settings.gapSweeps;
     const double visible = isHeap ? kVisibleInHeaps : kVisibleWhenSolved;
     return visible * smallerRadius(world, row.a, row.b) / dt;
 }
 
-bool closesVisibly(const World& world, const StepSettings& settings, double dt,
-                   const GapScratch& scratch)
+/// Per island: whether a row of it still closes visibly.
+std::vector<char> closingIslands(const World& world, const StepSettings& settings, double dt,
+                                 const GapScratch& scratch)
 {
+    std::vector<char> closes(scratch.islands.size(), 0);
     for (const GapRow& row : scratch.rows) {
+        if (closes[row.island]) continue;
         const double u =
             velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
-        if (row.target - u > visibleSpeed(world, settings, dt, scratch, row)) return true;
+        closes[row.island] = row.target - u > visibleSpeed(world, settings, dt, scratch, row);
     }
-    return false;
+    return closes;
+}
+
+/// The rows of a level that belong to the chosen islands.
+std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std::size_t>& level,
+                                const std::vector<char>& isChosen)
+{
+    std::vector<std::size_t> rows;
+    for (std::size_t r : level) {
+        if (isChosen[scratch.rows[r].island]) rows.push_back(r);
+    }
+    return rows;
 }
 
 }  // namespace
@@ -127,9 +141,12 @@ GapLevels buildGapLevels(double dt, const GapScratch& scratch)
 void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
                     GapScratch& scratch)
 {
+    std::vector<char> isNew(scratch.islands.size());
+    for (std::size_t i = 0; i < isNew.size(); ++i) isNew[i] = !scratch.islands[i].isRemembered;
+    if (std::find(isNew.begin(), isNew.end(), 1) == isNew.end()) return;
     HeldBodies held(scratch);
     for (std::size_t level = levels.rows.size(); level-- > 0;) {
-        const std::vector<std::size_t>& rows = levels.rows[level];
+        const std::vector<std::size_t> rows = rowsOf(scratch, levels.rows[level], isNew);
         const auto hold = [&](BodyId body) {
             GapBody& b = scratch.bodies[body];
             if (b.inverseMass == 0.0 || levels.graph.level[body] == static_cast<int>(level)) return;
@@ -162,14 +179,15 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
     }
 }
 
-bool propagateShockUp(const World& world, const StepSettings& settings, double dt,
+void propagateShockUp(const World& world, const StepSettings& settings, double dt,
                       const GapLevels& levels, GapScratch& scratch)
 {
-    if (!closesVisibly(world, settings, dt, scratch)) return false;
+    const std::vector<char> closes = closingIslands(world, settings, dt, scratch);
+    if (std::find(closes.begin(), closes.end(), 1) == closes.end()) return;
     HeldBodies held(scratch);
     std::vector<Vec3> remembered;
     for (std::size_t level = 0; level < levels.rows.size(); ++level) {
-        const std::vector<std::size_t>& rows = levels.rows[level];
+        const std::vector<std::size_t> rows = rowsOf(scratch, levels.rows[level], closes);
         const auto holdIfSupported = [&](BodyId body) {
             if (scratch.bodies[body].inverseMass == 0.0 || !levels.graph.isSupported[body]) return;
             if (levels.graph.level[body] != static_cast<int>(level)) held.hold(body);
@@ -200,7 +218,6 @@ bool propagateShockUp(const World& world, const StepSettings& settings, double d
         held.release();
         for (std::size_t r : rows) prepareRow(scratch, scratch.rows[r]);
     }
-    return true;
 }
 
 }  // namespace scree

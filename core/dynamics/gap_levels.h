@@ -16,17 +16,17 @@ struct GapLevels {
 /// With the velocities before forces.
 GapLevels buildGapLevels(double dt, const GapScratch& scratch);
 
-/// Impulses from nothing, level by level from the top: what rests is held up by what is below as if
-/// that could not give way, and hands its weight down. Exact for a stack, and a beginning for a
-/// heap. Velocities must have felt forces and no contact yet.
+/// Impulses for islands that remember none, level by level from the top: what rests is held up by
+/// what is below as if that could not give way, and hands its weight down. Exact for a stack, and a
+/// beginning for a heap. Velocities must have felt forces and no contact yet.
 void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
                     GapScratch& scratch);
 
 /// One sweep up the levels: what rests is made to rest on what is below as if that could not give
-/// way. Only where the solved velocities would still overlap bodies visibly; false when nowhere.
+/// way. Only on islands whose solved velocities would still overlap bodies visibly.
 /// The impulses that rows remember stay those of the symmetric problem: begun from shock's, the
 /// next step of a heap blew up.
-bool propagateShockUp(const World& world, const StepSettings& settings, double dt,
+void propagateShockUp(const World& world, const StepSettings& settings, double dt,
                       const GapLevels& levels, GapScratch& scratch);
 
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/sleep.h"
 
@@ -151,6 +152,36 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
     }
 }
 
+/// Islands in the order of their lowest pairs.
+void cutIntoIslands(GapScratch& scratch)
+{
+    DisjointSets sets(scratch.bodies.size());
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    for (std::size_t i : scratch.order) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (isMovable(a) && isMovable(b))
+            sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    }
+    std::vector<std::int32_t> islandOf(scratch.bodies.size(), -1);
+    scratch.islands.clear();
+    for (std::size_t i : scratch.order) {
+        const GapPair& pair = scratch.pairs[i];
+        const BodyId mover = isMovable(pair.bodies.a) ? pair.bodies.a : pair.bodies.b;
+        std::int32_t& index = islandOf[sets.find(static_cast<std::size_t>(mover))];
+        if (index < 0) {
+            index = static_cast<std::int32_t>(scratch.islands.size());
+            scratch.islands.emplace_back();
+        }
+        GapIsland& island = scratch.islands[index];
+        island.pairs.push_back(i);
+        island.rowCount += pair.end - pair.begin;
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            scratch.rows[r].island = index;
+            island.isRemembered = island.isRemembered || scratch.rows[r].isCarried;
+        }
+    }
+}
+
 }  // namespace
 
 double smallerRadius(const World& world, BodyId a, BodyId b)
@@ -271,6 +302,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
     std::sort(scratch.order.begin(), scratch.order.end(), [&](std::size_t p, std::size_t q) {
         return height[p] < height[q] || (height[p] == height[q] && p < q);
     });
+    cutIntoIslands(scratch);
 }
 
 }  // namespace scree

@@ -28,6 +28,7 @@ struct GapBody {
 
 struct GapRow {
     BodyId a, b;
+    std::int32_t island;   ///< index into GapScratch::islands
     Vec3 rA, rB;           ///< contact point from either centre, world [m]
     Vec3 normal, tangent;  ///< from B to A; the second tangent is normal × tangent
     double gap;            ///< [m]
@@ -56,6 +57,14 @@ struct GapPair {
     std::size_t begin = 0, end = 0;  ///< its rows
 };
 
+/// Rows that share bodies, directly or through others: a problem of its own. Islands share no
+/// movable body, so they may be solved at once and stop on their own.
+struct GapIsland {
+    std::vector<std::size_t> pairs;  ///< those that have rows: bottom to top
+    std::size_t rowCount = 0;
+    bool isRemembered = false;  ///< some of its pairs carried in the last step
+};
+
 struct GapScratch {
     BroadPhase broadPhase;
     std::vector<Aabb> boxes;
@@ -65,6 +74,7 @@ struct GapScratch {
     std::vector<GapBody> bodies;
     std::vector<GapRow> rows;        ///< pair by pair
     std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top
+    std::vector<GapIsland> islands;
 };
 
 /// Finds all contacts that may close within dt. Wakes what they are about to disturb.

@@ -248,8 +248,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     {
         const PhaseTimer timer(report, Phase::contact);
         addForcesToGaps(dt, scratch);
-        const bool isRemembered = !world.contactMemory.contacts.empty();
-        report.contactImpulses = resolveGaps(settings_, dt, levels, isRemembered, scratch).impulses;
+        report.contactImpulses = resolveGaps(settings_, dt, levels, scratch);
     }
     if (settings_.shockPropagation) {
         const PhaseTimer timer(report, Phase::shock);
