@@ -114,6 +114,9 @@ private:
             return static_cast<int>(table.find(key)->integer);
         };
         StepSettings& settings = shot_.settings;
+        settings.method = table.find("method")->text == "paper" ? Method::paper : Method::scree;
+        settings.sleep = table.find("sleep")->boolean;
+        settings.gapSweeps = whole("contact_sweeps");
         settings.collisionIterations = whole("collision_iterations");
         settings.collisionPairImpulses = whole("collision_pair_impulses");
         settings.contactIterations = whole("contact_iterations");
@@ -133,6 +136,10 @@ private:
         settings.frictionRule = combineRuleOf(combine.find("friction")->text);
         settings.restitutionRule = combineRuleOf(combine.find("restitution")->text);
         if (table.find("strict")->boolean) {
+            if (settings.method != Method::paper) {
+                report(*table.find("strict"),
+                       "'strict' is the paper without its repairs: it needs method = \"paper\"");
+            }
             makeStrict(settings);
             isStrict_ = true;
         }

@@ -86,11 +86,25 @@ const std::vector<ShotKey> kSolverKeys = {
              "number when the report says that a loop hit its cap."},
     {.path = "solver.method",
      .type = word,
-     .byDefault = "\"paper\"",
-     .choices = "paper",
-     .plannedChoices = "scree",
-     .help = "The way contacts are resolved: \"paper\" follows Guendelman, Bridson and Fedkiw "
-             "to the letter."},
+     .byDefault = "\"scree\"",
+     .choices = "scree paper",
+     .help = "The way contacts are resolved. \"scree\" knows contacts before they touch and "
+             "remembers what held them: heaps lie still, and it is many times faster. \"paper\" "
+             "follows Guendelman, Bridson and Fedkiw to the letter; it is the reference."},
+    {.path = "solver.sleep",
+     .type = boolean,
+     .byDefault = "true",
+     .help = "Bodies that the whole step leaves where they are fall asleep together: no motion at "
+             "all, and no cost. They wake when something is about to touch them or a force "
+             "changes. Method \"scree\" only."},
+    {.path = "solver.contact_sweeps",
+     .type = integer,
+     .unit = "sweeps",
+     .byDefault = "8",
+     .min = 1,
+     .max = 10000,
+     .help = "Sweeps over the contacts of a large heap in method \"scree\"; small ones are solved "
+             "to the end anyway. Too few and the heap sinks into itself before it comes to rest."},
     {.path = "solver.collision_iterations",
      .type = integer,
      .unit = "sweeps",
@@ -232,10 +246,6 @@ const std::vector<ShotKey> kSolverKeys = {
      .max = kInfinity,
      .isOpen = true,
      .help = "Overlap beyond which the run ends with exit code 79."},
-    {.path = "solver.sleep",
-     .type = boolean,
-     .isPlanned = true,
-     .help = "Whether bodies at rest cost no time until something moves them."},
     {.path = "solver.strict",
      .type = boolean,
      .byDefault = "false",

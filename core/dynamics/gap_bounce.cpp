@@ -121,8 +121,11 @@ private:
         const GapRow& row = *impact.row;
         const GapBody& a = scratch_.bodies[row.a];
         const GapBody& b = scratch_.bodies[row.b];
-        const Mat3 k = collisionMatrix({a.inverseMass, a.inverseInertia}, row.rA) +
-                       collisionMatrix({b.inverseMass, b.inverseInertia}, row.rB);
+        const Mat3 k =
+            collisionMatrix(
+                row.movesA ? PassInertia{a.inverseMass, a.inverseInertia} : PassInertia{}, row.rA) +
+            collisionMatrix(
+                row.movesB ? PassInertia{b.inverseMass, b.inverseInertia} : PassInertia{}, row.rB);
         const ContactImpulse j =
             contactImpulse(k, impact.velocity, row.normal, row.restitution, row.friction);
         applyImpulses(row, j.impulse, impact.time);
@@ -170,13 +173,12 @@ private:
 
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time)
     {
-        applyTo(scratch_.bodies[row.a], row.rA, impulse, impacts_[row.a], time);
-        applyTo(scratch_.bodies[row.b], row.rB, -impulse, impacts_[row.b], time);
+        if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, impacts_[row.a], time);
+        if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, impacts_[row.b], time);
     }
 
     void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts, double time)
     {
-        if (body.inverseMass == 0.0) return;
         const Vec3 dv = body.inverseMass * impulse;
         const Vec3 dw = body.inverseInertia * r.cross(impulse);
         body.velocity += dv;

@@ -26,8 +26,27 @@ constexpr int kMostSweeps = 400;
 
 void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
 {
-    if (a.inverseMass > 0.0) applyTo(a, row.rA, impulse);
-    if (b.inverseMass > 0.0) applyTo(b, row.rB, -impulse);
+    if (row.movesA) applyTo(a, row.rA, impulse);
+    if (row.movesB) applyTo(b, row.rB, -impulse);
+}
+
+/// Resistance to rolling and spinning: a couple that stops relative spin, as far as the normal
+/// impulse and its lever arms allow.  [A49]
+void resistSpin(GapRow& row, GapBody& a, GapBody& b)
+{
+    const Mat3 response = coupleResponse(row, a, b);
+    const Vec3 w = a.spin - b.spin;
+    const double wn = w.dot(row.normal), before = row.couple.dot(row.normal);
+    const double most = row.spinningArm * row.impulse.x();
+    const double about =
+        std::clamp(before - wn / row.normal.dot(response * row.normal), -most, most);
+    Vec3 across = row.couple - before * row.normal - (w - wn * row.normal) / response.trace();
+    const double length = across.norm(), limit = row.rollingArm * row.impulse.x();
+    if (length > limit) across *= limit / length;
+    const Vec3 change = about * row.normal + across - row.couple;
+    row.couple += change;
+    if (row.movesA) a.spin += a.inverseInertia * change;
+    if (row.movesB) b.spin -= b.inverseInertia * change;
 }
 
 /// Weighs normal and friction impulses of heavy and light pairs alike: by the energy they move.
@@ -154,6 +173,7 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
     row.impulse.y() = t1;
     row.impulse.z() = t2;
     applyRow(row, a, b, change);
+    if (row.rollingArm > 0.0 || row.spinningArm > 0.0) resistSpin(row, a, b);
     return changed;
 }
 

@@ -173,8 +173,8 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
             GapRow& row = scratch.rows[rows[i]];
             prepareRow(scratch, row);
             const Vec3 impulse = row.worldImpulse();
-            if (wasHeldA[i]) applyTo(scratch.bodies[row.a], row.rA, impulse);
-            if (wasHeldB[i]) applyTo(scratch.bodies[row.b], row.rB, -impulse);
+            if (wasHeldA[i] && row.movesA) applyTo(scratch.bodies[row.a], row.rA, impulse);
+            if (wasHeldB[i] && row.movesB) applyTo(scratch.bodies[row.b], row.rB, -impulse);
         }
     }
 }
@@ -210,10 +210,8 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
             const Vec3 withShock = row.worldImpulse();
             row.impulse = remembered[i];
             const Vec3 extra = withShock - row.worldImpulse();
-            GapBody& a = scratch.bodies[row.a];
-            GapBody& b = scratch.bodies[row.b];
-            if (a.inverseMass > 0.0) a.angularImpulse += row.rA.cross(extra);
-            if (b.inverseMass > 0.0) b.angularImpulse -= row.rB.cross(extra);
+            if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra);
+            if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra);
         }
         held.release();
         for (std::size_t r : rows) prepareRow(scratch, scratch.rows[r]);

@@ -39,8 +39,10 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
             const Vec3 impulse = row.worldImpulse();
             // What changes the angular momentum is the impulse itself: a product with an inertia
             // and its inverse would lose bits every step.
-            if (isStepped(row.a)) world.motion[row.a].angularMomentum += row.rA.cross(impulse);
-            if (isStepped(row.b)) world.motion[row.b].angularMomentum -= row.rB.cross(impulse);
+            if (row.movesA)
+                world.motion[row.a].angularMomentum += row.rA.cross(impulse) + row.couple;
+            if (row.movesB)
+                world.motion[row.b].angularMomentum -= row.rB.cross(impulse) + row.couple;
             const Quat aFromWorld = world.motion[row.a].orientation.conjugate();
             kept.push_back({row.a, row.b, pair.contacts[r - pair.begin].feature,
                             aFromWorld * row.rA, impulse / dt});
@@ -96,10 +98,14 @@ std::int64_t separateGaps(World& world, GapScratch& scratch)
                 0.0, push.impulse + (push.wanted - shiftAt(row, a, b)) / row.inverseNormalMass);
             const Vec3 change = (impulse - push.impulse) * row.normal;
             push.impulse = impulse;
-            a.shift += a.inverseMass * change;
-            a.turn += a.inverseInertia * row.rA.cross(change);
-            b.shift -= b.inverseMass * change;
-            b.turn -= b.inverseInertia * row.rB.cross(change);
+            if (row.movesA) {
+                a.shift += a.inverseMass * change;
+                a.turn += a.inverseInertia * row.rA.cross(change);
+            }
+            if (row.movesB) {
+                b.shift -= b.inverseMass * change;
+                b.turn -= b.inverseInertia * row.rB.cross(change);
+            }
         }
     }
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {

@@ -7,7 +7,9 @@
 #include "core/base/parallel.h"
 #include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/integrator.h"
+#include "core/dynamics/rolling_friction.h"
 #include "core/dynamics/sleep.h"
+#include "core/geometry/surface_curvature.h"
 
 namespace scree {
 namespace {
@@ -110,6 +112,30 @@ Vec3 anyTangent(const Vec3& normal)
     return normal.cross(aside).normalized();
 }
 
+/// The paper's raw coefficient takes an angular speed from the bodies for each unit of normal
+/// impulse, a lever arm a couple: what turns one into the other is the response to a couple.  [A49]
+void resistRolling(const World& world, const GapScratch& scratch, const RollingFriction& rolling,
+                   GapRow& row)
+{
+    row.rollingArm = row.spinningArm = 0.0;
+    row.couple = Vec3::Zero();
+    if (rolling.isNone() || (!row.movesA && !row.movesB)) return;
+    const Mat3 response = coupleResponse(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+    const Shape& shapeA = world.shapeOf(row.a);
+    const Shape& shapeB = world.shapeOf(row.b);
+    const Shape& finer =
+        !row.movesA || (row.movesB && shapeB.unitMass.volume < shapeA.unitMass.volume) ? shapeB
+                                                                                       : shapeA;
+    const double curvature =
+        meanCurvature(shapeA, world.motion[row.a].orientation.conjugate() * row.rA) +
+        meanCurvature(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
+    const double factor = curvatureFactor(curvature, finer);
+    const double about = row.normal.dot(response * row.normal);
+    const double across = 0.5 * (response.trace() - about);
+    row.rollingArm = factor * (rolling.rolling + rolling.rawRolling / across);
+    row.spinningArm = factor * (rolling.spinning + rolling.rawSpinning / about);
+}
+
 /// Hands the remembered impulses of one pair to its rows: by feature, and what is left to the
 /// nearest row that got none.
 void warmStart(const World& world, double dt, const RememberedContact* begin,
@@ -199,13 +225,19 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
     const GapBody& a = scratch.bodies[row.a];
     const GapBody& b = scratch.bodies[row.b];
     const auto response = [&](const Vec3& along, const Vec3& across) {
-        double k = (a.inverseMass + b.inverseMass) * along.dot(across);
-        if (a.inverseMass > 0.0)
-            k += row.rA.cross(along).dot(a.inverseInertia * row.rA.cross(across));
-        if (b.inverseMass > 0.0)
-            k += row.rB.cross(along).dot(b.inverseInertia * row.rB.cross(across));
+        double k = 0.0;
+        if (row.movesA) {
+            k += a.inverseMass * along.dot(across) +
+                 row.rA.cross(along).dot(a.inverseInertia * row.rA.cross(across));
+        }
+        if (row.movesB) {
+            k += b.inverseMass * along.dot(across) +
+                 row.rB.cross(along).dot(b.inverseInertia * row.rB.cross(across));
+        }
         return k;
     };
+    row.movesA = a.inverseMass > 0.0 && !row.isHeldA;
+    row.movesB = b.inverseMass > 0.0 && !row.isHeldB;
     row.tangent = anyTangent(row.normal);
     const Vec3 t = row.tangent, s = row.secondTangent();
     row.inverseNormalMass = response(row.normal, row.normal);
@@ -263,6 +295,9 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
             const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
+            const CollisionGroups &groupsA = world.info[a].groups, &groupsB = world.info[b].groups;
+            const bool isHeldA = (groupsA.unmovedBy & groupsB.group) != 0;
+            const bool isHeldB = (groupsB.unmovedBy & groupsA.group) != 0;
             const auto known =
                 std::equal_range(memory.begin(), memory.end(), RememberedContact{a, b},
                                  [](const RememberedContact& p, const RememberedContact& q) {
@@ -283,7 +318,10 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                 row.wasHit = false;
                 row.impulse = Vec3::Zero();
                 row.isCarried = known.first != known.second;
+                row.isHeldA = isHeldA;
+                row.isHeldB = isHeldB;
                 prepareRow(scratch, row);
+                resistRolling(world, scratch, surface.rolling, row);
             }
             if (known.first == known.second) continue;
             warmStart(world, dt, &*known.first, &*known.first + (known.second - known.first),

@@ -37,10 +37,15 @@ struct GapRow {
     Vec3 before, way;  ///< of the sweep: impulse before it, and the conjugate direction
     Vec3 impulse;      ///< along normal, tangent and second tangent, on A [N s]
     double inverseNormalMass;
-    double frictionMass[3];  ///< inverse of the tangential 2×2 block: tt, ts, ss
-    double slideMass;        ///< 1 / largest eigenvalue of that block
-    bool wasHit;             ///< by an impact of this step
-    bool isCarried;          ///< its pair had an impulse in the last step
+    double frictionMass[3];          ///< inverse of the tangential 2×2 block: tt, ts, ss
+    double slideMass;                ///< 1 / largest eigenvalue of that block
+    double rollingArm, spinningArm;  ///< lever arms of the resistance to rolling and spinning [m]
+    Vec3 couple;                     ///< of that resistance, on A, world [N m s]
+    bool movesA, movesB;  ///< whether its impulses act on the body: not on what cannot be moved,
+                          ///< nor on one that the other's group does not move
+    bool isHeldA, isHeldB;  ///< by its group
+    bool wasHit;            ///< by an impact of this step
+    bool isCarried;         ///< its pair had an impulse in the last step
 
     Vec3 secondTangent() const { return normal.cross(tangent); }
     Vec3 worldImpulse() const
@@ -107,6 +112,15 @@ inline double shiftAt(const GapRow& row, const GapBody& a, const GapBody& b)
 
 /// Everything of a row that follows from its geometry.
 void prepareRow(const GapScratch& scratch, GapRow& row);
+
+/// How a couple between the bodies changes their relative spin.
+inline Mat3 coupleResponse(const GapRow& row, const GapBody& a, const GapBody& b)
+{
+    Mat3 response = Mat3::Zero();
+    if (row.movesA) response += a.inverseInertia;
+    if (row.movesB) response += b.inverseInertia;
+    return response;
+}
 
 inline void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse)
 {

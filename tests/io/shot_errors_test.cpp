@@ -431,8 +431,6 @@ TEST(ShotErrors, BadOverridesNameTheirOwnText)
               "material, motion, position, rotation, orientation, velocity, spin, mass, grid, "
               "poses, force, torque, group, collides, unmoved_by, start, keys, interpolate, "
               "release");
-    EXPECT_EQ(message("solver.sleep=true"),
-              "--set solver.sleep=true: 'sleep' is not supported yet by this version");
     EXPECT_EQ(message("shot.fps.x=1"), "--set shot.fps.x=1: 'fps' has no keys of its own");
     EXPECT_EQ(message("shot.frames=end"),
               "--set shot.frames=end: 'frames' must be \"FIRST-LAST\", for example "
