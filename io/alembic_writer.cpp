@@ -47,6 +47,9 @@ constexpr std::string_view kCameraTitle = ";schemaObjTitle=AbcGeom_Camera_v1:.ge
 constexpr std::string_view kNormalMetadata =
     "arrayExtent=1;geoScope=fvr;interpretation=normal;isGeomParam=true;podExtent=3;"
     "podName=float32_t";
+constexpr std::string_view kUvMetadata =
+    "arrayExtent=1;geoScope=fvr;interpretation=vector;isGeomParam=true;podExtent=2;"
+    "podName=float32_t";
 constexpr std::string_view kPointMetadata = "geoScope=vtx;interpretation=point";
 constexpr std::string_view kBoxMetadata = "interpretation=box";
 
@@ -101,8 +104,9 @@ struct TransformTrack {
 /// them.
 struct MeshSamples {
     AlembicSample bounds, points, normals, faceIndices, faceCounts;
+    AlembicSample uvs;       // if hasUvs
     AlembicSample allFaces;  // 0 … #F − 1, for the face set
-    bool hasFaces = false;
+    bool hasFaces = false, hasUvs = false;
 };
 
 /// A normal for every corner in the file's order. Readers take a mesh without normals for smooth
@@ -125,6 +129,16 @@ Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh, const Triangles& clockwise
         next += 3;
     }
     return normals;
+}
+
+/// Texture coordinates in the order of cornerNormals().
+CornerUvs clockwiseUvs(const CornerUvs& uvs)
+{
+    CornerUvs result = uvs;
+    for (Eigen::Index corner = 0; corner < uvs.cols(); corner += 3) {
+        result.col(corner + 1).swap(result.col(corner + 2));
+    }
+    return result;
 }
 
 class AlembicWriter final : public FrameWriter {
@@ -214,6 +228,10 @@ MeshSamples AlembicWriter::writeMesh(const SceneMesh& mesh)
     MeshSamples samples;
     samples.hasFaces = faceCount > 0;
     samples.normals = archive_->writeArray(bytesOf(cornerNormals(mesh, clockwise)), 3 * faceCount);
+    samples.hasUvs = mesh.cornerUvs.cols() > 0;
+    if (samples.hasUvs) {
+        samples.uvs = archive_->writeArray(bytesOf(clockwiseUvs(mesh.cornerUvs)), 3 * faceCount);
+    }
     samples.allFaces = archive_->writeArray(bytesOf(allFaces), faceCount);
     samples.bounds = archive_->writeScalar(bytesOf(bounds));
     samples.points =
@@ -333,7 +351,7 @@ AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSampl
     AlembicLayout normals = arrayLayout("N", AlembicType::f32, 3);
     normals.metadata = kNormalMetadata;
 
-    const AlembicProperty properties[] = {
+    std::vector<AlembicProperty> properties = {
         archive_->writeProperty(bounds, SampleTrack(mesh.bounds)),
         archive_->writeProperty(points, SampleTrack(mesh.points)),
         archive_->writeProperty(normals, SampleTrack(mesh.normals)),
@@ -342,6 +360,11 @@ AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSampl
         archive_->writeProperty(arrayLayout(".faceCounts", AlembicType::i32),
                                 SampleTrack(mesh.faceCounts)),
     };
+    if (mesh.hasUvs) {
+        AlembicLayout uvs = arrayLayout("uv", AlembicType::f32, 2);
+        uvs.metadata = kUvMetadata;
+        properties.push_back(archive_->writeProperty(uvs, SampleTrack(mesh.uvs)));
+    }
     const AlembicProperty geometry =
         archive_->writeCompound(".geom", std::string(kMeshSchema), properties);
     const std::string metadata = std::string(kMeshSchema) + std::string(kMeshTitle);

@@ -32,6 +32,14 @@ const std::vector<std::string> kEndings = {"obj", "ply", "stl", "glb", "gltf", "
 constexpr std::uint32_t kMostNodes = 100'000, kMostPoints = 50'000'000, kLongestName = 1024;
 constexpr int kDeepest = 256;
 
+/// A mesh as it is handed from the child to the parent.
+struct EncodedMesh {
+    std::vector<double> points;         // three each
+    std::vector<std::int32_t> corners;  // three a triangle
+    std::vector<float> uvs;             // two a corner
+    bool hasUvs = false;                // else they are all zero
+};
+
 std::string endingOf(const std::string& path)
 {
     std::string ending = fs::path(path).extension().string();
@@ -139,34 +147,39 @@ private:
         const aiMatrix4x4 nodeFromMesh =
             isRigid ? aiMatrix4x4() : aiMatrix4x4(rigid).Inverse() * fileFromNode;
 
-        std::vector<double> points;
-        std::vector<std::int32_t> corners;
+        EncodedMesh mesh;
         const bool isMirrored = nodeFromMesh.Determinant() < 0.0f;
         for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-            append(*scene_.mMeshes[node.mMeshes[i]], nodeFromMesh, isMirrored, points, corners);
+            append(*scene_.mMeshes[node.mMeshes[i]], nodeFromMesh, isMirrored, mesh);
         }
-        if (corners.empty()) return;
+        if (mesh.corners.empty()) return;
         ++count_;
         appendText(bytes_, node.mName.C_Str());
         for (const float value :
              {position.x, position.y, position.z, rotation.w, rotation.x, rotation.y, rotation.z}) {
             appendBytes(bytes_, static_cast<double>(value));
         }
-        appendBytes(bytes_, static_cast<std::uint32_t>(points.size() / 3));
-        bytes_ += bytesOf(points);
-        appendBytes(bytes_, static_cast<std::uint32_t>(corners.size() / 3));
-        bytes_ += bytesOf(corners);
+        appendBytes(bytes_, static_cast<std::uint32_t>(mesh.points.size() / 3));
+        bytes_ += bytesOf(mesh.points);
+        appendBytes(bytes_, static_cast<std::uint32_t>(mesh.corners.size() / 3));
+        bytes_ += bytesOf(mesh.corners);
+        appendBytes(bytes_, static_cast<std::uint8_t>(mesh.hasUvs));
+        if (mesh.hasUvs) bytes_ += bytesOf(mesh.uvs);
     }
 
+    /// Of several sets of texture coordinates the first counts; meshes of a node without any get
+    /// zeros when another has them.
     static void append(const aiMesh& mesh, const aiMatrix4x4& nodeFromMesh, bool isMirrored,
-                       std::vector<double>& points, std::vector<std::int32_t>& corners)
+                       EncodedMesh& result)
     {
-        const auto firstPoint = static_cast<std::int32_t>(points.size() / 3);
+        const auto firstPoint = static_cast<std::int32_t>(result.points.size() / 3);
         for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
             const aiVector3D p = nodeFromMesh * mesh.mVertices[i];
             // Adding zero turns -0 into +0: the two are one point but not the same bits.
-            points.insert(points.end(), {p.x + 0.0, p.y + 0.0, p.z + 0.0});
+            result.points.insert(result.points.end(), {p.x + 0.0, p.y + 0.0, p.z + 0.0});
         }
+        const aiVector3D* uvs = mesh.mTextureCoords[0];
+        result.hasUvs = result.hasUvs || uvs != nullptr;
         for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
             const aiFace& face = mesh.mFaces[i];
             // Loose points and lines have no surface.
@@ -174,7 +187,9 @@ private:
             for (unsigned k = 0; k < 3; ++k) {
                 // A node that mirrors would turn its triangles inside out.
                 const unsigned corner = face.mIndices[isMirrored ? 2 - k : k];
-                corners.push_back(firstPoint + static_cast<std::int32_t>(corner));
+                result.corners.push_back(firstPoint + static_cast<std::int32_t>(corner));
+                const aiVector3D uv = uvs ? uvs[corner] : aiVector3D();
+                result.uvs.insert(result.uvs.end(), {uv.x, uv.y});
             }
         }
     }
@@ -279,10 +294,16 @@ private:
         requireLeft(triangles, 3 * sizeof(std::int32_t));
         mesh.triangles.resize(3, triangles);
         takeBytes(mesh.triangles.data(), sizeof(std::int32_t) * mesh.triangles.size());
+        if (take<std::uint8_t>() != 0) {
+            requireLeft(triangles, 6 * sizeof(float));
+            mesh.cornerUvs.resize(2, mesh.triangles.size());
+            takeBytes(mesh.cornerUvs.data(), sizeof(float) * mesh.cornerUvs.size());
+        }
 
         const bool isFinite = mesh.points.allFinite() && node.fileFromNode.position.allFinite() &&
                               node.fileFromNode.orientation.coeffs().allFinite();
         if (!isFinite) refuse("has coordinates that are not finite");
+        if (!mesh.cornerUvs.allFinite()) refuse("has texture coordinates that are not finite");
         if (triangles > 0 && (mesh.triangles.minCoeff() < 0 ||
                               mesh.triangles.maxCoeff() >= static_cast<int>(points))) {
             refuse("has a face with a corner that is no point");
@@ -324,11 +345,14 @@ ImportedFile importFile(const std::string& path, const ConfinedLimits& limits)
 TriMesh joinedMesh(const ImportedFile& file)
 {
     Eigen::Index points = 0, triangles = 0;
+    bool hasUvs = false;
     for (const ImportedNode& node : file.nodes) {
         points += node.mesh.points.cols();
         triangles += node.mesh.triangles.cols();
+        hasUvs = hasUvs || node.mesh.cornerUvs.cols() > 0;
     }
     TriMesh result{Points(3, points), Triangles(3, triangles)};
+    if (hasUvs) result.cornerUvs = CornerUvs::Zero(2, 3 * triangles);
     Eigen::Index point = 0, triangle = 0;
     for (const ImportedNode& node : file.nodes) {
         const TriMesh placed = transformed(node.mesh, node.fileFromNode);
@@ -336,6 +360,9 @@ TriMesh joinedMesh(const ImportedFile& file)
         result.points.middleCols(point, pointCount) = placed.points;
         result.triangles.middleCols(triangle, faceCount) =
             placed.triangles.array() + static_cast<int>(point);
+        if (placed.cornerUvs.cols() > 0) {
+            result.cornerUvs.middleCols(3 * triangle, 3 * faceCount) = placed.cornerUvs;
+        }
         point += pointCount;
         triangle += faceCount;
     }

@@ -27,11 +27,12 @@ struct ImportedFile {
     std::optional<double> metresPerUnit;  ///< length of one unit of the file [m], if it says so
 };
 
-/// Polygons are cut into triangles. Coordinates pass through single precision. Whether a mesh is a
-/// solid is not asked here. Throws Error{missingInput} when there is no such file, and
-/// Error{badInput} for an unsupported file ending, a file that cannot be read within the limits,
-/// one that refers to files outside its folder, one without faces and one with coordinates that are
-/// not finite.
+/// Polygons are cut into triangles. Coordinates pass through single precision. Of texture
+/// coordinates the first set is kept; where only a part of a mesh has some, the rest is at (0, 0).
+/// Whether a mesh is a solid is not asked here. Throws Error{missingInput} when there is no such
+/// file, and Error{badInput} for an unsupported file ending, a file that cannot be read within the
+/// limits, one that refers to files outside its folder, one without faces and one with coordinates
+/// that are not finite.
 ImportedFile importFile(const std::string& path, const ConfinedLimits& limits = {});
 
 /// All nodes of a file as one mesh, where they stand.

@@ -62,6 +62,7 @@ public:
     {
         std::uint64_t hash = hashBytes(mesh.points.data(), sizeof(double) * mesh.points.size());
         hash = hashBytes(mesh.triangles.data(), sizeof(int) * mesh.triangles.size(), hash);
+        hash = hashBytes(mesh.cornerUvs.data(), sizeof(float) * mesh.cornerUvs.size(), hash);
         auto& known = meshes_[hash];
         if (!known) known = std::make_shared<const TriMesh>(std::move(mesh));
         return known;

@@ -44,6 +44,7 @@ TriMesh mergeEqualPoints(const TriMesh& mesh)
     }
 
     std::vector<std::array<int, 3>> kept;
+    std::vector<Eigen::Index> keptFrom;  // their triangles in `mesh`
     std::vector<char> used(sorted.size(), 0);
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         std::array<int, 3> t{};
@@ -51,6 +52,7 @@ TriMesh mergeEqualPoints(const TriMesh& mesh)
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
         for (int v : t) used[v] = 1;
         kept.push_back(t);
+        keptFrom.push_back(f);
     }
 
     std::vector<int> newIndex(sorted.size(), -1);
@@ -66,6 +68,11 @@ TriMesh mergeEqualPoints(const TriMesh& mesh)
     merged.triangles.resize(3, static_cast<Eigen::Index>(kept.size()));
     for (std::size_t f = 0; f < kept.size(); ++f) {
         for (int k = 0; k < 3; ++k) merged.triangles(k, f) = newIndex[kept[f][k]];
+    }
+    if (mesh.cornerUvs.cols() == 0) return merged;
+    merged.cornerUvs.resize(2, merged.triangles.size());
+    for (std::size_t f = 0; f < kept.size(); ++f) {
+        merged.cornerUvs.middleCols<3>(3 * f) = mesh.cornerUvs.middleCols<3>(3 * keptFrom[f]);
     }
     return merged;
 }

@@ -10,8 +10,9 @@ namespace scree {
 
 /// Triangles are counter-clockwise seen from outside; lengths [m] unless a caller says otherwise.
 struct TriMesh {
-    Points points;        // 3×#V
-    Triangles triangles;  // 3×#F
+    Points points;             // 3×#V
+    Triangles triangles;       // 3×#F
+    CornerUvs cornerUvs = {};  // 2×(3·#F), or empty
 };
 
 /// Why a mesh is not the boundary of a solid; the first defects found, each with its place.
@@ -22,7 +23,7 @@ struct MeshDefect {
 };
 
 /// Joins points that are equal bit for bit and drops points no triangle uses. Triangles that lose a
-/// corner by this are dropped too.
+/// corner by this are dropped too. Texture coordinates stay with their corners.
 TriMesh mergeEqualPoints(const TriMesh& mesh);
 
 /// The same surface moved into another frame. `scale` is applied first, per axis, all > 0.

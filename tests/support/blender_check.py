@@ -103,7 +103,7 @@ def check_points(take, info, behind):
     for body in info["bodies"]:
         if "plane" in body:
             continue
-        points, triangles = blender_open.read_ply(pathlib.Path(take) / "shapes" / f"{body['shape']}.ply")
+        points, triangles, _ = blender_open.read_ply(pathlib.Path(take) / "shapes" / f"{body['shape']}.ply")
         mesh = mesh_of(body["name"])
         found = np.array([v.co for v in mesh.vertices])
         expected = points @ np.linalg.inv(behind)[:3, :3].T
