@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/geometry/tri_mesh.h"
 #include "core/math/rotation.h"
 #include "core/scene/shaded_mesh.h"
 #include "io/alembic_archive.h"
@@ -111,10 +112,10 @@ struct MeshSamples {
 
 /// A normal for every corner in the file's order. Readers take a mesh without normals for smooth
 /// all over, edges of cubes included.
-Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh, const Triangles& clockwise)
+Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh)
 {
     const ShadedMesh shaded = shadeMesh(mesh);
-    Eigen::Matrix3Xf normals(3, clockwise.size());
+    Eigen::Matrix3Xf normals(3, mesh.triangles.size());
     std::size_t next = 0;  // corner in `shaded`, which leaves out triangles with two equal corners
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         const Vec3 a = mesh.points.col(mesh.triangles(0, f));
@@ -129,16 +130,6 @@ Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh, const Triangles& clockwise
         next += 3;
     }
     return normals;
-}
-
-/// Texture coordinates in the order of cornerNormals().
-CornerUvs clockwiseUvs(const CornerUvs& uvs)
-{
-    CornerUvs result = uvs;
-    for (Eigen::Index corner = 0; corner < uvs.cols(); corner += 3) {
-        result.col(corner + 1).swap(result.col(corner + 2));
-    }
-    return result;
 }
 
 class AlembicWriter final : public FrameWriter {
@@ -218,25 +209,25 @@ MeshSamples AlembicWriter::writeMesh(const SceneMesh& mesh)
     }
 
     // Alembic's faces are clockwise seen from outside.
-    Triangles clockwise = mesh.triangles;
-    clockwise.row(1).swap(clockwise.row(2));
-    const auto faceCount = static_cast<std::size_t>(clockwise.cols());
+    TriMesh clockwise{mesh.points, mesh.triangles, mesh.cornerUvs};
+    turnInsideOut(clockwise);
+    const auto faceCount = static_cast<std::size_t>(mesh.triangles.cols());
     const std::vector<std::int32_t> cornersPerFace(faceCount, 3);
     std::vector<std::int32_t> allFaces(faceCount);
     std::iota(allFaces.begin(), allFaces.end(), 0);
 
     MeshSamples samples;
     samples.hasFaces = faceCount > 0;
-    samples.normals = archive_->writeArray(bytesOf(cornerNormals(mesh, clockwise)), 3 * faceCount);
+    samples.normals = archive_->writeArray(bytesOf(cornerNormals(mesh)), 3 * faceCount);
     samples.hasUvs = mesh.cornerUvs.cols() > 0;
     if (samples.hasUvs) {
-        samples.uvs = archive_->writeArray(bytesOf(clockwiseUvs(mesh.cornerUvs)), 3 * faceCount);
+        samples.uvs = archive_->writeArray(bytesOf(clockwise.cornerUvs), 3 * faceCount);
     }
     samples.allFaces = archive_->writeArray(bytesOf(allFaces), faceCount);
     samples.bounds = archive_->writeScalar(bytesOf(bounds));
     samples.points =
         archive_->writeArray(bytesOf(points), static_cast<std::uint64_t>(points.cols()));
-    samples.faceIndices = archive_->writeArray(bytesOf(clockwise), 3 * faceCount);
+    samples.faceIndices = archive_->writeArray(bytesOf(clockwise.triangles), 3 * faceCount);
     samples.faceCounts = archive_->writeArray(bytesOf(cornersPerFace), faceCount);
     return samples;
 }

@@ -466,10 +466,10 @@ const std::vector<ShotKey> kShapeKeys = {
      .type = text,
      .isFile = true,
      .excludes = "torus|box|sphere|cylinder|capsule",
-     .help =
-         "Mesh to read (obj, ply, stl, glb, gltf or fbx), relative to the shot file; all its nodes "
-         "as one. glTF is in metres and FBX says its unit. It must be the closed, "
-         "outward surface of a solid; what is wrong with it is said with its place."},
+     .help = "Mesh to read (obj, ply, stl, glb, gltf, fbx or abc), relative to the shot file; all "
+             "its nodes "
+             "as one. glTF is in metres and FBX says its unit. It must be the closed, "
+             "outward surface of a solid; what is wrong with it is said with its place."},
     {.path = "shape.scale",
      .type = numberOrList,
      .byDefault = "1.0",
@@ -785,9 +785,9 @@ const std::vector<ShotKey> kImportKeys = {
      .type = text,
      .isFile = true,
      .isRequired = true,
-     .help =
-         "obj, ply, stl, glb, gltf or fbx, relative to the shot file. glTF is in metres and FBX "
-         "says its unit; the lengths of others are the shot's."},
+     .help = "obj, ply, stl, glb, gltf, fbx or abc, relative to the shot file. glTF is in metres "
+             "and FBX "
+             "says its unit; the lengths of others are the shot's."},
     {.path = "import.nodes",
      .type = textOrTexts,
      .byDefault = "\"*\"",

@@ -87,6 +87,14 @@ TriMesh transformed(const TriMesh& mesh, const Pose& targetFromSource, const Vec
     return moved;
 }
 
+void turnInsideOut(TriMesh& mesh)
+{
+    mesh.triangles.row(1).swap(mesh.triangles.row(2));
+    for (Eigen::Index corner = 0; corner < mesh.cornerUvs.cols(); corner += 3) {
+        mesh.cornerUvs.col(corner + 1).swap(mesh.cornerUvs.col(corner + 2));
+    }
+}
+
 double signedVolume(const TriMesh& mesh)
 {
     if (mesh.triangles.cols() == 0) return 0.0;

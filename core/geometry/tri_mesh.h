@@ -30,6 +30,9 @@ TriMesh mergeEqualPoints(const TriMesh& mesh);
 TriMesh transformed(const TriMesh& mesh, const Pose& targetFromSource,
                     const Vec3& scale = Vec3::Ones());
 
+/// Turns every triangle over, its texture coordinates too: outside becomes inside.
+void turnInsideOut(TriMesh& mesh);
+
 /// At most `most` defects; empty means closed, manifold, consistently oriented outward.
 std::vector<MeshDefect> findDefects(const TriMesh& mesh, std::size_t most = 5);
 
