@@ -786,8 +786,8 @@ const std::vector<ShotKey> kImportKeys = {
      .isFile = true,
      .isRequired = true,
      .help = "obj, ply, stl, glb, gltf, fbx or abc, relative to the shot file. glTF is in metres "
-             "and FBX "
-             "says its unit; the lengths of others are the shot's."},
+             "and FBX says its unit; the lengths of others are the shot's. Up is +y in glTF and "
+             "Alembic; others are taken for the shot's."},
     {.path = "import.nodes",
      .type = textOrTexts,
      .byDefault = "\"*\"",
@@ -797,9 +797,17 @@ const std::vector<ShotKey> kImportKeys = {
     {.path = "import.motion",
      .type = word,
      .byDefault = "\"dynamic\"",
-     .choices = "dynamic|static",
-     .plannedChoices = "keyed",
-     .help = "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move."},
+     .choices = "dynamic|static|keyed",
+     .help =
+         "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move; "
+         "\"keyed\" ones play the file's own animation, steadily from sample to sample. The time "
+         "zero of glTF and FBX is the shot's first frame; that of Alembic is frame 0."},
+    {.path = "import.interpolate",
+     .type = word,
+     .choices = "smooth|linear",
+     .help = "How keyed motion goes from sample to sample. \"linear\", which is taken without this "
+             "key, shows what other programs show between samples; \"smooth\" has no jumps of "
+             "speed, for motion that carries bodies."},
     {.path = "import.material",
      .type = text,
      .isRequired = true,

@@ -4,12 +4,14 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/base/error.h"
 #include "io/frame_writer.h"
 #include "io/mesh_import.h"
 #include "tests/support/export_scene.h"
+#include "tests/support/readers.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -137,6 +139,51 @@ TEST(AlembicImport, AZUpShotComesBackYUp)
     const Vec3 is = file.nodes[0].fileFromNode * file.nodes[0].mesh.points.col(1);
     EXPECT_TRUE(file.isYUp);
     EXPECT_LT((is - Vec3(was.x(), was.z(), -was.y())).norm(), kTolerance);
+}
+
+/// The distance from every point of `expected` to the nearest of the mesh.
+double farthest(const TriMesh& mesh, const Pose& worldFromNode, const nlohmann::json& expected)
+{
+    double worst = 0.0;
+    for (const nlohmann::json& point : expected) {
+        const Vec3 x(point[0].get<double>(), point[1].get<double>(), point[2].get<double>());
+        double nearest = 1e9;
+        for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
+            nearest = std::min(nearest, (worldFromNode * mesh.points.col(v) - x).norm());
+        }
+        worst = std::max(worst, nearest);
+    }
+    return worst;
+}
+
+TEST(AlembicImport, WhatBlenderWroteIsWhereBlenderHasIt)
+{
+    const test::Reader& blender = test::findReader("blender");
+    SCREE_REQUIRE_READER(!blender.command.empty(), blender.reason);
+    const test::TemporaryFolder folder;
+    const test::CommandResult result = test::runCommand(
+        test::quoted(blender.command) + " " +
+        test::quoted(test::sourceFile("tests/support/blender_check.py")) + " write " +
+        test::quoted(folder / "x.abc") + " " + test::quoted(folder / "x.json"));
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const nlohmann::json expected = nlohmann::json::parse(std::ifstream(folder / "x.json"));
+
+    const ImportedFile file = importFile((folder / "x.abc").string());
+    ASSERT_EQ(file.nodes.size(), 3u);
+    for (const ImportedNode& node : file.nodes) {
+        const nlohmann::json& frames = expected.at(node.name);
+        EXPECT_TRUE(findDefects(node.mesh).empty()) << node.name;
+        EXPECT_EQ(node.mesh.points.cols(), static_cast<Eigen::Index>(frames[0].size()));
+        EXPECT_EQ(node.mesh.cornerUvs.cols(), node.mesh.triangles.size()) << node.name;
+        // Points in single precision, and Blender's matrices too.
+        EXPECT_LT(farthest(node.mesh, node.fileFromNode, frames[0]), 1e-5) << node.name;
+        const bool isCarried = node.name == "crate";
+        ASSERT_EQ(node.keys.size(), isCarried ? 4u : 0u) << node.name << node.obstacle;
+        for (std::size_t i = 0; i < node.keys.size(); ++i) {
+            EXPECT_NEAR(node.keys[i].seconds * 24.0, 1001.0 + static_cast<double>(i), 1e-3);
+            EXPECT_LT(farthest(node.mesh, node.keys[i].fileFromNode, frames[i]), 1e-5) << i;
+        }
+    }
 }
 
 TEST(AlembicImport, CutAnywhereItIsRefused)

@@ -5,6 +5,7 @@ without any of our program's code. Prints what it measured; exit code 1 when a c
     blender_check.py shading EXPORT          flat boxes, round tori, names of materials
     blender_check.py camera EXPORT TAKE      field of view and line of sight of the first camera
     blender_check.py textures TAKE ASSET.obj EXPORT...   texture coordinates of every corner
+    blender_check.py write FILE.abc EXPECTED.json   Blender's own Alembic file, and what is in it
     blender_check.py blur EXPORT TAKE BODY   sweep of a body that spins about z, in Cycles
 """
 import json
@@ -201,6 +202,40 @@ def check_textures(take, asset, *exports):
     return ""
 
 
+def write_alembic(path, expected):
+    """Two crates that share a mesh, one of them stretched and carried by what moves, and a drum
+    with lids of seven corners. Tells where their points are at every frame, with y up."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.fps, scene.frame_start, scene.frame_end = 24, 1001, 1004
+    carrier = bpy.data.objects.new("carrier", None)
+    bpy.context.collection.objects.link(carrier)
+    bpy.ops.mesh.primitive_cube_add(size=1, calc_uvs=True, location=(1, 0, 0.5))
+    crate = bpy.context.object
+    crate.name, crate.parent, crate.scale = "crate", carrier, (1.5, 1, 0.75)
+    twin = bpy.data.objects.new("twin", crate.data)
+    twin.location = (-3, 2, 1)
+    bpy.context.collection.objects.link(twin)
+    bpy.ops.mesh.primitive_cylinder_add(vertices=7, radius=0.5, depth=2, location=(0, -4, 1))
+    bpy.context.object.name = "drum"
+    for frame in (1001, 1004):
+        carrier.location = (0.25 * (frame - 1001), 1, 0)
+        carrier.rotation_euler = (0, 0.1 * (frame - 1001), 0.2 * (frame - 1001))
+        carrier.keyframe_insert("location", frame=frame)
+        carrier.keyframe_insert("rotation_euler", frame=frame)
+    bpy.ops.wm.alembic_export(filepath=path, start=1001, end=1004, as_background_job=False)
+
+    found = {}
+    for name in ("crate", "twin", "drum"):
+        found[name] = []
+        for frame in range(1001, 1005):
+            body = bpy.data.objects[name].evaluated_get(set_time(frame))
+            world = [body.matrix_world @ v.co for v in body.data.vertices]
+            found[name].append([[x, z, -y] for x, y, z in world])
+    pathlib.Path(expected).write_text(json.dumps(found))
+    return ""
+
+
 def check_camera(export, take):
     info = read_info(take)
     open_export(export)
@@ -302,6 +337,7 @@ if __name__ == "__main__":
         "shading": check_shading,
         "camera": check_camera,
         "textures": check_textures,
+        "write": write_alembic,
         "blur": check_blur,
     }
     problem = checks[sys.argv[1]](*sys.argv[2:])
