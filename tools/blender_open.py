@@ -201,6 +201,9 @@ def set_camera(scene, info, name):
     found = [o for o in bpy.data.objects if o.type == "CAMERA" and (not name or o.name == name)]
     if found:
         scene.camera = found[0]
+        # A shot's field of view is vertical. The .abc importer would fit the wider side, which shows
+        # another part of the scene when --size has another shape than the shot's pictures.
+        found[0].data.sensor_fit = "VERTICAL"
         return
     camera = bpy.data.objects.new(name or "camera", bpy.data.cameras.new(name or "camera"))
     bpy.context.collection.objects.link(camera)
