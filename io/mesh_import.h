@@ -37,11 +37,12 @@ struct ImportedFile {
 };
 
 /// Polygons are cut into triangles. Coordinates pass through single precision. Of texture
-/// coordinates the first set is kept; where only a part of a mesh has some, the rest is at (0, 0).
-/// Whether a mesh is a solid is not asked here. Throws Error{missingInput} when there is no such
-/// file, and Error{badInput} for an unsupported file ending, a file that cannot be read within the
-/// limits, one that refers to files outside its folder, one without faces and one with coordinates
-/// that are not finite.
+/// coordinates the first set is kept; where only a part of a mesh has some, the rest is at (0, 0);
+/// those of the faces of a PLY file, of which points know nothing, are left out. Whether a mesh is
+/// a solid is not asked here. Throws Error{missingInput} when there is no such file, and
+/// Error{badInput} for an unsupported file ending, a file that cannot be read within the limits,
+/// one that refers to files outside its folder, one without faces and one with coordinates that are
+/// not finite.
 ImportedFile importFile(const std::string& path, const ConfinedLimits& limits = {});
 
 /// All nodes of a file as one mesh, where they stand.

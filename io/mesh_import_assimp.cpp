@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -274,6 +275,19 @@ private:
     std::size_t keyCount_ = 0;
 };
 
+/// Whether the texture coordinates of a PLY file belong to faces. assimp gives points that faces
+/// share the coordinates of the last face, which along a seam are those of the wrong side.
+bool hasUvsOfFaces(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    for (std::string line; std::getline(file, line) && !line.starts_with("end_header");) {
+        if (line.starts_with("property list") && line.find("texcoord") != std::string::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// glTF is in metres by definition; FBX says how many centimetres its unit has. Others say nothing.
 std::optional<double> metresPerUnitOf(const aiScene& scene, const std::string& ending)
 {
@@ -304,6 +318,9 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     reader.visit(*scene->mRootNode);
     ImportedFile file;
     file.nodes = reader.takeNodes();
+    if (ending == "ply" && hasUvsOfFaces(path)) {
+        for (ImportedNode& node : file.nodes) node.mesh.cornerUvs.resize(2, 0);
+    }
     file.metresPerUnit = metresPerUnitOf(*scene, ending);
     file.isYUp = ending == "glb" || ending == "gltf";
     return file;

@@ -95,8 +95,16 @@ TEST_P(ExportImport, AMeshWithoutTextureCoordinatesGetsNone)
     EXPECT_EQ(joinedMesh(roundTrip(scene, folder / GetParam(), 1)).cornerUvs.cols(), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ExportImport,
-                         testing::Values("x.glb", "x.####.obj", "x.####.ply", "x.abc"));
+INSTANTIATE_TEST_SUITE_P(Formats, ExportImport, testing::Values("x.glb", "x.####.obj", "x.abc"));
+
+// assimp mixes them up (see mesh_import_assimp.cpp): none are better than those of another face.
+TEST(ExportImports, TextureCoordinatesOfPlyFacesAreLeftOut)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh read = joinedMesh(roundTrip(texturedScene(), folder / "x.####.ply", 1));
+    EXPECT_EQ(read.triangles.cols(), 4);
+    EXPECT_EQ(read.cornerUvs.cols(), 0);
+}
 
 class MotionRoundTrip : public testing::TestWithParam<const char*> {};
 

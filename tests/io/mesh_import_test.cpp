@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/base/error.h"
+#include "io/mesh_import_bytes.h"
+#include "tests/support/export_scene.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -128,13 +133,39 @@ TEST(MeshImport, OneOfTwoObjectsMayHaveNoTextureCoordinates)
     EXPECT_TRUE((mesh.cornerUvs.rightCols(6).colwise() - Eigen::Vector2f(0.5, 0.25)).isZero(0.0f));
 }
 
-TEST(MeshImport, TextureCoordinatesThatAreNotFiniteAreRefused)
+/// What the parent says of an answer of the child that `spoil` has been at.
+std::string refusalOf(const std::function<void(ImportedNode& node)>& spoil)
 {
-    const test::TemporaryFolder folder;
-    const std::string path =
-        write(folder, "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 nan\nf 1/1 2/1 3/1\n");
-    EXPECT_NE(messageOf(path).find("texture coordinates that are not finite"), std::string::npos)
-        << messageOf(path);
+    ImportedFile file;
+    file.nodes.resize(1);
+    const SceneMesh mesh = test::texturedTetrahedron();
+    file.nodes[0].mesh = {mesh.points, mesh.triangles, mesh.cornerUvs};
+    file.nodes[0].keys = {{0.0, Pose()}, {1.0, Pose()}};
+    spoil(file.nodes[0]);
+    try {
+        decodeImport(encodeImport(file), "t.obj");
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(MeshImport, AnAnswerThatNoFileCanGiveIsRefused)
+{
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(refusalOf([](ImportedNode&) {}), "");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.cornerUvs(1, 7) = kInfinity; }),
+              "mesh file 't.obj' has texture coordinates that are not finite");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.cornerUvs.conservativeResize(2, 9); }),
+              "mesh file 't.obj' has texture coordinates of other corners");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.points(0, 0) = kInfinity; }),
+              "mesh file 't.obj' has coordinates that are not finite");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.triangles(0, 0) = 4; }),
+              "mesh file 't.obj' has a face with a corner that is no point");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.keys[1].seconds = 0.0; }),
+              "mesh file 't.obj' has keys that are not in order");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.keys[1].fileFromNode.position.x() = NAN; }),
+              "mesh file 't.obj' has coordinates that are not finite");
 }
 
 TEST(MeshImport, AMissingFileIsMissingInput)
