@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "io/build_world.h"
 #include "io/frame_writer.h"
 #include "io/shot_parser.h"
 #include "tests/support/export_scene.h"
@@ -54,12 +53,13 @@ TEST_P(KeyedImport, BodiesStandAtEveryFrameWhereTheFileHasThem)
     const test::TemporaryFolder folder;
     writeAsset(folder / GetParam());
     const Shot shot = parseShotText(shotText(folder / GetParam(), "*", ""), "s.toml");
-    const World world = buildWorld(shot);
-    ASSERT_EQ(world.bodyCount(), 2u);
-    EXPECT_EQ(world.info[0].kind, BodyKind::keyed);
+    ASSERT_EQ(shot.bodies.size(), 2u);
+    EXPECT_EQ(shot.bodies[0].kind, BodyKind::keyed);
+    const MotionScript moverScript(shot.bodies[0].keys, shot.bodies[0].interpolation);
+    const MotionScript stillScript(shot.bodies[1].keys, shot.bodies[1].interpolation);
     for (int i = 0; i < kFrames; ++i) {
         const double time = i / shot.framesPerSecond;
-        const Pose mover = world.info[0].script->at(time), still = world.info[1].script->at(time);
+        const Pose mover = moverScript.at(time), still = stillScript.at(time);
         // Quaternions and places in single precision; times of glTF are, too: 6e-8 of the speed.
         const Pose expected = test::tumblingPose(0, i);
         EXPECT_LT((mover.position - expected.position).norm(), 1e-5) << "frame " << i;
@@ -67,7 +67,7 @@ TEST_P(KeyedImport, BodiesStandAtEveryFrameWhereTheFileHasThem)
         EXPECT_LT((still.position - test::tumblingPose(1, 0.0).position).norm(), 1e-5);
     }
     const Pose before = test::tumblingPose(0, 2), after = test::tumblingPose(0, 3);
-    const Pose between = world.info[0].script->at(2.5 / shot.framesPerSecond);
+    const Pose between = moverScript.at(2.5 / shot.framesPerSecond);
     EXPECT_LT((between.position - 0.5 * (before.position + after.position)).norm(), 1e-5);
 }
 
