@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/geometry/tri_mesh.h"
 #include "core/math/rotation.h"
 #include "core/scene/shaded_mesh.h"
 #include "io/alembic_archive.h"
@@ -46,6 +47,9 @@ constexpr std::string_view kCameraSchema = "schema=AbcGeom_Camera_v1";
 constexpr std::string_view kCameraTitle = ";schemaObjTitle=AbcGeom_Camera_v1:.geom";
 constexpr std::string_view kNormalMetadata =
     "arrayExtent=1;geoScope=fvr;interpretation=normal;isGeomParam=true;podExtent=3;"
+    "podName=float32_t";
+constexpr std::string_view kUvMetadata =
+    "arrayExtent=1;geoScope=fvr;interpretation=vector;isGeomParam=true;podExtent=2;"
     "podName=float32_t";
 constexpr std::string_view kPointMetadata = "geoScope=vtx;interpretation=point";
 constexpr std::string_view kBoxMetadata = "interpretation=box";
@@ -101,16 +105,17 @@ struct TransformTrack {
 /// them.
 struct MeshSamples {
     AlembicSample bounds, points, normals, faceIndices, faceCounts;
+    AlembicSample uvs;       // if hasUvs
     AlembicSample allFaces;  // 0 … #F − 1, for the face set
-    bool hasFaces = false;
+    bool hasFaces = false, hasUvs = false;
 };
 
 /// A normal for every corner in the file's order. Readers take a mesh without normals for smooth
 /// all over, edges of cubes included.
-Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh, const Triangles& clockwise)
+Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh)
 {
     const ShadedMesh shaded = shadeMesh(mesh);
-    Eigen::Matrix3Xf normals(3, clockwise.size());
+    Eigen::Matrix3Xf normals(3, mesh.triangles.size());
     std::size_t next = 0;  // corner in `shaded`, which leaves out triangles with two equal corners
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         const Vec3 a = mesh.points.col(mesh.triangles(0, f));
@@ -204,21 +209,25 @@ MeshSamples AlembicWriter::writeMesh(const SceneMesh& mesh)
     }
 
     // Alembic's faces are clockwise seen from outside.
-    Triangles clockwise = mesh.triangles;
-    clockwise.row(1).swap(clockwise.row(2));
-    const auto faceCount = static_cast<std::size_t>(clockwise.cols());
+    TriMesh clockwise{mesh.points, mesh.triangles, mesh.cornerUvs};
+    turnInsideOut(clockwise);
+    const auto faceCount = static_cast<std::size_t>(mesh.triangles.cols());
     const std::vector<std::int32_t> cornersPerFace(faceCount, 3);
     std::vector<std::int32_t> allFaces(faceCount);
     std::iota(allFaces.begin(), allFaces.end(), 0);
 
     MeshSamples samples;
     samples.hasFaces = faceCount > 0;
-    samples.normals = archive_->writeArray(bytesOf(cornerNormals(mesh, clockwise)), 3 * faceCount);
+    samples.normals = archive_->writeArray(bytesOf(cornerNormals(mesh)), 3 * faceCount);
+    samples.hasUvs = mesh.cornerUvs.cols() > 0;
+    if (samples.hasUvs) {
+        samples.uvs = archive_->writeArray(bytesOf(clockwise.cornerUvs), 3 * faceCount);
+    }
     samples.allFaces = archive_->writeArray(bytesOf(allFaces), faceCount);
     samples.bounds = archive_->writeScalar(bytesOf(bounds));
     samples.points =
         archive_->writeArray(bytesOf(points), static_cast<std::uint64_t>(points.cols()));
-    samples.faceIndices = archive_->writeArray(bytesOf(clockwise), 3 * faceCount);
+    samples.faceIndices = archive_->writeArray(bytesOf(clockwise.triangles), 3 * faceCount);
     samples.faceCounts = archive_->writeArray(bytesOf(cornersPerFace), faceCount);
     return samples;
 }
@@ -333,7 +342,7 @@ AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSampl
     AlembicLayout normals = arrayLayout("N", AlembicType::f32, 3);
     normals.metadata = kNormalMetadata;
 
-    const AlembicProperty properties[] = {
+    std::vector<AlembicProperty> properties = {
         archive_->writeProperty(bounds, SampleTrack(mesh.bounds)),
         archive_->writeProperty(points, SampleTrack(mesh.points)),
         archive_->writeProperty(normals, SampleTrack(mesh.normals)),
@@ -342,6 +351,11 @@ AlembicObject AlembicWriter::writeShape(const std::string& name, const MeshSampl
         archive_->writeProperty(arrayLayout(".faceCounts", AlembicType::i32),
                                 SampleTrack(mesh.faceCounts)),
     };
+    if (mesh.hasUvs) {
+        AlembicLayout uvs = arrayLayout("uv", AlembicType::f32, 2);
+        uvs.metadata = kUvMetadata;
+        properties.push_back(archive_->writeProperty(uvs, SampleTrack(mesh.uvs)));
+    }
     const AlembicProperty geometry =
         archive_->writeCompound(".geom", std::string(kMeshSchema), properties);
     const std::string metadata = std::string(kMeshSchema) + std::string(kMeshTitle);

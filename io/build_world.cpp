@@ -203,7 +203,8 @@ SceneMesh makeQuad(const std::string& name, double halfWidth)
 SceneMesh toSceneMesh(const Shape& shape, double metresPerUnit, double planeHalfWidth)
 {
     if (shape.isPlane) return makeQuad(shape.name, planeHalfWidth);
-    return {shape.name, shape.assetMesh.points / metresPerUnit, shape.assetMesh.triangles};
+    const TriMesh& mesh = shape.assetMesh;
+    return {shape.name, mesh.points / metresPerUnit, mesh.triangles, mesh.cornerUvs};
 }
 
 }  // namespace

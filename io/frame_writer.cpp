@@ -68,7 +68,9 @@ void requireMesh(const SceneMesh& mesh)
                               (mesh.triangles.minCoeff() >= 0 &&
                                mesh.triangles.maxCoeff() < static_cast<int>(mesh.points.cols()));
     SCREE_CHECK(cornersExist, "mesh " + mesh.name + ": a triangle names a point it does not have");
-    if (mesh.points.allFinite()) return;
+    SCREE_CHECK(mesh.cornerUvs.cols() == 0 || mesh.cornerUvs.cols() == mesh.triangles.size(),
+                "mesh " + mesh.name + ": texture coordinates for other corners than it has");
+    if (mesh.points.allFinite() && mesh.cornerUvs.allFinite()) return;
     throw Error(ErrorKind::badInput,
                 "cannot export the mesh \"" + mesh.name + "\": a point of it is not finite");
 }

@@ -44,6 +44,7 @@ using MeshAndMaterial = std::pair<std::size_t, std::string>;
 /// Accessors of a mesh's data.
 struct MeshAccessors {
     std::size_t points = 0, normals = 0, indices = 0;
+    std::optional<std::size_t> uvs;
 };
 
 /// Whether a body's translation and rotation ever change.
@@ -235,6 +236,11 @@ std::optional<MeshAccessors> GltfWriter::addMeshData(const SceneMesh& mesh)
     accessors.normals = add(bytesOf(normals), pointCount, "VEC3", kFloat, kVertexBuffer);
     accessors.indices =
         add(bytesOf(shaded.indices), shaded.indices.size(), "SCALAR", kUnsignedInt, kIndexBuffer);
+    if (!shaded.uvs.empty()) {
+        std::vector<float> uvs;  // glTF's v grows downwards
+        for (const Eigen::Vector2f& uv : shaded.uvs) uvs.insert(uvs.end(), {uv.x(), 1.0f - uv.y()});
+        accessors.uvs = add(bytesOf(uvs), pointCount, "VEC2", kFloat, kVertexBuffer);
+    }
     json_["accessors"][accessors.points]["min"] = jsonArray(lowest);
     json_["accessors"][accessors.points]["max"] = jsonArray(highest);
     return accessors;
@@ -254,6 +260,7 @@ std::optional<std::size_t> GltfWriter::addMesh(const SceneBody& body)
 
     Json primitive = {{"attributes", {{"POSITION", data->points}, {"NORMAL", data->normals}}},
                       {"indices", data->indices}};
+    if (data->uvs) primitive["attributes"]["TEXCOORD_0"] = *data->uvs;
     const auto material = materials_.find(body.material);
     if (material != materials_.end()) primitive["material"] = material->second;
     json_["meshes"].push_back({{"name", mesh.name}, {"primitives", Json::array({primitive})}});

@@ -14,21 +14,32 @@
 
 namespace scree {
 
+/// Where a node is at some time.
+struct ImportedKey {
+    double seconds = 0.0;  ///< of the file
+    Pose fileFromNode;
+};
+
 /// A node of a file that shows a mesh.
 struct ImportedNode {
-    std::string name;   ///< as in the file; neither unique nor an identifier
-    Pose fileFromNode;  ///< lengths of the file
-    TriMesh mesh;       ///< in the node's axes, its scale baked; equal points joined
+    std::string name;               ///< as in the file; neither unique nor an identifier
+    Pose fileFromNode;              ///< lengths of the file; of a moving node the first
+    TriMesh mesh;                   ///< in the node's axes, its scale baked; equal points joined
+    std::vector<ImportedKey> keys;  ///< in order of time; empty for a node that never moves
+    std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
 };
 
 struct ImportedFile {
     std::vector<ImportedNode> nodes;      ///< in the order of the file's tree; at least one
     bool isYUp = false;                   ///< the format says so
+    bool countsFramesFromZero = false;    ///< its time 0 is frame 0, not where its motion begins
     std::optional<double> metresPerUnit;  ///< length of one unit of the file [m], if it says so
 };
 
-/// Polygons are cut into triangles. Coordinates pass through single precision. Whether a mesh is a
-/// solid is not asked here. Throws Error{missingInput} when there is no such file, and
+/// Polygons are cut into triangles. Coordinates pass through single precision. Of texture
+/// coordinates the first set is kept; where only a part of a mesh has some, the rest is at (0, 0);
+/// those of the faces of a PLY file, of which points know nothing, are left out. Whether a mesh is
+/// a solid is not asked here. Throws Error{missingInput} when there is no such file, and
 /// Error{badInput} for an unsupported file ending, a file that cannot be read within the limits,
 /// one that refers to files outside its folder, one without faces and one with coordinates that are
 /// not finite.

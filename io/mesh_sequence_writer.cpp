@@ -1,5 +1,6 @@
 #include "io/mesh_sequence_writer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -51,7 +52,7 @@ private:
 
 void writeObjFrame(AtomicFile& file, const SceneDescription& scene, const SceneFrame& frame)
 {
-    std::uint64_t firstPoint = 1;  // OBJ counts from 1
+    std::uint64_t firstPoint = 1, nextUv = 1;  // OBJ counts from 1
     std::string text;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         if (!isThere(scene.bodies[b], frame.frame)) continue;
@@ -63,16 +64,39 @@ void writeObjFrame(AtomicFile& file, const SceneDescription& scene, const SceneF
             for (const double coordinate : xWorld) appendNumber(text += ' ', coordinate);
             text += '\n';
         }
+        const bool hasUvs = mesh.cornerUvs.cols() > 0;
+        for (const auto uv : mesh.cornerUvs.colwise()) {
+            appendNumber(text += "vt ", uv.x());
+            appendNumber(text += ' ', uv.y());
+            text += '\n';
+        }
         for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
             text += 'f';
             for (const int corner : mesh.triangles.col(f)) {
                 appendNumber(text += ' ', firstPoint + static_cast<std::uint64_t>(corner));
+                if (hasUvs) appendNumber(text += '/', nextUv++);
             }
             text += '\n';
         }
         firstPoint += static_cast<std::uint64_t>(mesh.points.cols());
         file.write(text);
     }
+}
+
+bool hasUvs(const SceneDescription& scene)
+{
+    const auto has = [](const SceneMesh& mesh) { return mesh.cornerUvs.cols() > 0; };
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(), has);
+}
+
+/// The list of texture coordinates of a face; empty where the mesh has none but another has.
+void appendPlyUvs(std::string& bytes, const SceneMesh& mesh, Eigen::Index face)
+{
+    const bool hasSome = mesh.cornerUvs.cols() > 0;
+    appendBytes(bytes, static_cast<std::uint8_t>(hasSome ? 6 : 0));
+    if (!hasSome) return;
+    const Eigen::Matrix<float, 2, 3> uvs = mesh.cornerUvs.middleCols<3>(3 * face);
+    bytes += bytesOf(uvs);
 }
 
 std::string plyHeader(const SceneDescription& scene, int frame)
@@ -99,8 +123,8 @@ std::string plyHeader(const SceneDescription& scene, int frame)
            "element face " +
            std::to_string(faceCount) +
            "\n"
-           "property list uchar int vertex_indices\n"
-           "end_header\n";
+           "property list uchar int vertex_indices\n" +
+           (hasUvs(scene) ? "property list uchar float texcoord\n" : "") + "end_header\n";
 }
 
 void writePlyFrame(AtomicFile& file, const SceneDescription& scene, const SceneFrame& frame)
@@ -129,6 +153,7 @@ void writePlyFrame(AtomicFile& file, const SceneDescription& scene, const SceneF
 
     // Triangles of all bodies.
     std::int32_t firstPoint = 0;
+    const bool withUvs = hasUvs(scene);
     for (const SceneBody& body : scene.bodies) {
         if (!isThere(body, frame.frame)) continue;
         const SceneMesh& mesh = scene.meshes[body.mesh];
@@ -136,6 +161,7 @@ void writePlyFrame(AtomicFile& file, const SceneDescription& scene, const SceneF
         for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
             appendBytes(bytes, std::uint8_t{3});
             for (const int corner : mesh.triangles.col(f)) appendBytes(bytes, firstPoint + corner);
+            if (withUvs) appendPlyUvs(bytes, mesh, f);
         }
         firstPoint += static_cast<std::int32_t>(mesh.points.cols());
         file.write(bytes);

@@ -1,6 +1,7 @@
-// One mesh as a binary PLY file (little endian) with its points in full double precision: how a
-// take keeps its shapes. Any mesh tool opens these files; only files of exactly this layout are
-// read back, meshes from elsewhere come through io/mesh_import.h.
+// One mesh as a binary PLY file (little endian) with its points in full double precision, and the
+// texture coordinates of its corners where it has some: how a take keeps its shapes. Any mesh tool
+// opens these files; only files of exactly this layout are read back, meshes from elsewhere come
+// through io/mesh_import.h.
 #pragma once
 
 #include <filesystem>

@@ -146,6 +146,7 @@ bool PovWriter::writeMesh(AtomicFile& file, std::size_t mesh) const
                inComment(scene_->meshes[mesh].name));
     writeVectors("vertex_vectors", shaded.points);
     writeVectors("normal_vectors", shaded.normals);
+    if (!shaded.uvs.empty()) writeVectors("uv_vectors", shaded.uvs);
 
     std::string faces = "    face_indices { " + std::to_string(shaded.indices.size() / 3);
     for (std::size_t i = 0; i < shaded.indices.size(); i += 3) {

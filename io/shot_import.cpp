@@ -62,6 +62,7 @@ public:
     {
         std::uint64_t hash = hashBytes(mesh.points.data(), sizeof(double) * mesh.points.size());
         hash = hashBytes(mesh.triangles.data(), sizeof(int) * mesh.triangles.size(), hash);
+        hash = hashBytes(mesh.cornerUvs.data(), sizeof(float) * mesh.cornerUvs.size(), hash);
         auto& known = meshes_[hash];
         if (!known) known = std::make_shared<const TriMesh>(std::move(mesh));
         return known;
@@ -79,6 +80,61 @@ Pose worldFromFile(const Shot& shot, const ImportedFile& file)
     return {Vec3::Zero(), isTurned ? Quat(half, half, 0.0, 0.0) : Quat::Identity()};
 }
 
+/// Turns what a file says into the shot's world.
+class Placement {
+public:
+    Placement(const Shot& shot, const ImportedFile& file)
+        : metres_(file.metresPerUnit.value_or(shot.metresPerUnit)),
+          worldFromFile_(worldFromFile(shot, file)),
+          startSeconds_(file.countsFramesFromZero ? shot.firstFrame / shot.framesPerSecond : 0.0)
+    {
+    }
+
+    double metresPerUnit() const { return metres_; }
+
+    Pose worldFrom(const Pose& fileFromNode) const
+    {
+        Pose pose = worldFromFile_ * fileFromNode;
+        pose.position *= metres_;
+        return pose;
+    }
+
+    /// The node's animation; where it has none it stays where it is.
+    std::vector<MotionKey> keysOf(const ImportedNode& node) const
+    {
+        std::vector<MotionKey> keys;
+        for (const ImportedKey& key : node.keys) {
+            keys.push_back({key.seconds - startSeconds_, worldFrom(key.fileFromNode)});
+        }
+        if (keys.empty()) keys.push_back({0.0, worldFrom(node.fileFromNode)});
+        return keys;
+    }
+
+private:
+    double metres_;
+    Pose worldFromFile_;
+    double startSeconds_;  // of the shot's first frame, by the clock of the file
+};
+
+/// Reports what cannot be played of the chosen nodes.
+void requireMotion(const ShotNode& motion, const ImportedFile& file,
+                   const std::vector<bool>& isChosen, ProblemList& problems)
+{
+    bool anyMoves = false;
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+        if (!isChosen[i]) continue;
+        const ImportedNode& node = file.nodes[i];
+        anyMoves = anyMoves || !node.keys.empty() || !node.obstacle.empty();
+        if (node.obstacle.empty()) continue;
+        problems.add(motion.where, "'" + node.name + "' cannot be keyed: " + node.obstacle +
+                                       ", and bodies are rigid");
+    }
+    if (anyMoves) return;
+    problems.add(motion.where,
+                 "the file animates none of these nodes; motion = \"static\" leaves them where "
+                 "they are");
+}
+
 }  // namespace
 
 std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::string& path,
@@ -93,17 +149,28 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
         return result;
     }
     const std::vector<bool> isChosen = chooseNodes(*node.find("nodes"), file, path, problems);
-    const double metres = file.metresPerUnit.value_or(shot.metresPerUnit);
+    const ShotNode& motion = *node.find("motion");
+    const bool isKeyed = motion.text == "keyed";
+    const ShotNode* interpolate = node.find("interpolate");
+    if (isKeyed) requireMotion(motion, file, isChosen, problems);
+    if (interpolate && !isKeyed) {
+        problems.add(interpolate->where, "'interpolate' is for imports with motion = \"keyed\"");
+    }
+    const Placement placement(shot, file);
     MeshPool pool;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
         if (!isChosen[i]) continue;
         const ImportedNode& imported = file.nodes[i];
         PlacedNode placed;
         placed.name = identifierOf(imported.name);
-        TriMesh mesh = transformed(imported.mesh, Pose(), Vec3::Constant(metres));
+        TriMesh mesh =
+            transformed(imported.mesh, Pose(), Vec3::Constant(placement.metresPerUnit()));
         placed.shape = {path, pool.share(std::move(mesh))};
-        placed.worldFromNode = worldFromFile(shot, file) * imported.fileFromNode;
-        placed.worldFromNode.position *= metres;
+        placed.worldFromNode = placement.worldFrom(imported.fileFromNode);
+        if (isKeyed) placed.keys = placement.keysOf(imported);
+        if (interpolate && interpolate->text == "smooth") {
+            placed.interpolation = KeyInterpolation::smooth;
+        }
         result.push_back(std::move(placed));
     }
     return result;

@@ -11,13 +11,16 @@
 namespace scree {
 
 struct PlacedNode {
-    std::string name;    ///< identifier made of the node's name; may repeat
-    NodeSpec shape;      ///< nodes that show the same mesh share it
-    Pose worldFromNode;  ///< [m]
+    std::string name;             ///< identifier made of the node's name; may repeat
+    NodeSpec shape;               ///< nodes that show the same mesh share it
+    Pose worldFromNode;           ///< [m]
+    std::vector<MotionKey> keys;  ///< of a keyed import, at least one
+    KeyInterpolation interpolation = KeyInterpolation::linear;
 };
 
 /// The nodes of a checked [[import]] that one of its patterns fits, in the order of the file.
-/// Reports a file that cannot be read and every pattern that fits nothing.
+/// Reports a file that cannot be read, every pattern that fits nothing, and motion = "keyed" where
+/// nothing moves or cannot move so.
 std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::string& path,
                                           const Shot& shot, ProblemList& problems);
 

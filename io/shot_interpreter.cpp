@@ -42,6 +42,12 @@ double metresPerUnit(const std::string& unit)
     return 1.0;
 }
 
+BodyKind kindOf(const std::string& word)
+{
+    if (word == "static") return BodyKind::fixed;
+    return word == "keyed" ? BodyKind::keyed : BodyKind::dynamic;
+}
+
 CombineRule combineRuleOf(const std::string& word)
 {
     if (word == "min") return CombineRule::minimum;
@@ -352,8 +358,10 @@ private:
             ownerOfName_.emplace(body.name, node.where);
             body.shape = shapeOfNode(placed, node.where);
             body.material = material->text;
-            body.kind = node.find("motion")->text == "static" ? BodyKind::fixed : BodyKind::dynamic;
+            body.kind = kindOf(node.find("motion")->text);
             body.worldFromAsset = placed.worldFromNode;
+            body.keys = std::move(placed.keys);
+            body.interpolation = placed.interpolation;
             shot_.bodies.push_back(std::move(body));
         }
     }
@@ -481,9 +489,7 @@ private:
     {
         const std::string& motion = node.find("motion")->text;
         const bool isStatic = motion == "static";
-        body.kind = isStatic            ? BodyKind::fixed
-                    : motion == "keyed" ? BodyKind::keyed
-                                        : BodyKind::dynamic;
+        body.kind = kindOf(motion);
         readKeyedMotion(node, shot_, body, problems_);
         if (const ShotNode* velocity = node.find("velocity")) {
             body.velocity = toVec3(*velocity) * shot_.metresPerUnit;

@@ -476,10 +476,10 @@ const std::vector<ShotKey> kShapeKeys = {
      .type = text,
      .isFile = true,
      .excludes = "torus|box|sphere|cylinder|capsule",
-     .help =
-         "Mesh to read (obj, ply, stl, glb, gltf or fbx), relative to the shot file; all its nodes "
-         "as one. glTF is in metres and FBX says its unit. It must be the closed, "
-         "outward surface of a solid; what is wrong with it is said with its place."},
+     .help = "Mesh to read (obj, ply, stl, glb, gltf, fbx or abc), relative to the shot file; all "
+             "its nodes "
+             "as one. glTF is in metres and FBX says its unit. It must be the closed, "
+             "outward surface of a solid; what is wrong with it is said with its place."},
     {.path = "shape.scale",
      .type = numberOrList,
      .byDefault = "1.0",
@@ -795,9 +795,9 @@ const std::vector<ShotKey> kImportKeys = {
      .type = text,
      .isFile = true,
      .isRequired = true,
-     .help =
-         "obj, ply, stl, glb, gltf or fbx, relative to the shot file. glTF is in metres and FBX "
-         "says its unit; the lengths of others are the shot's."},
+     .help = "obj, ply, stl, glb, gltf, fbx or abc, relative to the shot file. glTF is in metres "
+             "and FBX says its unit; the lengths of others are the shot's. Up is +y in glTF and "
+             "Alembic; others are taken for the shot's."},
     {.path = "import.nodes",
      .type = textOrTexts,
      .byDefault = "\"*\"",
@@ -807,9 +807,17 @@ const std::vector<ShotKey> kImportKeys = {
     {.path = "import.motion",
      .type = word,
      .byDefault = "\"dynamic\"",
-     .choices = "dynamic|static",
-     .plannedChoices = "keyed",
-     .help = "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move."},
+     .choices = "dynamic|static|keyed",
+     .help =
+         "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move; "
+         "\"keyed\" ones play the file's own animation, steadily from sample to sample. The time "
+         "zero of glTF and FBX is the shot's first frame; that of Alembic is frame 0."},
+    {.path = "import.interpolate",
+     .type = word,
+     .choices = "smooth|linear",
+     .help = "How keyed motion goes from sample to sample. \"linear\", which is taken without this "
+             "key, shows what other programs show between samples; \"smooth\" has no jumps of "
+             "speed, for motion that carries bodies."},
     {.path = "import.material",
      .type = text,
      .isRequired = true,

@@ -183,7 +183,7 @@ void TakeWriter::start(const World& world, const std::string& programVersion)
         if (!body.isPlane) wanted.insert(body.shape);
     for (const SceneMesh& mesh : scene.meshes) {
         if (!wanted.contains(mesh.name)) continue;
-        writePlyMesh(paths_.shape(mesh.name), {mesh.points, mesh.triangles});
+        writePlyMesh(paths_.shape(mesh.name), {mesh.points, mesh.triangles, mesh.cornerUvs});
         info.shapes.push_back({mesh.name, hashText(readFileBytes(paths_.shape(mesh.name)))});
     }
     writeFileBytes(paths_.info(), encodeTakeInfo(info));

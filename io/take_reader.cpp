@@ -65,7 +65,7 @@ SceneDescription TakeReader::describe() const
                         "damaged: its hash is not the one in take.json");
         meshByName[shape.name] = scene.meshes.size();
         const TriMesh mesh = readPlyMesh(path);
-        scene.meshes.push_back({shape.name, mesh.points, mesh.triangles});
+        scene.meshes.push_back({shape.name, mesh.points, mesh.triangles, mesh.cornerUvs});
     }
 
     // List the bodies. Planes share a mesh, which is made once it is known how large it must be.

@@ -97,6 +97,15 @@ void writeMesh(UsdText& text, const std::string& name, const SceneMesh& mesh)
     text.line("uniform token orientation = \"rightHanded\"");
     text.line("uniform token physics:approximation = \"none\"");
     text.line("point3f[] points = " + usdArray(points.colwise(), appendFloatTuple));
+    if (mesh.cornerUvs.cols() > 0) {
+        const auto append = [](std::string& line, const Eigen::Vector2f& uv) {
+            appendUsdTuple(line, uv);
+        };
+        text.line("texCoord2f[] primvars:st = " + usdArray(mesh.cornerUvs.colwise(), append) +
+                  " (");
+        text.line("    interpolation = \"faceVarying\"");
+        text.line(")");
+    }
     text.line("uniform token subdivisionScheme = \"none\"");
     text.closePrim();
     text.closePrim();

@@ -72,18 +72,24 @@ def unfold_instances(info):
 
 
 def read_ply(path):
-    """Points and triangles of a mesh in a take."""
+    """Points, triangles and texture coordinates (u, v of each corner, or none) of a mesh in a
+    take."""
     data = path.read_bytes()
     head, body = data.split(b"end_header\n", 1)
     counts = [int(n) for n in re.findall(rb"element \w+ (\d+)", head)]
     points = np.frombuffer(body, "<f8", 3 * counts[0]).reshape(-1, 3)
-    face = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
-    return points, np.frombuffer(body, face, counts[1], points.nbytes)["corners"]
+    fields = [("count", "u1"), ("corners", "<i4", 3)]
+    if b" texcoord\n" in head:
+        fields += [("uv_count", "u1"), ("uvs", "<f4", (3, 2))]
+    faces = np.frombuffer(body, np.dtype(fields), counts[1], points.nbytes)
+    return points, faces["corners"], faces["uvs"] if "uvs" in faces.dtype.names else None
 
 
-def make_mesh(name, points, triangles):
+def make_mesh(name, points, triangles, uvs=None):
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(points.tolist(), [], triangles.tolist())
+    if uvs is not None:
+        mesh.uv_layers.new(name="uv").uv.foreach_set("vector", uvs.ravel())
     mesh.polygons.foreach_set("use_smooth", [True] * len(triangles))
     mesh.set_sharp_from_angle(angle=CREASE)
     return mesh
@@ -195,6 +201,9 @@ def set_camera(scene, info, name):
     found = [o for o in bpy.data.objects if o.type == "CAMERA" and (not name or o.name == name)]
     if found:
         scene.camera = found[0]
+        # A shot's field of view is vertical. The .abc importer would fit the wider side, which shows
+        # another part of the scene when --size has another shape than the shot's pictures.
+        found[0].data.sensor_fit = "VERTICAL"
         return
     camera = bpy.data.objects.new(name or "camera", bpy.data.cameras.new(name or "camera"))
     bpy.context.collection.objects.link(camera)

@@ -7,6 +7,7 @@
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/exit_code.h"
+#include "tools/stop_signals.h"
 #include "tools/version.h"
 
 namespace scree {
@@ -44,9 +45,9 @@ int runProgram(int argumentCount, char** arguments, Console& console)
     program.fallthrough();
     addConsoleOptions(program, console);
     const Command commands[] = {
-        addSimCommand(program),     addRenderCommand(program),  addExportCommand(program),
-        addSheetCommand(program),   addMovieCommand(program),   addCheckCommand(program),
-        addInfoCommand(program),    addStatsCommand(program),   addExplainCommand(program),
+        addSimCommand(program),    addRenderCommand(program), addExportCommand(program),
+        addSheetCommand(program),  addMovieCommand(program),  addCheckCommand(program),
+        addInfoCommand(program),   addStatsCommand(program),  addExplainCommand(program),
         addVerifyCommand(program),
     };
     for (const Command& command : commands) command.options->fallthrough();
@@ -72,6 +73,7 @@ int runProgram(int argumentCount, char** arguments, Console& console)
 int main(int argumentCount, char** arguments)
 {
     scree::Console console;
+    scree::takeFileLimitsAsErrors();
     try {
         return scree::runProgram(argumentCount, arguments, console);
     } catch (const scree::Error& problem) {

@@ -36,6 +36,10 @@ void watchSignals()
         handle(signal, noteStop, static_cast<int>(SA_RESTART | SA_RESETHAND));
     handle(SIGUSR1, noteSave, SA_RESTART);
     handle(SIGPIPE, SIG_IGN, 0);
+}
+
+void takeFileLimitsAsErrors()
+{
     handle(SIGXFSZ, SIG_IGN, 0);
 }
 

@@ -44,6 +44,7 @@ TriMesh mergeEqualPoints(const TriMesh& mesh)
     }
 
     std::vector<std::array<int, 3>> kept;
+    std::vector<Eigen::Index> keptFrom;  // their triangles in `mesh`
     std::vector<char> used(sorted.size(), 0);
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         std::array<int, 3> t{};
@@ -51,6 +52,7 @@ TriMesh mergeEqualPoints(const TriMesh& mesh)
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
         for (int v : t) used[v] = 1;
         kept.push_back(t);
+        keptFrom.push_back(f);
     }
 
     std::vector<int> newIndex(sorted.size(), -1);
@@ -67,6 +69,11 @@ TriMesh mergeEqualPoints(const TriMesh& mesh)
     for (std::size_t f = 0; f < kept.size(); ++f) {
         for (int k = 0; k < 3; ++k) merged.triangles(k, f) = newIndex[kept[f][k]];
     }
+    if (mesh.cornerUvs.cols() == 0) return merged;
+    merged.cornerUvs.resize(2, merged.triangles.size());
+    for (std::size_t f = 0; f < kept.size(); ++f) {
+        merged.cornerUvs.middleCols<3>(3 * f) = mesh.cornerUvs.middleCols<3>(3 * keptFrom[f]);
+    }
     return merged;
 }
 
@@ -78,6 +85,14 @@ TriMesh transformed(const TriMesh& mesh, const Pose& targetFromSource, const Vec
         moved.points.col(v) = targetFromSource * scaled;
     }
     return moved;
+}
+
+void turnInsideOut(TriMesh& mesh)
+{
+    mesh.triangles.row(1).swap(mesh.triangles.row(2));
+    for (Eigen::Index corner = 0; corner < mesh.cornerUvs.cols(); corner += 3) {
+        mesh.cornerUvs.col(corner + 1).swap(mesh.cornerUvs.col(corner + 2));
+    }
 }
 
 double signedVolume(const TriMesh& mesh)

@@ -13,6 +13,12 @@ using Quat = Eigen::Quaterniond;
 using Points = Eigen::Matrix3Xd;     // 3×#V
 using Triangles = Eigen::Matrix3Xi;  // 3×#F corner indices, counter-clockwise seen from outside
 
+/// Texture coordinates (u, v) of every triangle's corners: 2×(3·#F), corner k of triangle f in
+/// column 3f + k; v grows upwards. No columns: there are none. They belong to corners because along
+/// a seam two triangles see the same point at different places of the picture. Single precision, as
+/// every file has them: they are handed on, never computed with.
+using CornerUvs = Eigen::Matrix2Xf;
+
 /// A rigid placement: maps a point of the named source frame to the named target frame.
 struct Pose {
     Vec3 position = Vec3::Zero();

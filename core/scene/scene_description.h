@@ -17,8 +17,9 @@ namespace scree {
 /// A mesh in the artist's frame, shared by many bodies.
 struct SceneMesh {
     std::string name;
-    Points points;        // 3×#V
-    Triangles triangles;  // 3×#F
+    Points points;             // 3×#V
+    Triangles triangles;       // 3×#F
+    CornerUvs cornerUvs = {};  // 2×(3·#F), or empty
 };
 
 /// Birth frames of bodies that are always there, and of those that never come.

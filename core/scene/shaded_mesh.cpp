@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 #include "core/geometry/tri_mesh.h"
 
@@ -116,6 +118,21 @@ bool joinAcrossSmoothEdges(const TriMesh& mesh, const Points& normals, double cr
     return isClosed;
 }
 
+/// For every corner the first one of its group that is seen at the same place of the texture.
+std::vector<int> drawnCorners(CornerGroups& groups, const TriMesh& mesh)
+{
+    std::vector<int> drawnAs(static_cast<std::size_t>(mesh.triangles.size()));
+    std::map<std::tuple<int, float, float>, int> firstAt;
+    for (int corner = 0; corner < static_cast<int>(drawnAs.size()); ++corner) {
+        drawnAs[corner] = groups.find(corner);
+        if (mesh.cornerUvs.cols() == 0) continue;
+        const Eigen::Vector2f uv = mesh.cornerUvs.col(corner);
+        const auto entry = firstAt.try_emplace({drawnAs[corner], uv.x(), uv.y()}, corner).first;
+        drawnAs[corner] = entry->second;
+    }
+    return drawnAs;
+}
+
 /// Half the diagonal of the bounding box around its centre: at most √3 times the smallest ball.
 void setBall(ShadedMesh& mesh, const Points& points)
 {
@@ -128,7 +145,8 @@ void setBall(ShadedMesh& mesh, const Points& points)
 
 ShadedMesh shadeMesh(const SceneMesh& sceneMesh, double creaseDegrees)
 {
-    const TriMesh mesh = mergeEqualPoints({sceneMesh.points, sceneMesh.triangles});
+    const TriMesh mesh =
+        mergeEqualPoints({sceneMesh.points, sceneMesh.triangles, sceneMesh.cornerUvs});
     const Points normals = faceNormals(mesh);
     const int cornerCount = static_cast<int>(3 * mesh.triangles.cols());
 
@@ -137,21 +155,24 @@ ShadedMesh shadeMesh(const SceneMesh& sceneMesh, double creaseDegrees)
     CornerGroups groups(cornerCount);
     result.isClosed = joinAcrossSmoothEdges(mesh, normals, creaseDegrees, groups);
 
-    // Give each group one point, and sum its normals.
+    // Sum the normals of each group.
     Points groupNormals = Points::Zero(3, cornerCount);
     for (int corner = 0; corner < cornerCount; ++corner)
         groupNormals.col(groups.find(corner)) +=
             cornerAngle(mesh, corner) * normals.col(corner / 3);
 
+    // Give each group one point, or one for each place of the texture it is seen at.
+    const std::vector<int> drawnAs = drawnCorners(groups, mesh);
     result.indices.resize(cornerCount);
     for (int corner = 0; corner < cornerCount; ++corner) {
-        const int group = groups.find(corner);
-        if (group == corner) {
+        if (drawnAs[corner] == corner) {
+            const int group = groups.find(corner);
             result.indices[corner] = static_cast<std::uint32_t>(result.points.size());
             result.points.push_back(mesh.points.col(pointAt(mesh.triangles, corner)).cast<float>());
-            result.normals.push_back(groupNormals.col(corner).normalized().cast<float>());
+            result.normals.push_back(groupNormals.col(group).normalized().cast<float>());
+            if (mesh.cornerUvs.cols() > 0) result.uvs.push_back(mesh.cornerUvs.col(corner));
         }
-        result.indices[corner] = result.indices[group];
+        result.indices[corner] = result.indices[drawnAs[corner]];
     }
     setBall(result, mesh.points);
     return result;

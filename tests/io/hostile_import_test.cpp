@@ -194,12 +194,14 @@ std::map<std::string, std::string> cleanFiles()
         " C: \"OO\",1,2\n C: \"OO\",2,0\n}\n";
     const test::TemporaryFolder folder;
     const SceneDescription scene = test::sceneOf({test::bodyNamed("body")});
-    const auto writer = makeFrameWriter(folder / "t.glb");
-    writer->begin(scene, 1, 1);
-    writer->write(test::tumblingFrame(scene, 1, 1));
-    writer->finish();
-    std::ifstream stream(folder / "t.glb", std::ios::binary);
-    files["glb"] = std::string(std::istreambuf_iterator<char>(stream), {});
+    for (const std::string ending : {"glb", "abc"}) {
+        const auto writer = makeFrameWriter(folder / ("t." + ending));
+        writer->begin(scene, 1, 2);
+        for (const int frame : {1, 2}) writer->write(test::tumblingFrame(scene, frame, 1));
+        writer->finish();
+        std::ifstream stream(folder / ("t." + ending), std::ios::binary);
+        files[ending] = std::string(std::istreambuf_iterator<char>(stream), {});
+    }
     return files;
 }
 

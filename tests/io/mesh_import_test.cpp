@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
+#include "io/mesh_import_bytes.h"
+#include "tests/support/export_scene.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -81,6 +87,87 @@ TEST(MeshImport, ReadsPlyAndStl)
     EXPECT_DOUBLE_EQ(signedVolume(fromStl), 1.0 / 6.0);
 }
 
+/// What the triangles of the plane x_axis = value show at a point.
+std::vector<Eigen::Vector2f> uvsAt(const TriMesh& mesh, int axis, double value, const Vec3& point)
+{
+    std::vector<Eigen::Vector2f> uvs;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        bool isInPlane = true;
+        for (const int v : mesh.triangles.col(f)) {
+            isInPlane = isInPlane && mesh.points(axis, v) == value;
+        }
+        for (Eigen::Index k = 0; isInPlane && k < 3; ++k) {
+            if (mesh.points.col(mesh.triangles(k, f)) != point) continue;
+            uvs.push_back(mesh.cornerUvs.col(3 * f + k));
+        }
+    }
+    return uvs;
+}
+
+TEST(MeshImport, APointOnASeamHasTheTextureCoordinatesOfBothSides)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh cube = importMesh(write(folder, "cube.obj", kCubeObj));
+    ASSERT_EQ(cube.points.cols(), 8);
+    ASSERT_EQ(cube.cornerUvs.cols(), 36);
+    // Point 3 of the file, (1, 1, 0): "3/2" in the face z = 0, "3/1" in y = 1.
+    for (const Eigen::Vector2f& uv : uvsAt(cube, 2, 0.0, {1, 1, 0})) {
+        EXPECT_EQ(uv, Eigen::Vector2f(1, 0));
+    }
+    for (const Eigen::Vector2f& uv : uvsAt(cube, 1, 1.0, {1, 1, 0})) {
+        EXPECT_EQ(uv, Eigen::Vector2f(0, 0));
+    }
+    EXPECT_GT(uvsAt(cube, 2, 0.0, {1, 1, 0}).size(), 0u);
+    EXPECT_GT(uvsAt(cube, 1, 1.0, {1, 1, 0}).size(), 0u);
+}
+
+TEST(MeshImport, OneOfTwoObjectsMayHaveNoTextureCoordinates)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh mesh = importMesh(
+        write(folder, "t.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0.5 0.25\no plain\nf 1 3 2\nf 1 2 4\n"
+              "o painted\nf 1/1 4/1 3/1\nf 2/1 3/1 4/1\n"));
+    ASSERT_EQ(mesh.cornerUvs.cols(), 12);
+    EXPECT_TRUE(mesh.cornerUvs.leftCols(6).isZero(0.0f));
+    EXPECT_TRUE((mesh.cornerUvs.rightCols(6).colwise() - Eigen::Vector2f(0.5, 0.25)).isZero(0.0f));
+}
+
+/// What the parent says of an answer of the child that `spoil` has been at.
+std::string refusalOf(const std::function<void(ImportedNode& node)>& spoil)
+{
+    ImportedFile file;
+    file.nodes.resize(1);
+    const SceneMesh mesh = test::texturedTetrahedron();
+    file.nodes[0].mesh = {mesh.points, mesh.triangles, mesh.cornerUvs};
+    file.nodes[0].keys = {{0.0, Pose()}, {1.0, Pose()}};
+    spoil(file.nodes[0]);
+    try {
+        decodeImport(encodeImport(file), "t.obj");
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(MeshImport, AnAnswerThatNoFileCanGiveIsRefused)
+{
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(refusalOf([](ImportedNode&) {}), "");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.cornerUvs(1, 7) = kInfinity; }),
+              "mesh file 't.obj' has texture coordinates that are not finite");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.cornerUvs.conservativeResize(2, 9); }),
+              "mesh file 't.obj' has texture coordinates of other corners");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.points(0, 0) = kInfinity; }),
+              "mesh file 't.obj' has coordinates that are not finite");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.triangles(0, 0) = 4; }),
+              "mesh file 't.obj' has a face with a corner that is no point");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.keys[1].seconds = 0.0; }),
+              "mesh file 't.obj' has keys that are not in order");
+    EXPECT_EQ(refusalOf([](ImportedNode& node) { node.keys[1].fileFromNode.position.x() = NAN; }),
+              "mesh file 't.obj' has coordinates that are not finite");
+}
+
 TEST(MeshImport, AMissingFileIsMissingInput)
 {
     EXPECT_EQ(messageOf("/no/such/bone.obj", ErrorKind::missingInput),
@@ -92,7 +179,7 @@ TEST(MeshImport, AnUnsupportedEndingListsTheSupportedOnes)
     EXPECT_EQ(
         messageOf("bone.max"),
         "mesh file 'bone.max' has an ending that cannot be read; supported: obj, ply, stl, glb, "
-        "gltf, fbx");
+        "gltf, fbx, abc");
 }
 
 TEST(MeshImport, AFileThatIsNoMeshIsRefusedWithTheReason)

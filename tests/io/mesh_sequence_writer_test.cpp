@@ -208,6 +208,30 @@ TEST(PlySequenceWriter, FacesNumberThePointsOfTheirOwnBody)
     }
 }
 
+TEST(PlySequenceWriter, FacesHaveTheTextureCoordinatesOfTheirCorners)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = mixedScene();
+    scene.meshes[0] = test::texturedTetrahedron();
+    exportTwoFrames(*makePlySequenceWriter(folder / "x.####.ply"), scene);
+
+    const PlyParts parts = splitPly(folder / "x.1001.ply");
+    EXPECT_NE(parts.header.find("property list uchar float texcoord\n"), std::string::npos);
+    // The triangle before and the one behind have an empty list each.
+    const std::size_t first = 10 * sizeof(PlyPoint) + sizeof(PlyFace) + 1;
+    const std::size_t faceBytes = sizeof(PlyFace) + 1 + 6 * sizeof(float);
+    ASSERT_EQ(parts.body.size(), first + 4 * faceBytes + sizeof(PlyFace) + 1);
+    EXPECT_EQ(parts.body[first - 1], 0);
+    for (Eigen::Index f = 0; f < 4; ++f) {
+        const std::size_t at = first + static_cast<std::size_t>(f) * faceBytes + sizeof(PlyFace);
+        Eigen::Matrix<float, 2, 3> uvs;
+        std::memcpy(uvs.data(), parts.body.data() + at + 1, sizeof uvs);
+        EXPECT_EQ(parts.body[at], 6);
+        EXPECT_TRUE(uvs == (scene.meshes[0].cornerUvs.middleCols<3>(3 * f)));
+    }
+    EXPECT_EQ(parts.body.back(), 0);
+}
+
 TEST(MeshSequenceWriter, EqualExportsAreEqualBytes)
 {
     const test::TemporaryFolder folder;

@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TriMesh smallMesh()
+TriMesh smallMesh(bool hasUvs = false)
 {
-    const SceneMesh mesh = test::tetrahedron();
-    return {mesh.points / 3.0, mesh.triangles};
+    const SceneMesh mesh = hasUvs ? test::texturedTetrahedron() : test::tetrahedron();
+    return {mesh.points / 3.0, mesh.triangles, mesh.cornerUvs / 3.0f};
 }
 
 std::string contentOf(const fs::path& path)
@@ -41,11 +41,15 @@ void expectDamaged(const fs::path& path, const std::string& bytes)
 TEST(PlyMesh, ReadsBackEveryBit)
 {
     const test::TemporaryFolder folder;
-    const TriMesh written = smallMesh();
-    writePlyMesh(folder / "a.ply", written);
-    const TriMesh read = readPlyMesh(folder / "a.ply");
-    EXPECT_EQ(read.points, written.points);
-    EXPECT_EQ(read.triangles, written.triangles);
+    for (const bool hasUvs : {false, true}) {
+        const TriMesh written = smallMesh(hasUvs);
+        writePlyMesh(folder / "a.ply", written);
+        const TriMesh read = readPlyMesh(folder / "a.ply");
+        EXPECT_EQ(read.points, written.points);
+        EXPECT_EQ(read.triangles, written.triangles);
+        ASSERT_EQ(read.cornerUvs.cols(), hasUvs ? 12 : 0);
+        EXPECT_TRUE(read.cornerUvs == written.cornerUvs);
+    }
 }
 
 TEST(PlyMesh, AnEmptyMeshIsAMesh)
@@ -58,12 +62,14 @@ TEST(PlyMesh, AnEmptyMeshIsAMesh)
 TEST(PlyMesh, CutAnywhereItIsDamaged)
 {
     const test::TemporaryFolder folder;
-    writePlyMesh(folder / "a.ply", smallMesh());
-    const std::string bytes = contentOf(folder / "a.ply");
-    for (std::size_t length = 0; length < bytes.size(); ++length) {
-        expectDamaged(folder / "cut.ply", bytes.substr(0, length));
+    for (const bool hasUvs : {false, true}) {
+        writePlyMesh(folder / "a.ply", smallMesh(hasUvs));
+        const std::string bytes = contentOf(folder / "a.ply");
+        for (std::size_t length = 0; length < bytes.size(); ++length) {
+            expectDamaged(folder / "cut.ply", bytes.substr(0, length));
+        }
+        expectDamaged(folder / "cut.ply", bytes + "x");
     }
-    expectDamaged(folder / "cut.ply", bytes + "x");
 }
 
 TEST(PlyMesh, CountsAndCornersThatCannotBeAreDamage)
@@ -83,6 +89,31 @@ TEST(PlyMesh, CountsAndCornersThatCannotBeAreDamage)
     std::string quad = bytes;
     quad[quad.size() - 13] = 4;
     expectDamaged(folder / "b.ply", quad);
+}
+
+TEST(PlyMesh, TextureCoordinatesThatCannotBeAreDamage)
+{
+    const test::TemporaryFolder folder;
+    writePlyMesh(folder / "a.ply", smallMesh(true));
+    const std::string bytes = contentOf(folder / "a.ply");
+
+    std::string count = bytes;
+    count[count.size() - 25] = 5;
+    expectDamaged(folder / "b.ply", count);
+
+    std::string infinite = bytes;
+    infinite.replace(infinite.size() - 4, 4, std::string("\x00\x00\x80\x7f", 4));
+    expectDamaged(folder / "b.ply", infinite);
+}
+
+TEST(PlyMesh, AMeshWithoutTextureCoordinatesIsWrittenAsItEverWas)
+{
+    // Takes are compared by the hashes of these files: those of before must still be equal.
+    const test::TemporaryFolder folder;
+    writePlyMesh(folder / "a.ply", smallMesh());
+    const std::string bytes = contentOf(folder / "a.ply");
+    EXPECT_EQ(bytes.find("texcoord"), std::string::npos);
+    EXPECT_EQ(bytes.size() - (bytes.find("end_header\n") + 11), 4 * 24 + 4 * 13u);
 }
 
 TEST(PlyMesh, AMissingFileIsSaidToBeMissing)

@@ -80,7 +80,12 @@ nlohmann::json expectation(const SceneDescription& scene, const std::vector<doub
                           {"material", materials[body]},
                           {"poses", poses}});
     }
-    return {{"times", times}, {"bodies", bodies}};
+    nlohmann::json uvs;
+    for (const auto uv : scene.meshes[0].cornerUvs.colwise()) uvs.push_back({uv.x(), uv.y()});
+    // Prims below a prototype, which is abstract, are found by their path all the same.
+    return {{"times", times},
+            {"bodies", bodies},
+            {"textures", {{"path", "/test_shot/Prototypes/tetrahedron/Geo"}, {"uvs", uvs}}}};
 }
 
 void expectUsdAgrees(MakeWriter make, const SceneDescription& scene,

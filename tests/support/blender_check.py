@@ -4,6 +4,8 @@ without any of our program's code. Prints what it measured; exit code 1 when a c
     blender_check.py poses EXPORT TAKE       matrices, at whole frames and between
     blender_check.py shading EXPORT          flat boxes, round tori, names of materials
     blender_check.py camera EXPORT TAKE      field of view and line of sight of the first camera
+    blender_check.py textures TAKE ASSET.obj EXPORT...   texture coordinates of every corner
+    blender_check.py write FILE.abc EXPECTED.json   Blender's own Alembic file, and what is in it
     blender_check.py blur EXPORT TAKE BODY   sweep of a body that spins about z, in Cycles
 """
 import json
@@ -103,7 +105,7 @@ def check_points(take, info, behind):
     for body in info["bodies"]:
         if "plane" in body:
             continue
-        points, triangles = blender_open.read_ply(pathlib.Path(take) / "shapes" / f"{body['shape']}.ply")
+        points, triangles, _ = blender_open.read_ply(pathlib.Path(take) / "shapes" / f"{body['shape']}.ply")
         mesh = mesh_of(body["name"])
         found = np.array([v.co for v in mesh.vertices])
         expected = points @ np.linalg.inv(behind)[:3, :3].T
@@ -138,6 +140,100 @@ def check_shading(export):
         if name.startswith("ring") and not 5 < bend < 40:
             return f"{name} is not smooth"
     return "" if len(meshes) == 2 else f"expected a box and a ring, found {sorted(meshes)}"
+
+
+def read_asset(path):
+    """Points, and for every polygon the (point, u, v) of its corners, of a simple OBJ file."""
+    points, uvs, polygons = [], [], []
+    for line in pathlib.Path(path).read_text().splitlines():
+        key, *words = line.split()
+        if key == "v":
+            points.append([float(w) for w in words])
+        elif key == "vt":
+            uvs.append([float(w) for w in words])
+        elif key == "f":
+            corners = [w.split("/") for w in words]
+            polygons.append([(int(p) - 1, *uvs[int(t) - 1]) for p, t in corners])
+    return np.array(points), polygons
+
+
+def import_any(path):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    if path.endswith(".glb"):
+        bpy.ops.import_scene.gltf(filepath=path)
+    elif path.endswith(".obj"):
+        bpy.ops.wm.obj_import(filepath=path)
+    else:
+        blender_open.import_export(pathlib.Path(path), instancing=False)
+    bpy.context.scene.frame_set(1001)
+
+
+def check_textures(take, asset, *exports):
+    """Every corner of every triangle must lie, in the world, on a point of the asset and show what
+    that corner of the asset's polygon shows. The asset's polygons are planar and have no texture
+    coordinates in common, so that no seam can be closed and no corner mistaken for another."""
+    points, polygons = read_asset(asset)
+    _, position, orientation = next(iter(read_motion(take)))
+    place = Z_UP_FROM_Y_UP @ matrix_of(position[0], orientation[0])
+    world = points @ place[:3, :3].T + place[:3, 3]
+    wanted = {(round(u, 5), round(v, 5)): world[p] for polygon in polygons for p, u, v in polygon}
+    takes = {"the take itself": None, **{pathlib.Path(e).name: e for e in exports}}
+    for name, path in takes.items():
+        if path:
+            import_any(path)
+        else:
+            blender_open.open_scene(blender_open.parse_options([str(take)]))
+        meshes = [o for o in bpy.data.objects if o.type == "MESH"]
+        if len(meshes) != 1 or len(meshes[0].data.uv_layers) != 1:
+            return f"{name}: {[(m.name, len(m.data.uv_layers)) for m in meshes]}"
+        mesh, matrix = meshes[0].data, np.array(meshes[0].matrix_world)
+        seen = set()
+        for loop, uv in zip(mesh.loops, mesh.uv_layers[0].uv):
+            key = (round(uv.vector.x, 5), round(uv.vector.y, 5))
+            if key not in wanted:
+                return f"{name}: no corner of the asset shows {key}"
+            found = matrix[:3, :3] @ np.array(mesh.vertices[loop.vertex_index].co) + matrix[:3, 3]
+            if np.abs(found - wanted[key]).max() > TOLERANCE * np.abs(world).max():
+                return f"{name}: {key} is seen at {found}, not at {wanted[key]}"
+            seen.add(key)
+        print(f"{name}: {len(mesh.loops)} corners show what they should")
+        if len(seen) != len(wanted) or len(mesh.polygons) != 2 * len(polygons):
+            return f"{name}: {len(seen)} of {len(wanted)} corners in {len(mesh.polygons)} faces"
+    return ""
+
+
+def write_alembic(path, expected):
+    """Two crates that share a mesh, one of them stretched and carried by what moves, and a drum
+    with lids of seven corners. Tells where their points are at every frame, with y up."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.fps, scene.frame_start, scene.frame_end = 24, 1001, 1004
+    carrier = bpy.data.objects.new("carrier", None)
+    bpy.context.collection.objects.link(carrier)
+    bpy.ops.mesh.primitive_cube_add(size=1, calc_uvs=True, location=(1, 0, 0.5))
+    crate = bpy.context.object
+    crate.name, crate.parent, crate.scale = "crate", carrier, (1.5, 1, 0.75)
+    twin = bpy.data.objects.new("twin", crate.data)
+    twin.location = (-3, 2, 1)
+    bpy.context.collection.objects.link(twin)
+    bpy.ops.mesh.primitive_cylinder_add(vertices=7, radius=0.5, depth=2, location=(0, -4, 1))
+    bpy.context.object.name = "drum"
+    for frame in (1001, 1004):
+        carrier.location = (0.25 * (frame - 1001), 1, 0)
+        carrier.rotation_euler = (0, 0.1 * (frame - 1001), 0.2 * (frame - 1001))
+        carrier.keyframe_insert("location", frame=frame)
+        carrier.keyframe_insert("rotation_euler", frame=frame)
+    bpy.ops.wm.alembic_export(filepath=path, start=1001, end=1004, as_background_job=False)
+
+    found = {}
+    for name in ("crate", "twin", "drum"):
+        found[name] = []
+        for frame in range(1001, 1005):
+            body = bpy.data.objects[name].evaluated_get(set_time(frame))
+            world = [body.matrix_world @ v.co for v in body.data.vertices]
+            found[name].append([[x, z, -y] for x, y, z in world])
+    pathlib.Path(expected).write_text(json.dumps(found))
+    return ""
 
 
 def check_camera(export, take):
@@ -240,6 +336,8 @@ if __name__ == "__main__":
         "poses": check_poses,
         "shading": check_shading,
         "camera": check_camera,
+        "textures": check_textures,
+        "write": write_alembic,
         "blur": check_blur,
     }
     problem = checks[sys.argv[1]](*sys.argv[2:])

@@ -8,14 +8,16 @@
 
 namespace scree::test {
 
-/// Two shapes, three materials, a camera; bodies that tumble, one that could move but rests, one
-/// that cannot, one of an unknown material, and one whose name begins with a digit.
+/// Two shapes (one with texture coordinates), three materials, a camera; bodies that tumble, one
+/// that could move but rests, one that cannot, one of an unknown material, and one whose name
+/// begins with a digit.
 inline SceneDescription castScene()
 {
     SceneDescription scene =
         sceneOf({bodyNamed("tumbler", true, 0), bodyNamed("sleeper", true, 1),
                  bodyNamed("floor", false, 1), bodyNamed("9lives", true, 1),
                  bodyNamed("stranger", true, 0), bodyNamed("_9lives", true, 0)});
+    scene.meshes[0] = texturedTetrahedron("tetrahedron");
     scene.bodies[2].material = "2k_rubber";
     scene.bodies[3].material = "wood";
     scene.bodies[4].material = "unknown";

@@ -25,6 +25,19 @@ inline SceneMesh tetrahedron(const std::string& name = "tetrahedron")
     return mesh;
 }
 
+/// The same with texture coordinates, of which no two corners have the same: every edge is a seam.
+/// Sixteenths, which every format holds without rounding.
+inline SceneMesh texturedTetrahedron(const std::string& name = "textured")
+{
+    SceneMesh mesh = tetrahedron(name);
+    mesh.cornerUvs.resize(2, mesh.triangles.size());
+    for (Eigen::Index corner = 0; corner < mesh.cornerUvs.cols(); ++corner) {
+        const auto number = static_cast<float>(corner);
+        mesh.cornerUvs.col(corner) << number / 16.0f, (number - 3.0f) / 8.0f;
+    }
+    return mesh;
+}
+
 inline SceneBody bodyNamed(const std::string& name, bool moves = true, std::size_t mesh = 0)
 {
     SceneBody body;

@@ -4,7 +4,8 @@
 usage: usd_check.py FILE EXPECTED.json
 
 EXPECTED holds `times` and, for every body, `name`, `path` (its prim, or null when an instancer has
-it) and `poses`: for every time [x, y, z, qw, qx, qy, qz] in world axes. Exit code 0 and one line
+it) and `poses`: for every time [x, y, z, qw, qx, qy, qz] in world axes. `textures`, if there, holds
+the `path` of a mesh and its `uvs`. Exit code 0 and one line
 with the worst relative error when everything agrees; otherwise 1 and what does not.
 """
 import json
@@ -42,6 +43,19 @@ def find_complaints(stage):
             for error in UsdValidation.ValidationContext(validators).Validate(stage)]
 
 
+def check_textures(stage, expected):
+    """The flattened texture coordinates of a mesh: [u, v] of every corner."""
+    prim = stage.GetPrimAtPath(expected["path"])
+    primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("st") if prim else None
+    if not primvar or not primvar.HasValue():
+        return f"{expected['path']}: no texture coordinates"
+    if primvar.GetInterpolation() != "faceVarying" or primvar.GetTypeName() != "texCoord2f[]":
+        return f"{expected['path']}: {primvar.GetInterpolation()} {primvar.GetTypeName()}"
+    found = np.array(primvar.ComputeFlattened())
+    same = found.shape == np.shape(expected["uvs"]) and np.array_equal(found, expected["uvs"])
+    return "" if same else f"{expected['path']}: other texture coordinates"
+
+
 def instanced(stage, time):
     """Matrices of instanced bodies by name."""
     found = {}
@@ -62,6 +76,8 @@ def main():
     path, expected = sys.argv[1], json.load(open(sys.argv[2]))
     stage = Usd.Stage.Open(path)
     complaints = find_complaints(stage)
+    if "textures" in expected:
+        complaints += filter(None, [check_textures(stage, expected["textures"])])
     worst, count = 0.0, 0
     for index, number in enumerate(expected["times"]):
         time = Usd.TimeCode(number)

@@ -105,6 +105,49 @@ TEST_P(BlenderTest, AFastSpinnerBlursByTheAngleItTurns)
     check("blur " + cacheAndTake() + " box_1");
 }
 
+/// A box with texture coordinates, of which no two corners have the same.
+void writePaintedBox(const std::filesystem::path& path)
+{
+    std::ofstream file(path);
+    file << "v -1 -0.2 -0.3\nv 1 -0.2 -0.3\nv 1 0.2 -0.3\nv -1 0.2 -0.3\n"
+            "v -1 -0.2 0.3\nv 1 -0.2 0.3\nv 1 0.2 0.3\nv -1 0.2 0.3\n";
+    for (int corner = 0; corner < 24; ++corner) {
+        file << "vt " << corner / 32.0 << " " << (corner % 5) / 8.0 << "\n";
+    }
+    const int faces[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5},
+                             {3, 4, 8, 7}, {2, 3, 7, 6}, {4, 1, 5, 8}};
+    int corner = 0;
+    for (const auto& face : faces) {
+        file << "f";
+        for (const int point : face) file << " " << point << "/" << ++corner;
+        file << "\n";
+    }
+}
+
+class BlenderTextures : public BlenderTest {};
+
+TEST_P(BlenderTextures, EveryCornerShowsWhatTheAssetsCornerShows)
+{
+    writePaintedBox(folder / "painted.obj");
+    std::ofstream(folder / "painted.toml")
+        << "scree = 1\n[shot]\nname = \"painted\"\nframes = \"1001-1002\"\n[material.paint]\n"
+           "[shape.box]\nfile = \"painted.obj\"\n[[body]]\nname = \"box\"\nshape = \"box\"\n"
+           "material = \"paint\"\nmotion = \"static\"\nposition = [1, 2, 3]\n"
+           "rotation = [10, 20, 30]\n";
+    const std::string program = test::quoted(SCREE_PROGRAM);
+    run(program + " sim -q " + test::quoted(folder / "painted.toml") + " -o " +
+        test::quoted(take()));
+    std::string exports;
+    for (const std::string name : {"x.abc", "x.usda", "x.glb", "x.####.obj"}) {
+        run(program + " export -q " + test::quoted(take()) + " -o " + test::quoted(folder / name));
+        exports += " " + test::quoted(folder / (name == "x.####.obj" ? "x.1001.obj" : name));
+    }
+    check("textures " + test::quoted(take()) + " " + test::quoted(folder / "painted.obj") +
+          exports);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFormats, BlenderTextures, testing::Values("all"));
+
 INSTANTIATE_TEST_SUITE_P(Exports, BlenderTest, testing::Values("abc", "usda"));
 
 class BlenderShading : public BlenderTest {};

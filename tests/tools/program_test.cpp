@@ -255,6 +255,55 @@ TEST_F(ProgramTest, FullDiskExitsWith74AndLosesNoFrame)
     expectSameFrames("unbroken", "full");
 }
 
+/// Names of all files in a folder, hidden ones too.
+std::vector<std::string> namesIn(const fs::path& path)
+{
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+        names.push_back(entry.path().filename().string());
+    }
+    return names;
+}
+
+const std::vector<std::string> kExports = {
+    "boxes.abc",      "boxes.usda",     "boxes.instances.usda", "boxes.glb",
+    "boxes.####.obj", "boxes.####.ply", "boxes.####.pov"};
+
+TEST_F(ProgramTest, ADiskThatFillsDuringAnExportExitsWith74AndLeavesNoHalfFile)
+{
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1001-1003"}).code, 0);
+    for (const std::string& name : kExports) {
+        const fs::path output = fs::path(take("out")) / name;
+        Program program({"export", take("t"), "-o", output}, [] {
+            const rlimit limit = {200, 200};  // fewer bytes than any of the files has
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+        });
+        const Outcome full = program.wait();
+        EXPECT_EQ(full.code, 74) << name << ": " << full.err;
+        EXPECT_TRUE(full.err.find("Error: writing ") != std::string::npos) << full.err;
+        EXPECT_EQ(namesIn(take("out")), std::vector<std::string>()) << name;
+    }
+}
+
+TEST_F(ProgramTest, AnExportThatFailsLeavesTheOneBeforeItAlone)
+{
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1001-1003"}).code, 0);
+    for (const std::string name : {"boxes.abc", "boxes.usda", "boxes.glb"}) {
+        ASSERT_EQ(runScree({"export", take("t"), "-o", folder / name}).code, 0);
+    }
+    // A take cut short: the exports of before stay, and nothing is left of the new ones.
+    fs::resize_file(TakePaths{take("t")}.frame(1003), 1000);
+    const std::vector<std::string> before = namesIn(folder.path());
+    for (const std::string name : {"boxes.abc", "boxes.usda", "boxes.glb"}) {
+        const std::string bytes = readFileBytes(folder / name);
+        const Outcome damaged = runScree({"export", take("t"), "-o", folder / name});
+        EXPECT_EQ(damaged.code, 74) << damaged.err;
+        EXPECT_NE(damaged.err.find("frame.001003.scree"), std::string::npos) << damaged.err;
+        EXPECT_EQ(readFileBytes(folder / name), bytes) << name;
+    }
+    EXPECT_EQ(namesIn(folder.path()), before);
+}
+
 TEST_F(ProgramTest, TakesAreNotWrittenOverUnasked)
 {
     const std::string output = take("twice");

@@ -1,0 +1,280 @@
+// Symbols: a transform is written M (4×4, for column vectors), its linear part L = R·S with R a
+//          rotation and S what scales and shears; S goes into the mesh, R is the pose.
+#include "io/alembic_import.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <optional>
+
+#include "core/math/rotation.h"
+#include "io/alembic_mesh.h"
+#include "io/alembic_reader.h"
+#include "io/byte_order.h"
+
+namespace scree {
+
+namespace {
+
+using Mat4 = Eigen::Matrix4d;
+
+constexpr int kDeepest = 256;
+constexpr std::uint32_t kMostObjects = 100'000, kMostSamples = 1'000'000;
+constexpr double kMostMatrices = 2e7;  // of all transforms of a file; 2.5 GB
+
+constexpr double kSameTime = 1e-5;    // [s], as Alembic itself compares
+constexpr double kScaleMoves = 1e-4;  // relative; matrices of others are often single precision
+constexpr double kScaleIsOne = 1e-6;
+
+/// A transform over time; one matrix and no times when it never changes.
+struct MatrixTrack {
+    std::vector<double> seconds;
+    std::vector<Mat4> matrices = {Mat4::Identity()};
+};
+
+Mat4 turn(const Vec3& axis, double degrees)
+{
+    Mat4 matrix = Mat4::Identity();
+    const double length = axis.norm();
+    if (!(length > 0.0)) return matrix;
+    double sine = 0.0, cosine = 0.0;
+    sinCos(degrees * kPi / 360.0, sine, cosine);
+    const Vec3 part = axis * (sine / length);
+    matrix.topLeftCorner<3, 3>() = Quat(cosine, part.x(), part.y(), part.z()).toRotationMatrix();
+    return matrix;
+}
+
+/// Channels that a kind of operation takes; 0 for one that is not known.
+int channelCount(int kind)
+{
+    constexpr int kCounts[] = {3, 3, 4, 16, 1, 1, 1};
+    return kind < 7 ? kCounts[kind] : 0;
+}
+
+Mat4 operation(int kind, const double* c)
+{
+    Mat4 matrix = Mat4::Identity();
+    switch (kind) {
+        case 0:
+            matrix.diagonal() << c[0], c[1], c[2], 1.0;
+            return matrix;
+        case 1:
+            matrix.topRightCorner<3, 1>() << c[0], c[1], c[2];
+            return matrix;
+        case 2:
+            return turn({c[0], c[1], c[2]}, c[3]);
+        case 3:
+            // Theirs stands row by row for row vectors: column by column for ours.
+            return Eigen::Map<const Mat4>(c);
+        default:
+            return turn(Vec3::Unit(kind - 4), c[0]);
+    }
+}
+
+/// The rotation nearest to L.
+Mat3 rotationOf(const Mat3& L)
+{
+    const Eigen::JacobiSVD<Mat3> svd(L, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Mat3 U = svd.matrixU();
+    if ((U * svd.matrixV().transpose()).determinant() < 0.0) U.col(2) = -U.col(2);
+    return U * svd.matrixV().transpose();
+}
+
+class AlembicImport {
+public:
+    explicit AlembicImport(const std::string& path) : reader_(path) {}
+
+    ImportedFile import()
+    {
+        visit(reader_.top(), {}, "", 0);
+        file_.isYUp = true;  // by custom: no file says
+        file_.countsFramesFromZero = true;
+        return std::move(file_);
+    }
+
+private:
+    void visit(const StoredObject& object, const MatrixTrack& fileFromParent,
+               const std::string& parentName, int depth)
+    {
+        if (depth > kDeepest) reader_.refuse("has objects that are nested too deeply");
+        if (++objectCount_ > kMostObjects) {
+            reader_.refuse("has more than " + std::to_string(kMostObjects) + " objects");
+        }
+        if (metadataValue(object.metadata, "isInstance") == "1") {
+            StoredObject source = sourceOf(object);
+            source.name = object.name;
+            return visit(source, fileFromParent, parentName, depth + 1);
+        }
+        const std::string_view title = metadataValue(object.metadata, "schemaObjTitle");
+        if (title.starts_with("AbcGeom_SubD_")) {
+            reader_.refuse("holds the subdivision surface '" + object.name +
+                           "'; export polygon meshes");
+        }
+        if (title.starts_with("AbcGeom_PolyMesh_")) {
+            addNode(object, fileFromParent, parentName.empty() ? object.name : parentName);
+        }
+        const bool isTransform = title.starts_with("AbcGeom_Xform_");
+        const MatrixTrack track = isTransform ? placed(object, fileFromParent) : fileFromParent;
+        for (const StoredObject& child : reader_.children(object)) {
+            visit(child, track, isTransform ? object.name : parentName, depth + 1);
+        }
+    }
+
+    StoredObject sourceOf(const StoredObject& instance) const
+    {
+        const auto property = find(reader_.properties(instance), ".instanceSource");
+        if (!property) reader_.refuse("is damaged: an instance does not say of what");
+        std::string path(reader_.sample(*property, 0));
+        path = path.c_str();  // ends with a zero
+        StoredObject object = reader_.top();
+        for (std::size_t at = 0; at != std::string::npos;) {
+            const std::size_t end = path.find('/', at + 1);
+            const std::string name = path.substr(at + 1, end - at - 1);
+            const std::vector<StoredObject> children = reader_.children(object);
+            const auto child = std::find_if(children.begin(), children.end(),
+                                            [&](const auto& c) { return c.name == name; });
+            if (child == children.end()) {
+                reader_.refuse("is damaged: it repeats '" + path + "', which it does not have");
+            }
+            object = *child;
+            at = end;
+        }
+        return object;
+    }
+
+    // ---- transforms
+
+    /// A transform below another.
+    MatrixTrack placed(const StoredObject& object, const MatrixTrack& fileFromParent)
+    {
+        const auto xform = find(reader_.properties(object), ".xform");
+        if (!xform) reader_.refuse("is damaged: the transform '" + object.name + "' is empty");
+        const std::vector<StoredProperty> properties = reader_.properties(*xform);
+        const MatrixTrack own = ownTrack(properties, object.name);
+        const auto inherits = find(properties, ".inherits");
+        const bool isFree = inherits && inherits->sampleCount > 0 &&
+                            reader_.sample(*inherits, 0) == std::string_view("\0", 1);
+        if (isFree) return own;
+
+        MatrixTrack track = own.matrices.size() > 1 ? own : fileFromParent;
+        const bool bothMove = own.matrices.size() > 1 && fileFromParent.matrices.size() > 1;
+        if (bothMove) requireSameTimes(own, fileFromParent, object.name);
+        track.matrices.resize(std::max(own.matrices.size(), fileFromParent.matrices.size()));
+        matrixCount_ += static_cast<double>(track.matrices.size());
+        if (matrixCount_ > kMostMatrices) reader_.refuse("holds more motion than can be read");
+        for (std::size_t i = 0; i < track.matrices.size(); ++i) {
+            track.matrices[i] = matrixAt(fileFromParent, i) * matrixAt(own, i);
+        }
+        return track;
+    }
+
+    static Mat4 matrixAt(const MatrixTrack& track, std::size_t i)
+    {
+        return track.matrices[std::min(i, track.matrices.size() - 1)];
+    }
+
+    void requireSameTimes(const MatrixTrack& a, const MatrixTrack& b, const std::string& name) const
+    {
+        bool isSame = a.seconds.size() == b.seconds.size();
+        for (std::size_t i = 0; isSame && i < a.seconds.size(); ++i) {
+            isSame = std::abs(a.seconds[i] - b.seconds[i]) < kSameTime;
+        }
+        if (isSame) return;
+        reader_.refuse("samples the transform '" + name +
+                       "' at other times than the moving one above it; bake both at every frame");
+    }
+
+    MatrixTrack ownTrack(const std::vector<StoredProperty>& properties,
+                         const std::string& name) const
+    {
+        const auto ops = find(properties, ".ops"), values = find(properties, ".vals");
+        if (!ops || !values || ops->sampleCount == 0 || values->sampleCount == 0) return {};
+        if (values->layout.type != AlembicType::f64) reader_.refuse("is damaged: no transform");
+        const std::string codes(reader_.sample(*ops, 0));
+        const std::uint32_t count = values->firstChange > 0 ? values->sampleCount : 1;
+        if (count > kMostSamples) reader_.refuse("has too many samples of '" + name + "'");
+        MatrixTrack track;
+        track.matrices.clear();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            track.matrices.push_back(matrixOf(codes, reader_.sample(*values, i), name));
+            if (count > 1) track.seconds.push_back(reader_.secondsOf(*values, i));
+            if (i > 0 && !(track.seconds[i] > track.seconds[i - 1])) {
+                reader_.refuse("is damaged: samples of '" + name + "' are not in order of time");
+            }
+        }
+        return track;
+    }
+
+    Mat4 matrixOf(const std::string& codes, std::string_view bytes, const std::string& name) const
+    {
+        std::vector<double> channels(bytes.size() / sizeof(double));
+        std::memcpy(channels.data(), bytes.data(), sizeof(double) * channels.size());
+        Mat4 matrix = Mat4::Identity();
+        std::size_t next = 0;
+        for (const unsigned char code : codes) {
+            const int kind = code >> 4;
+            const auto count = static_cast<std::size_t>(channelCount(kind));
+            if (count == 0 || next + count > channels.size()) {
+                reader_.refuse("is damaged: the transform '" + name + "' lacks numbers");
+            }
+            matrix = matrix * operation(kind, channels.data() + next);
+            next += count;
+        }
+        if (!matrix.allFinite())
+            reader_.refuse("has a transform '" + name + "' that is not finite");
+        return matrix;
+    }
+
+    // ---- nodes
+
+    void addNode(const StoredObject& object, const MatrixTrack& fileFromMesh,
+                 const std::string& name)
+    {
+        TriMesh mesh = readAlembicMesh(reader_, object);
+        if (mesh.triangles.cols() == 0) return;
+        ImportedNode node;
+        node.name = name;
+        const Mat3 L = fileFromMesh.matrices.front().topLeftCorner<3, 3>();
+        const Mat3 S = rotationOf(L).transpose() * L;
+        node.fileFromNode = poseOf(fileFromMesh.matrices.front());
+        readKeys(fileFromMesh, S, node);
+        if (!S.isApprox(Mat3::Identity(), kScaleIsOne)) mesh.points = S * mesh.points;
+        if (S.determinant() < 0.0) turnInsideOut(mesh);
+        node.mesh = std::move(mesh);
+        file_.nodes.push_back(std::move(node));
+    }
+
+    static void readKeys(const MatrixTrack& fileFromMesh, const Mat3& S, ImportedNode& node)
+    {
+        for (std::size_t i = 0; i < fileFromMesh.seconds.size(); ++i) {
+            const Mat4& M = fileFromMesh.matrices[i];
+            const Pose pose = poseOf(M);
+            const Mat3 stretch = pose.orientation.conjugate() * M.topLeftCorner<3, 3>();
+            if (!stretch.isApprox(S, kScaleMoves)) {
+                node.keys.clear();
+                node.obstacle = "its scale changes over time";
+                return;
+            }
+            node.keys.push_back({fileFromMesh.seconds[i], pose});
+        }
+    }
+
+    static Pose poseOf(const Mat4& M)
+    {
+        const Mat3 L = M.topLeftCorner<3, 3>();
+        return {M.topRightCorner<3, 1>(), Quat(rotationOf(L)).normalized()};
+    }
+
+    AlembicReader reader_;
+    ImportedFile file_;
+    std::uint32_t objectCount_ = 0;
+    double matrixCount_ = 0.0;
+};
+
+}  // namespace
+
+ImportedFile importAlembic(const std::string& path)
+{
+    return AlembicImport(path).import();
+}
+
+}  // namespace scree

@@ -1,0 +1,329 @@
+#include "io/mesh_import_assimp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include "core/base/error.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDeepest = 256;
+constexpr std::size_t kMostKeys = 10'000'000;  // of all nodes
+constexpr float kScaleMoves = 1e-3f;           // relative; of sampled rotations times scale
+
+/// Opens files for reading, in the asset's folder and below; remembers what it refused.
+class FolderSystem final : public Assimp::DefaultIOSystem {
+public:
+    explicit FolderSystem(const fs::path& folder) : folder_(folder) {}
+
+    Assimp::IOStream* Open(const char* file, const char* mode) override
+    {
+        if (std::strpbrk(mode, "wa+") || !isInside(file)) return nullptr;
+        return DefaultIOSystem::Open(file, mode);
+    }
+    bool Exists(const char* file) const override
+    {
+        return isInside(file) && DefaultIOSystem::Exists(file);
+    }
+
+    const std::string& refused() const { return refused_; }
+
+private:
+    bool isInside(const char* file) const
+    {
+        std::error_code code;
+        const fs::path path = fs::weakly_canonical(file, code);
+        const fs::path relative = path.lexically_relative(folder_);
+        const bool isIn = !code && !relative.empty() && *relative.begin() != "..";
+        if (!isIn) refused_ = file;
+        return isIn;
+    }
+
+    fs::path folder_;
+    mutable std::string refused_;
+};
+
+/// Leaves only the loaders of one file ending: a stranger's file does not choose its parser.
+void keepLoadersOf(const std::string& ending, Assimp::Importer& importer)
+{
+    std::vector<Assimp::BaseImporter*> others;
+    for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
+        const std::string endings =
+            " " + std::string(importer.GetImporterInfo(i)->mFileExtensions) + " ";
+        if (endings.find(" " + ending + " ") == std::string::npos) {
+            others.push_back(importer.GetImporter(i));
+        }
+    }
+    for (Assimp::BaseImporter* other : others) importer.UnregisterLoader(other);
+}
+
+/// The node's transform as an animation has it, in double precision between its keys.
+class Channel {
+public:
+    Channel(const aiNodeAnim& keys, double ticksPerSecond)
+        : keys_(keys), ticksPerSecond_(ticksPerSecond)
+    {
+    }
+
+    void addTimes(std::set<double>& seconds) const
+    {
+        const auto add = [&](const auto* keys, unsigned count) {
+            for (unsigned i = 0; i < count; ++i) seconds.insert(keys[i].mTime / ticksPerSecond_);
+        };
+        add(keys_.mPositionKeys, keys_.mNumPositionKeys);
+        add(keys_.mRotationKeys, keys_.mNumRotationKeys);
+        add(keys_.mScalingKeys, keys_.mNumScalingKeys);
+    }
+
+    /// What has no keys stays as the node has it.
+    aiMatrix4x4 at(double seconds, const aiMatrix4x4& still) const
+    {
+        aiVector3D scale, position;
+        aiQuaternion rotation;
+        still.Decompose(scale, rotation, position);
+        const double ticks = seconds * ticksPerSecond_;
+        const auto mix = [](const aiVector3D& a, const aiVector3D& b, float share) {
+            return a + share * (b - a);
+        };
+        const auto turn = [](const aiQuaternion& a, const aiQuaternion& b, float share) {
+            aiQuaternion result;
+            aiQuaternion::Interpolate(result, a, b, share);
+            return result.Normalize();
+        };
+        between(keys_.mPositionKeys, keys_.mNumPositionKeys, ticks, mix, position);
+        between(keys_.mRotationKeys, keys_.mNumRotationKeys, ticks, turn, rotation);
+        between(keys_.mScalingKeys, keys_.mNumScalingKeys, ticks, mix, scale);
+        return aiMatrix4x4(scale, rotation, position);
+    }
+
+private:
+    template <class Key, class Mix, class Value>
+    static void between(const Key* keys, unsigned count, double ticks, Mix mix, Value& value)
+    {
+        if (count == 0) return;
+        const Key* end = keys + count;
+        const Key* after = std::find_if(keys, end, [&](const Key& k) { return k.mTime >= ticks; });
+        if (after == keys || after == end) {
+            value = after == end ? end[-1].mValue : keys->mValue;
+            return;
+        }
+        const Key& before = after[-1];
+        const double share = (ticks - before.mTime) / (after->mTime - before.mTime);
+        value = mix(before.mValue, after->mValue, static_cast<float>(share));
+    }
+
+    const aiNodeAnim& keys_;
+    double ticksPerSecond_;
+};
+
+Pose poseOf(const aiQuaternion& q, const aiVector3D& p)
+{
+    return {Vec3(p.x, p.y, p.z), Quat(q.w, q.x, q.y, q.z)};
+}
+
+/// What a node shows, in the node's axes with its scale baked.
+class NodeReader {
+public:
+    explicit NodeReader(const aiScene& scene) : scene_(scene)
+    {
+        for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
+            const aiAnimation& animation = *scene.mAnimations[a];
+            const double rate = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 1.0;
+            for (unsigned c = 0; c < animation.mNumChannels; ++c) {
+                const aiNodeAnim& keys = *animation.mChannels[c];
+                channels_.try_emplace(keys.mNodeName.C_Str(), keys, rate);
+            }
+        }
+    }
+
+    void visit(const aiNode& node)
+    {
+        if (chain_.size() > kDeepest) {
+            throw Error(ErrorKind::badInput, "its nodes are nested too deeply");
+        }
+        chain_.push_back(&node);
+        if (node.mNumMeshes > 0) read(node);
+        for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i]);
+        chain_.pop_back();
+    }
+
+    std::vector<ImportedNode> takeNodes() { return std::move(nodes_); }
+
+private:
+    void read(const aiNode& node)
+    {
+        // Split the transform into what is rigid and the rest, which goes into the mesh.
+        aiMatrix4x4 fileFromNode;
+        for (const aiNode* link : chain_) fileFromNode = fileFromNode * link->mTransformation;
+        aiVector3D scale, position;
+        aiQuaternion rotation;
+        fileFromNode.Decompose(scale, rotation, position);
+        const aiMatrix4x4 rigid(aiVector3D(1.0f), rotation, position);
+        const bool isRigid = scale == aiVector3D(1.0f);
+        const aiMatrix4x4 nodeFromMesh =
+            isRigid ? aiMatrix4x4() : aiMatrix4x4(rigid).Inverse() * fileFromNode;
+
+        ImportedNode result;
+        result.mesh = meshOf(node, nodeFromMesh);
+        if (result.mesh.triangles.cols() == 0) return;
+        result.name = node.mName.C_Str();
+        result.fileFromNode = poseOf(rotation, position);
+        readKeys(scale, result);
+        nodes_.push_back(std::move(result));
+    }
+
+    /// Keys wherever the node or one above it has some.
+    void readKeys(const aiVector3D& scale, ImportedNode& result)
+    {
+        std::set<double> seconds;
+        for (const aiNode* link : chain_) {
+            const auto channel = channels_.find(link->mName.C_Str());
+            if (channel != channels_.end()) channel->second.addTimes(seconds);
+        }
+        keyCount_ += seconds.size();
+        if (keyCount_ > kMostKeys) throw Error(ErrorKind::badInput, "it has too many keys");
+        for (const double time : seconds) {
+            aiVector3D scaleNow, position;
+            aiQuaternion rotation;
+            chainAt(time).Decompose(scaleNow, rotation, position);
+            if (!((scaleNow - scale).Length() <= kScaleMoves * scale.Length())) {
+                result.keys.clear();
+                result.obstacle = "its scale changes over time";
+                return;
+            }
+            result.keys.push_back({time, poseOf(rotation, position)});
+        }
+    }
+
+    aiMatrix4x4 chainAt(double seconds) const
+    {
+        aiMatrix4x4 result;
+        for (const aiNode* link : chain_) {
+            const auto channel = channels_.find(link->mName.C_Str());
+            result = result * (channel == channels_.end()
+                                   ? link->mTransformation
+                                   : channel->second.at(seconds, link->mTransformation));
+        }
+        return result;
+    }
+
+    TriMesh meshOf(const aiNode& node, const aiMatrix4x4& nodeFromMesh) const
+    {
+        Eigen::Index points = 0, faces = 0;
+        bool hasUvs = false;
+        for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+            const aiMesh& part = *scene_.mMeshes[node.mMeshes[i]];
+            points += part.mNumVertices;
+            faces += part.mNumFaces;
+            hasUvs = hasUvs || part.mTextureCoords[0] != nullptr;
+        }
+        TriMesh mesh{Points(3, points), Triangles(3, faces)};
+        if (hasUvs) mesh.cornerUvs = CornerUvs::Zero(2, 3 * faces);
+        points = faces = 0;
+        for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+            append(*scene_.mMeshes[node.mMeshes[i]], nodeFromMesh, mesh, points, faces);
+        }
+        mesh.triangles.conservativeResize(3, faces);
+        if (hasUvs) mesh.cornerUvs.conservativeResize(2, 3 * faces);
+        return mesh;
+    }
+
+    /// Fills `mesh` from the given point and face on.
+    static void append(const aiMesh& part, const aiMatrix4x4& nodeFromMesh, TriMesh& mesh,
+                       Eigen::Index& point, Eigen::Index& face)
+    {
+        // A node that mirrors would turn its triangles inside out.
+        const bool isMirrored = nodeFromMesh.Determinant() < 0.0f;
+        const Eigen::Index firstPoint = point;
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const aiVector3D p = nodeFromMesh * part.mVertices[i];
+            // Adding zero turns -0 into +0: the two are one point but not the same bits.
+            mesh.points.col(point++) = Vec3(p.x + 0.0, p.y + 0.0, p.z + 0.0);
+        }
+        const aiVector3D* uvs = part.mTextureCoords[0];
+        for (unsigned i = 0; i < part.mNumFaces; ++i) {
+            const aiFace& polygon = part.mFaces[i];
+            // Loose points and lines have no surface.
+            if (polygon.mNumIndices != 3) continue;
+            for (unsigned k = 0; k < 3; ++k) {
+                const unsigned corner = polygon.mIndices[isMirrored ? 2 - k : k];
+                mesh.triangles(k, face) = static_cast<int>(firstPoint + corner);
+                if (uvs) mesh.cornerUvs.col(3 * face + k) << uvs[corner].x, uvs[corner].y;
+            }
+            ++face;
+        }
+    }
+
+    const aiScene& scene_;
+    std::map<std::string, Channel> channels_;  // by the name of their node
+    std::vector<const aiNode*> chain_;         // from the root to the node that is visited
+    std::vector<ImportedNode> nodes_;
+    std::size_t keyCount_ = 0;
+};
+
+/// Whether the texture coordinates of a PLY file belong to faces. assimp gives points that faces
+/// share the coordinates of the last face, which along a seam are those of the wrong side.
+bool hasUvsOfFaces(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    for (std::string line; std::getline(file, line) && !line.starts_with("end_header");) {
+        if (line.starts_with("property list") && line.find("texcoord") != std::string::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// glTF is in metres by definition; FBX says how many centimetres its unit has. Others say nothing.
+std::optional<double> metresPerUnitOf(const aiScene& scene, const std::string& ending)
+{
+    if (ending == "glb" || ending == "gltf") return 1.0;
+    double centimetres = 0.0;
+    float asFloat = 0.0f;
+    if (ending != "fbx" || !scene.mMetaData) return std::nullopt;
+    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return 0.01 * centimetres;
+    if (scene.mMetaData->Get("UnitScaleFactor", asFloat)) return 0.01 * asFloat;
+    return std::nullopt;
+}
+
+}  // namespace
+
+ImportedFile importWithAssimp(const std::string& path, const std::string& ending)
+{
+    Assimp::Importer importer;
+    keepLoadersOf(ending, importer);
+    auto* files = new FolderSystem(fs::weakly_canonical(fs::absolute(path)).parent_path());
+    importer.SetIOHandler(files);  // which deletes it
+    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    if (!files->refused().empty()) {
+        throw Error(ErrorKind::badInput,
+                    "it refers to '" + files->refused() + "', outside its own folder");
+    }
+    if (!scene || !scene->mRootNode) throw Error(ErrorKind::badInput, importer.GetErrorString());
+    NodeReader reader(*scene);
+    reader.visit(*scene->mRootNode);
+    ImportedFile file;
+    file.nodes = reader.takeNodes();
+    if (ending == "ply" && hasUvsOfFaces(path)) {
+        for (ImportedNode& node : file.nodes) node.mesh.cornerUvs.resize(2, 0);
+    }
+    file.metresPerUnit = metresPerUnitOf(*scene, ending);
+    file.isYUp = ending == "glb" || ending == "gltf";
+    return file;
+}
+
+}  // namespace scree

@@ -1,0 +1,104 @@
+// [[import]] with motion = "keyed": bodies of a shot stand at every frame where the file has them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "core/base/error.h"
+#include "io/frame_writer.h"
+#include "io/shot_parser.h"
+#include "tests/support/export_scene.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+constexpr int kFirst = 1001, kFrames = 5;
+
+/// A file whose bodies "mover" tumbles from frame to frame and "still" never moves.
+void writeAsset(const std::filesystem::path& output)
+{
+    const SceneDescription scene =
+        test::sceneOf({test::bodyNamed("mover"), test::bodyNamed("still", false)});
+    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(output);
+    writer->begin(scene, kFirst, kFrames);
+    for (int i = 0; i < kFrames; ++i) {
+        writer->write(
+            test::frameWith(kFirst + i, {test::tumblingPose(0, i), test::tumblingPose(1, 0.0)}));
+    }
+    writer->finish();
+}
+
+std::string shotText(const std::string& file, const std::string& nodes, const std::string& more)
+{
+    return "scree = 1\n[shot]\nname = \"s\"\nframes = \"1001-1005\"\n[material.wood]\n[[import]]\n"
+           "file = \"" +
+           file + "\"\nmaterial = \"wood\"\nnodes = \"" + nodes + "\"\nmotion = \"keyed\"\n" + more;
+}
+
+std::string messageOf(const std::string& text)
+{
+    try {
+        parseShotText(text, "s.toml");
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+class KeyedImport : public testing::TestWithParam<const char*> {};
+
+TEST_P(KeyedImport, BodiesStandAtEveryFrameWhereTheFileHasThem)
+{
+    const test::TemporaryFolder folder;
+    writeAsset(folder / GetParam());
+    const Shot shot = parseShotText(shotText(folder / GetParam(), "*", ""), "s.toml");
+    ASSERT_EQ(shot.bodies.size(), 2u);
+    EXPECT_EQ(shot.bodies[0].kind, BodyKind::keyed);
+    const MotionScript moverScript(shot.bodies[0].keys, shot.bodies[0].interpolation);
+    const MotionScript stillScript(shot.bodies[1].keys, shot.bodies[1].interpolation);
+    for (int i = 0; i < kFrames; ++i) {
+        const double time = i / shot.framesPerSecond;
+        const Pose mover = moverScript.at(time), still = stillScript.at(time);
+        // Quaternions and places in single precision; times of glTF are, too: 6e-8 of the speed.
+        const Pose expected = test::tumblingPose(0, i);
+        EXPECT_LT((mover.position - expected.position).norm(), 1e-5) << "frame " << i;
+        EXPECT_LT(mover.orientation.angularDistance(expected.orientation), 1e-5);
+        EXPECT_LT((still.position - test::tumblingPose(1, 0.0).position).norm(), 1e-5);
+    }
+    const Pose before = test::tumblingPose(0, 2), after = test::tumblingPose(0, 3);
+    const Pose between = moverScript.at(2.5 / shot.framesPerSecond);
+    EXPECT_LT((between.position - 0.5 * (before.position + after.position)).norm(), 1e-5);
+}
+
+TEST_P(KeyedImport, AFileThatMovesNothingIsRefused)
+{
+    const test::TemporaryFolder folder;
+    writeAsset(folder / GetParam());
+    const std::string message = messageOf(shotText(folder / GetParam(), "*still*", ""));
+    EXPECT_NE(message.find("s.toml:10:10: the file animates none of these nodes; motion = "
+                           "\"static\""),
+              std::string::npos)
+        << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, KeyedImport, testing::Values("x.glb", "x.abc"));
+
+TEST(KeyedImports, ScaleThatChangesIsRefused)
+{
+    const test::TemporaryFolder folder;
+    // A body that is born late: glTF knows no visibility, so it grows from nothing.
+    SceneDescription scene = test::sceneOf({test::bodyNamed("late")});
+    scene.bodies[0].birthFrame = kFirst + 2;
+    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(folder / "x.glb");
+    writer->begin(scene, kFirst, kFrames);
+    for (int i = 0; i < kFrames; ++i) writer->write(test::tumblingFrame(scene, kFirst + i, kFirst));
+    writer->finish();
+    const std::string message = messageOf(shotText(folder / "x.glb", "*", ""));
+    EXPECT_NE(message.find("'late' cannot be keyed: its scale changes over time"),
+              std::string::npos)
+        << message;
+}
+
+}  // namespace
+}  // namespace scree
