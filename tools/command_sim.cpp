@@ -19,6 +19,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/progress.h"
+#include "tools/start_rule.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
 #include "tools/version.h"
@@ -67,6 +68,11 @@ public:
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
         world_ = buildWorld(shot_);
+        for (const std::string& repair : repairsOf(world_)) console.info(repair);
+        applyStartRule(shot_, world_, console);
+        for (const std::string& warning : warningsBeforeStart(shot_, world_)) {
+            console.warning(warning);
+        }
         subframes_.emplace(shot_, world_);
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
