@@ -28,7 +28,7 @@ namespace scree {
 namespace {
 
 struct SimOptions {
-    std::string shot, take, frames, progress = "auto";
+    std::string shot, take, frames, from, progress = "auto";
     std::optional<int> threads;
     bool resume = false, overwrite = false;
     std::vector<std::string> overrides;
@@ -77,7 +77,9 @@ public:
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
                                                         : ExistingTake::refuse;
-        take_.emplace(folder, shot_, world_, programVersion(), existing);
+        std::optional<TakeBranch> branch;
+        if (!options.from.empty()) branch = parseBranch(options.from);
+        take_.emplace(folder, shot_, world_, programVersion(), existing, branch);
         for (const std::string& notice : take_->notices()) console.warning(notice);
     }
 
@@ -335,6 +337,11 @@ Command addSimCommand(CLI::App& program)
         command->add_flag("--resume", options->resume,
                           "Go on with the take, to the same bits; begin when there is none");
     command->add_flag("--overwrite", options->overwrite, "Replace the take that is there")
+        ->excludes(resume);
+    command
+        ->add_option("--from", options->from,
+                     "TAKE@FRAME: begin with that take's frames up to this one; the shot may "
+                     "differ from the take's in settings, not in bodies")
         ->excludes(resume);
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")
