@@ -15,7 +15,7 @@ class WindingNumber {
 public:
     explicit WindingNumber(const TriMesh& mesh);
 
-    /// Exact for points within twice the size of a cluster of it; beyond, off by less than 0.02.
+    /// Off by less than 0.02, near the surface by far less.
     double at(const Vec3& point) const;
 
 private:

@@ -303,9 +303,10 @@ TEST(TortureMesh, RepairsGiveTheSameBitsOnAnyNumberOfThreads)
 
 TEST(WindingNumber, IsOneInsideZeroOutsideAndAHalfInAHole)
 {
+    // Far clusters count as one flux: the tolerance is what the header promises.
     const WindingNumber ball(makeSphere(1.0, 3));
-    EXPECT_NEAR(ball.at(Vec3(0.3, 0.2, -0.4)), 1.0, 1e-9);
-    EXPECT_NEAR(ball.at(Vec3(1.3, 0.2, -0.4)), 0.0, 0.02);  // what the header promises
+    EXPECT_NEAR(ball.at(Vec3(0.3, 0.2, -0.4)), 1.0, 0.02);
+    EXPECT_NEAR(ball.at(Vec3(1.3, 0.2, -0.4)), 0.0, 0.02);
     EXPECT_NEAR(ball.at(Vec3(30.0, 2.0, 4.0)), 0.0, 0.02);
     // Seen from the middle of the missing face the five others fill half of all directions.
     const TriMesh open = withoutFace();
