@@ -63,16 +63,20 @@ void separateOnce(World& world, const StepSettings& settings)
     separateOverlaps(world, graph, settings, scratch);
 }
 
+/// Who counts as lying under a body.
+enum class Under { fixed, anybody };
+
 /// How far along `down` the first thing under a body is; nothing when there is none.
 class Ground {
 public:
-    Ground(const World& world, const Vec3& down)
+    Ground(const World& world, const Vec3& down, Under who)
         : world_(world), down_(down), boxes_(boxesOf(world))
     {
         Aabb all;
         for (BodyId body = 0; body < static_cast<BodyId>(boxes_.size()); ++body) {
             if (!world.shapeOf(body).isPlane && !boxes_[body].isEmpty()) all.include(boxes_[body]);
-            if (world.info[body].kind == BodyKind::fixed) fixed_.push_back(body);
+            const bool isFixed = world.info[body].kind == BodyKind::fixed;
+            if (isFixed || (who == Under::anybody && world.isBorn(body))) under_.push_back(body);
         }
         reach_ = all.isEmpty() ? 0.0 : 2.0 * all.diagonal();
     }
@@ -80,7 +84,8 @@ public:
     std::optional<double> dropOf(BodyId body) const
     {
         std::optional<double> least;
-        for (const BodyId under : fixed_) {
+        for (const BodyId under : under_) {
+            if (under == body) continue;
             const std::optional<double> drop =
                 world_.shapeOf(under).isPlane ? dropOnPlane(body, under) : dropOnBox(body, under);
             if (drop && (!least || *drop < *least)) least = drop;
@@ -108,13 +113,16 @@ private:
             down_.dot(boxes_[under].centre()) - 0.5 * down_.cwiseAbs().dot(boxes_[under].size());
         const double bottom =
             down_.dot(boxes_[body].centre()) + 0.5 * down_.cwiseAbs().dot(boxes_[body].size());
+        // What begins above a body's middle leans on it rather than holds it.
+        const bool isBelow = top > down_.dot(boxes_[body].centre());
+        if (world_.mass[under].isMovable() && !isBelow) return std::nullopt;
         return std::max(0.0, top - bottom);
     }
 
     const World& world_;
     Vec3 down_;
     std::vector<Aabb> boxes_;
-    std::vector<BodyId> fixed_;
+    std::vector<BodyId> under_;
     double reach_ = 0.0;
 };
 
@@ -158,7 +166,7 @@ std::vector<BodyId> findUnsupported(const World& world, const Vec3& gravity)
 {
     std::vector<BodyId> unsupported;
     if (gravity.isZero(0.0)) return unsupported;
-    const Ground ground(world, gravity.normalized());
+    const Ground ground(world, gravity.normalized(), Under::fixed);
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
         if (world.mass[body].isMovable() && !ground.dropOf(body)) unsupported.push_back(body);
     }
@@ -170,8 +178,8 @@ std::vector<FastBody> findTooFast(const World& world, const StepSettings& settin
 {
     std::vector<FastBody> fast;
     const double g = settings.gravity.norm();
-    const Ground ground(world,
-                        g > 0.0 ? settings.gravity.normalized().eval() : Vec3::Zero().eval());
+    const Vec3 down = g > 0.0 ? settings.gravity.normalized().eval() : Vec3::Zero().eval();
+    const Ground ground(world, down, Under::anybody);
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
         if (!world.mass[body].isMovable()) continue;
         const Shape& shape = world.shapeOf(body);

@@ -118,6 +118,7 @@ TEST_F(StartCheck, SpeedsBeyondTheCapAreNamedWithTheStepsTheyNeed)
     const BodyId fast = add("fast", {0, 5, 0});
     add("slow", {3, 5, 0});
     const BodyId high = add("high", {6, 200000, 0});
+    add("on_top", {6, 200001, 0});  // falls with it, and is held by it
     world.motion[fast].velocity = Vec3(3000, 0, 0);
     const std::vector<FastBody> bodies = findTooFast(world, settings, 1.0 / 24.0);
     ASSERT_EQ(bodies.size(), 2u);
