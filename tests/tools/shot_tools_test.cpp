@@ -20,7 +20,7 @@ frames = "1001-1006"
 [material.wood]
 density = 650
 [shape.block]
-box = { size = [0.4, 0.2, 0.4], segments = [1, 1, 1] }
+box = { size = [0.4, 0.2, 0.4] }
 [[body]]
 name = "ground"
 plane = { point = [0, 0, 0], normal = [0, 1, 0] }
