@@ -64,7 +64,7 @@ void separateOnce(World& world, const StepSettings& settings)
 }
 
 /// Who counts as lying under a body.
-enum class Under { fixed, anybody };
+enum class Under { heldBodies, anybody };
 
 /// How far along `down` the first thing under a body is; nothing when there is none.
 class Ground {
@@ -75,8 +75,8 @@ public:
         Aabb all;
         for (BodyId body = 0; body < static_cast<BodyId>(boxes_.size()); ++body) {
             if (!world.shapeOf(body).isPlane && !boxes_[body].isEmpty()) all.include(boxes_[body]);
-            const bool isFixed = world.info[body].kind == BodyKind::fixed;
-            if (isFixed || (who == Under::anybody && world.isBorn(body))) under_.push_back(body);
+            const bool isHeld = world.info[body].kind != BodyKind::dynamic;
+            if (isHeld || (who == Under::anybody && world.isBorn(body))) under_.push_back(body);
         }
         reach_ = all.isEmpty() ? 0.0 : 2.0 * all.diagonal();
     }
@@ -133,6 +133,7 @@ std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRati
     std::vector<StartOverlap> overlaps;
     BroadPhase broadPhase;
     for (const BodyPair& pair : broadPhase.findPairs(boxesOf(world), world.mass)) {
+        if (!mayCollide(world, pair)) continue;
         const double depth = depthOf(world, pair.a, pair.b);
         const double ratio = depth / smallerEdge(world, pair.a, pair.b);
         if (ratio > leastRatio) overlaps.push_back({pair.a, pair.b, depth, ratio});
@@ -166,7 +167,7 @@ std::vector<BodyId> findUnsupported(const World& world, const Vec3& gravity)
 {
     std::vector<BodyId> unsupported;
     if (gravity.isZero(0.0)) return unsupported;
-    const Ground ground(world, gravity.normalized(), Under::fixed);
+    const Ground ground(world, gravity.normalized(), Under::heldBodies);
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
         if (world.mass[body].isMovable() && !ground.dropOf(body)) unsupported.push_back(body);
     }
