@@ -67,6 +67,9 @@ TEST_F(StartCheck, OverlapsAreListedByDepthAndTouchingIsNone)
     EXPECT_EQ(overlaps[1].a, ground);
     EXPECT_NEAR(overlaps[1].ratio, 0.05, 1e-9);
     EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 1u);
+    // Bodies whose groups do not meet may stand within each other.
+    world.info[high].groups.collidesWith = 0;
+    EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 0u);
 }
 
 TEST_F(StartCheck, SeparationPushesApartAndGivesNoSpeed)
