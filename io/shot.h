@@ -112,6 +112,13 @@ struct ShotPair {
     std::optional<double> friction, restitution;
 };
 
+/// What to do with bodies that overlap before anything has moved.
+enum class StartOverlapRule {
+    error,     ///< refuse to simulate
+    warn,      ///< say so and begin
+    separate,  ///< push them apart first
+};
+
 struct ShotCamera {
     std::string name = "main";
     Vec3 eye = Vec3::Zero();     ///< [m]
@@ -141,6 +148,7 @@ struct Shot {
     StepSettings settings;  ///< gravity and seed included
     double penetrationWarn = 0.01,
            penetrationFail = 0.1;  ///< of the smaller body's longest box edge
+    StartOverlapRule startOverlap = StartOverlapRule::error;  ///< beyond penetrationWarn
     std::vector<ShotMaterial> materials;
     std::vector<ShotShape> shapes;
     std::vector<ShotBody> bodies;

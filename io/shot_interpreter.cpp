@@ -71,6 +71,7 @@ public:
     {
         readShotTable();
         if (const ShotNode* solver = tree_.find("solver")) readSolver(*solver);
+        if (const ShotNode* start = tree_.find("start")) readStart(*start);
         readMaterials();
         readMaterialPairs(tree_, shot_, problems_);
         readShapes();
@@ -167,6 +168,14 @@ private:
             report(*penetration.find("warn"),
                    "'warn' must not exceed 'fail', " + toTomlText(shot_.penetrationFail));
         }
+    }
+
+    void readStart(const ShotNode& table)
+    {
+        const std::string& overlap = table.find("overlap")->text;
+        shot_.startOverlap = overlap == "warn"       ? StartOverlapRule::warn
+                             : overlap == "separate" ? StartOverlapRule::separate
+                                                     : StartOverlapRule::error;
     }
 
     void readMaterials()
@@ -279,6 +288,22 @@ private:
         if (const ShotNode* samples = node.find("edge_samples")) {
             settings.edgeSamples = samples->boolean;
         }
+        if (const ShotNode* mesh = node.find("mesh")) readRepair(*mesh, settings);
+    }
+
+    void readRepair(const ShotNode& mesh, ShapeSettings& settings)
+    {
+        const ShotNode& repair = *mesh.find("repair");
+        const ShotNode* thickness = mesh.find("thickness");
+        const bool isShell = repair.text == "shell";
+        settings.repair = isShell                 ? MeshRepair::shell
+                          : repair.text == "wrap" ? MeshRepair::wrap
+                                                  : MeshRepair::none;
+        if (isShell && !mesh.mentions("thickness")) {
+            report(repair, "a \"shell\" needs a 'thickness'");
+        }
+        if (!isShell && thickness) report(*thickness, "only a \"shell\" has a 'thickness'");
+        if (thickness) settings.shellThickness = thickness->number * shot_.metresPerUnit;
     }
 
     /// A formula stands for few solids, and has neither field nor normals to choose.
@@ -306,6 +331,10 @@ private:
         }
         if (node.find("normals")->text != "auto") {
             report(*node.find("normals"), "a shape that collides as \"exact\" has exact normals");
+        }
+        const ShotNode* mesh = node.find("mesh");
+        if (mesh && mesh->find("repair")->text != "none") {
+            report(*mesh, "a shape that collides as \"exact\" needs no repair of its mesh");
         }
         const ShotNode* edges = node.find("edge_samples");
         if (isRound && edges) {

@@ -279,6 +279,22 @@ const std::vector<ShotKey> kSolverKeys = {
              "on anything."},
 };
 
+const std::vector<ShotKey> kStartKeys = {
+    {.path = "start",
+     .type = table,
+     .byDefault = "{}",
+     .help = "What happens before the first frame."},
+    {.path = "start.overlap",
+     .type = word,
+     .byDefault = "\"error\"",
+     .choices = "error|warn|separate",
+     .help =
+         "What to do with bodies that overlap by more than solver.penetration.warn where the "
+         "shot puts them: \"error\" names them and stops, \"warn\" names them and goes on (they "
+         "will be pushed apart while the shot runs, which shows), \"separate\" pushes them "
+         "apart before the first frame, giving them no velocity."},
+};
+
 const std::vector<ShotKey> kMaterialKeys = {
     {.path = "material",
      .type = namedTables,
@@ -524,8 +540,25 @@ const std::vector<ShotKey> kShapeKeys = {
              "thickness. Off, crossed planks fall through each other."},
     {.path = "shape.mesh",
      .type = table,
-     .isPlanned = true,
-     .help = "Repair of open or broken meshes."},
+     .help = "What to do with a mesh that is no solid. Equal points, triangles without area and a "
+             "mesh that is wholly inside-out are always put right, and told; anything else only "
+             "as this says."},
+    {.path = "shape.mesh.repair",
+     .type = word,
+     .byDefault = "\"none\"",
+     .choices = "none|wrap|shell",
+     .help =
+         "\"none\" refuses holes, sheets and parts that pierce each other. \"wrap\" collides as "
+         "the solid around which the mesh winds: closes holes, joins parts, rounds edges by "
+         "about a voxel (sdf says how fine, else 64 along the longest edge). \"shell\" gives "
+         "the mesh a thickness, for leaves and open bowls. `scree check` says how far what "
+         "collides then is from what is drawn."},
+    {.path = "shape.mesh.thickness",
+     .unit = "shot's unit of length",
+     .min = 0,
+     .isOpen = true,
+     .help = "Of the shell, half of it on either side of the mesh. Thin shells need small time "
+             "steps and fine fields."},
     {.path = "shape.collide",
      .type = word,
      .byDefault = "\"mesh\"",
@@ -1016,8 +1049,8 @@ const std::vector<ShotKey>& shotKeys()
     static const std::vector<ShotKey> all = [] {
         std::vector<ShotKey> keys;
         for (const auto* part :
-             {&kFileKeys, &kShotKeys, &kSolverKeys, &kMaterialKeys, &kShapeKeys, &kBodyKeys,
-              &kForceKeys, &kPairKeys, &kImportKeys, &kEmitterKeys, &kLookKeys}) {
+             {&kFileKeys, &kShotKeys, &kSolverKeys, &kStartKeys, &kMaterialKeys, &kShapeKeys,
+              &kBodyKeys, &kForceKeys, &kPairKeys, &kImportKeys, &kEmitterKeys, &kLookKeys}) {
             keys.insert(keys.end(), part->begin(), part->end());
         }
         return keys;

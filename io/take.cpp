@@ -130,7 +130,8 @@ void restoreState(World& world, const FrameState& state)
 }
 
 TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& world,
-                       const std::string& programVersion, ExistingTake existing)
+                       const std::string& programVersion, ExistingTake existing,
+                       const std::optional<TakeBranch>& branch)
     : shot_(shot), paths_{folder}, shotHash_(hashText(shot.resolvedText))
 {
     const bool exists = fs::exists(paths_.info());
@@ -158,7 +159,7 @@ TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& wo
         if (exists && existing == ExistingTake::resume)
             resume(world, programVersion);
         else
-            start(world, programVersion);
+            start(world, programVersion, branch);
     } catch (...) {
         if (lock_ >= 0) ::close(lock_);
         throw;
@@ -170,7 +171,8 @@ TakeWriter::~TakeWriter()
     if (lock_ >= 0) ::close(lock_);
 }
 
-void TakeWriter::start(const World& world, const std::string& programVersion)
+void TakeWriter::start(const World& world, const std::string& programVersion,
+                       const std::optional<TakeBranch>& branch)
 {
     createFolder(paths_.shapes());
     createFolder(paths_.frames());
@@ -186,6 +188,16 @@ void TakeWriter::start(const World& world, const std::string& programVersion)
         writePlyMesh(paths_.shape(mesh.name), {mesh.points, mesh.triangles, mesh.cornerUvs});
         info.shapes.push_back({mesh.name, hashText(readFileBytes(paths_.shape(mesh.name)))});
     }
+    if (branch) {
+        info.branchTake = branch->take.string();
+        info.branchFrame = branch->frame;
+        branchFrame_ = branch->frame;
+        statsLines_ = copyBranch(*branch, shot_, world, info, paths_.root);
+        rewriteStats();
+        for (int frame = shot_.firstFrame; frame <= branch->frame; ++frame) {
+            wholeFrames_.insert(frame);
+        }
+    }
     writeFileBytes(paths_.info(), encodeTakeInfo(info));
 }
 
@@ -193,6 +205,7 @@ void TakeWriter::resume(const World& world, const std::string& programVersion)
 {
     checkSameShot(world, programVersion);
     findWholeFrames(world);
+    requireBranch();
     findCheckpoint(world);
 
     // Statistics follow the frames: lines of frames that are gone or damaged go too.
@@ -211,6 +224,7 @@ void TakeWriter::checkSameShot(const World& world, const std::string& programVer
                         toHex(shotHash_) + ", the take's is " + toHex(info.shotHash) +
                         ". Compare `scree check SHOT --resolved` with \"shot\" in take.json, or "
                         "write to another folder with -o");
+    if (!info.branchTake.empty()) branchFrame_ = info.branchFrame;
     const TakeInfo now =
         makeTakeInfo(shot_, world, describeScene(shot_, world, 1.0), programVersion);
     for (std::size_t i = 0; i < std::min(info.inputs.size(), now.inputs.size()); ++i)
@@ -245,6 +259,19 @@ void TakeWriter::findWholeFrames(const World& world)
                     "\"" + paths_.root.string() +
                         "\" does not begin where this shot begins: an asset or the program has "
                         "changed since. --overwrite begins again, -o writes elsewhere");
+}
+
+/// Frames that another shot simulated cannot be made again by this one.
+void TakeWriter::requireBranch() const
+{
+    if (!branchFrame_) return;
+    for (int frame = shot_.firstFrame; frame <= *branchFrame_; ++frame) {
+        if (hasFrame(frame)) continue;
+        throw Error(ErrorKind::inputOutput,
+                    "frame " + std::to_string(frame) + " of \"" + paths_.root.string() +
+                        "\" is missing or damaged, and the take was branched off after it: begin "
+                        "again with --from and --overwrite");
+    }
 }
 
 void TakeWriter::findCheckpoint(const World& world)

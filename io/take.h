@@ -14,6 +14,7 @@
 #include "io/frame_file.h"
 #include "io/frame_stats.h"
 #include "io/shot.h"
+#include "io/take_branch.h"
 #include "io/take_info.h"
 
 namespace scree {
@@ -59,8 +60,10 @@ public:
     /// `world`, built from `shot`, stands at time zero; `shot` must outlive the writer. Throws
     /// Error{cannotCreate} when the folder is taken and may not be touched, Error{badInput} when it
     /// belongs to another shot, Error{inputOutput} when take.json is damaged.
+    /// A new take with a `branch` begins with the frames of another (io/take_branch.h).
     TakeWriter(const std::filesystem::path& folder, const Shot& shot, const World& world,
-               const std::string& programVersion, ExistingTake existing);
+               const std::string& programVersion, ExistingTake existing,
+               const std::optional<TakeBranch>& branch = std::nullopt);
     ~TakeWriter();
     TakeWriter(const TakeWriter&) = delete;
     TakeWriter& operator=(const TakeWriter&) = delete;
@@ -91,10 +94,12 @@ public:
     std::vector<FrameSummary> summaries() const;
 
 private:
-    void start(const World& world, const std::string& programVersion);
+    void start(const World& world, const std::string& programVersion,
+               const std::optional<TakeBranch>& branch);
     void resume(const World& world, const std::string& programVersion);
     void checkSameShot(const World& world, const std::string& programVersion);
     void findWholeFrames(const World& world);
+    void requireBranch() const;
     void findCheckpoint(const World& world);
     void removeTake();
     void removeTemporaries() const;
@@ -104,6 +109,7 @@ private:
     const Shot& shot_;
     TakePaths paths_;
     std::uint64_t shotHash_ = 0;
+    std::optional<int> branchFrame_;  // frames up to it were simulated by another shot
     int lock_ = -1;
     std::set<int> wholeFrames_;
     std::optional<Clock> checkpoint_;        // of the checkpoint file, if whole

@@ -148,6 +148,10 @@ TakeInfo infoFromJson(const Json& json)
     info.zUp = json.at("up") == "+z";
     info.seed = json.at("seed");
     info.shotHash = fromHex(json.at("shot_hash"));
+    if (json.contains("branch")) {
+        info.branchTake = json.at("branch").at("take");
+        info.branchFrame = json.at("branch").at("frame");
+    }
     for (const Json& input : json.at("inputs"))
         info.inputs.push_back({input.at("path"), fromHex(input.at("hash"))});
     for (const Json& shape : json.at("shapes"))
@@ -195,7 +199,7 @@ std::string encodeTakeInfo(const TakeInfo& info)
         inputs.push_back({{"path", input.path}, {"hash", toHex(input.hash)}});
     for (const TakeShape& shape : info.shapes)
         shapes.push_back({{"name", shape.name}, {"hash", toHex(shape.hash)}});
-    const Json json = {
+    Json json = {
         {"format", "scree take"},
         {"format_version", kTakeFormatVersion},
         {"program_version", info.programVersion},
@@ -217,6 +221,9 @@ std::string encodeTakeInfo(const TakeInfo& info)
         {"subframes", info.offsets},
         {"shot", info.resolvedShot},
     };
+    if (!info.branchTake.empty()) {
+        json["branch"] = {{"take", info.branchTake}, {"frame", info.branchFrame}};
+    }
     return json.dump(1) + "\n";
 }
 

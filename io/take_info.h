@@ -64,6 +64,8 @@ struct TakeInfo {
     bool zUp = false;
     int firstFrame = 1001;
     int lastFrame = 1240;
+    std::string branchTake;  ///< whose frames up to branchFrame this take begins with; or empty
+    int branchFrame = 0;
     std::vector<TakeInput> inputs;
     std::vector<TakeShape> shapes;
     std::vector<TakeBody> bodies;

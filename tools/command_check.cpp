@@ -2,20 +2,29 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/base/parallel.h"
+#include "core/geometry/shape_report.h"
+#include "core/math/rotation.h"
 #include "io/build_world.h"
 #include "io/shot_parser.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/run_estimate.h"
+#include "tools/start_rule.h"
 
 namespace scree {
 namespace {
 
+constexpr double kMostEstimateSeconds = 20.0;
+constexpr std::size_t kMostOverlapsPrinted = 20;
+
 struct CheckOptions {
     std::string shot;
-    bool resolved = false;
+    bool resolved = false, json = false;
+    int estimateFrames = 3;
     std::optional<int> threads;
     std::vector<std::string> overrides;
 };
@@ -23,8 +32,18 @@ struct CheckOptions {
 /// What is told of a shape: its first body gives the mass.
 struct ShapeUse {
     const Shape* shape = nullptr;
+    ShapeReport report;
     int bodies = 0;
     double lightest = 0.0, heaviest = 0.0;  ///< of the movable bodies [kg]
+};
+
+/// Everything the command says, as values.
+struct ShotReport {
+    std::size_t bodies = 0, movable = 0;
+    std::map<std::string, ShapeUse> shapes;
+    std::vector<std::string> repairs, warnings;
+    std::vector<StartOverlap> overlaps;
+    RunEstimate estimate;
 };
 
 std::map<std::string, ShapeUse> collectUses(const World& world)
@@ -34,38 +53,168 @@ std::map<std::string, ShapeUse> collectUses(const World& world)
         const Shape& shape = world.shapeOf(body);
         if (shape.isPlane) continue;
         ShapeUse& use = uses[shape.name];
+        if (!use.shape) use.report = reportShape(shape);
         use.shape = &shape;
         ++use.bodies;
-        if (!world.mass[body].isMovable()) continue;
-        const double mass = 1.0 / world.mass[body].inverseMass;
+        const BodyMass& weight = world.massWhenBorn(body);
+        if (!weight.isMovable()) continue;
+        const double mass = 1.0 / weight.inverseMass;
         use.lightest = use.lightest == 0.0 ? mass : std::min(use.lightest, mass);
         use.heaviest = std::max(use.heaviest, mass);
     }
     return uses;
 }
 
-void printShapes(const World& world)
+ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
 {
-    std::printf("%-20s %7s %9s %12s %16s %10s %10s %7s\n", "shape", "bodies", "triangles",
-                "volume m3", "mass kg", "thick m", "voxel m", "voxels");
-    for (const auto& [name, use] : collectUses(world)) {
-        const Shape& shape = *use.shape;
-        char mass[64] = "-";
-        if (use.heaviest > 0.0)
-            std::snprintf(mass, sizeof mass,
-                          use.lightest == use.heaviest ? "%.4g" : "%.4g ... %.4g", use.lightest,
-                          use.heaviest);
-        const double spacing = shape.distance.spacing();
-        if (shape.distance.solid()) {
-            std::printf("%-20s %7d %9ld %12.5g %16s %10.4g %10s %7s\n", name.c_str(), use.bodies,
-                        static_cast<long>(shape.mesh.triangles.cols()), shape.unitMass.volume, mass,
-                        shape.innerThickness, "exact", "-");
-            continue;
-        }
-        std::printf("%-20s %7d %9ld %12.5g %16s %10.4g %10.4g %7.0f\n", name.c_str(), use.bodies,
-                    static_cast<long>(shape.mesh.triangles.cols()), shape.unitMass.volume, mass,
-                    shape.innerThickness, spacing, shape.box.longestEdge() / spacing);
+    ShotReport report;
+    report.bodies = world.bodyCount();
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        report.movable += world.massWhenBorn(body).isMovable();
     }
+    report.shapes = collectUses(world);
+    report.repairs = repairsOf(world);
+    report.overlaps = findStartOverlaps(world, shot.penetrationWarn);
+    report.warnings = warningsBeforeStart(shot, world);
+    report.estimate = estimateRun(shot, world, estimateFrames, kMostEstimateSeconds);
+    return report;
+}
+
+std::string massText(const ShapeUse& use)
+{
+    char mass[64] = "-";
+    if (use.heaviest > 0.0)
+        std::snprintf(mass, sizeof mass, use.lightest == use.heaviest ? "%.4g" : "%.4g ... %.4g",
+                      use.lightest, use.heaviest);
+    return mass;
+}
+
+void printShape(const std::string& name, const ShapeUse& use)
+{
+    const Shape& shape = *use.shape;
+    const ShapeReport& report = use.report;
+    // Of the body with the greatest mass; without one, of a cubic metre per kilogram.
+    const Vec3 inertia =
+        shape.unitMass.moments * (use.heaviest > 0.0 ? use.heaviest / shape.unitMass.volume : 1.0);
+    std::printf("%s: %d bodies, mass %s kg, inertia %.4g %.4g %.4g kg m2\n", name.c_str(),
+                use.bodies, massText(use).c_str(), inertia[0], inertia[1], inertia[2]);
+    std::printf("  mesh    closed, outward; %zu triangles, %zu points, %d part%s, %.4g m long\n",
+                report.triangles, report.points, report.parts, report.parts == 1 ? "" : "s",
+                report.longestEdge);
+    std::printf("  volume  %.5g m3 by the mesh, %.5g m3 by the field (%+.2g %%)\n",
+                report.meshVolume, report.fieldVolume,
+                100.0 * (report.fieldVolume / report.meshVolume - 1.0));
+    if (shape.distance.solid()) {
+        std::printf("  walls   %.4g m at the thinnest; exact solid, no voxels\n",
+                    shape.innerThickness);
+    } else {
+        const double spacing = shape.distance.spacing();
+        std::printf("  walls   %.4g m at the thinnest, %.1f voxels of %.4g m, %.0f along the box\n",
+                    shape.innerThickness, shape.innerThickness / spacing, spacing,
+                    report.longestEdge / spacing);
+    }
+    std::printf("  edges   %d sharper than 40 degrees, the sharpest %.0f; normals %s\n",
+                report.sharpEdges, report.sharpestEdge * 180.0 / kPi,
+                shape.usesTrueNormals ? "of the mesh" : "of the field");
+}
+
+void printList(const char* title, const std::vector<std::string>& lines)
+{
+    if (lines.empty()) return;
+    std::printf("\n%s\n", title);
+    for (const std::string& line : lines) std::printf("  %s\n", line.c_str());
+}
+
+void printText(const Shot& shot, const World& world, const ShotReport& report)
+{
+    std::printf("%s: frames %d-%d at %g a second, %zu bodies, %zu of them movable\n\n",
+                shot.name.c_str(), shot.firstFrame, shot.lastFrame, shot.framesPerSecond,
+                report.bodies, report.movable);
+    for (const auto& [name, use] : report.shapes) printShape(name, use);
+    printList("repaired", report.repairs);
+    std::vector<std::string> overlaps;
+    for (const StartOverlap& overlap : report.overlaps) {
+        if (overlaps.size() == kMostOverlapsPrinted) {
+            overlaps.push_back("and " + std::to_string(report.overlaps.size() - overlaps.size()) +
+                               " more");
+            break;
+        }
+        overlaps.push_back(describe(overlap, world));
+    }
+    printList("overlaps at the start", overlaps);
+    printList("warnings", report.warnings);
+    const RunEstimate& estimate = report.estimate;
+    std::printf("\nestimate\n  disk %.1f MB, memory %.0f MB", 1e-6 * estimate.diskBytes,
+                1e-6 * estimate.memoryBytes);
+    if (estimate.framesTried > 0) {
+        std::printf(
+            "\n  time %s wall, %s of processors, if the shot goes on as its first %d frames "
+            "(%d steps); a heap that forms later costs more",
+            describeDuration(estimate.wallSeconds).c_str(),
+            describeDuration(estimate.cpuSeconds).c_str(), estimate.framesTried,
+            estimate.stepsTried);
+    }
+    std::printf("\n");
+}
+
+nlohmann::ordered_json toJson(const ShapeUse& use)
+{
+    const Shape& shape = *use.shape;
+    const ShapeReport& report = use.report;
+    return {{"bodies", use.bodies},
+            {"triangles", report.triangles},
+            {"points", report.points},
+            {"parts", report.parts},
+            {"closed", true},
+            {"volume_m3", report.meshVolume},
+            {"field_volume_m3", report.fieldVolume},
+            {"lightest_kg", use.lightest},
+            {"heaviest_kg", use.heaviest},
+            {"moments_m5",
+             {shape.unitMass.moments[0], shape.unitMass.moments[1], shape.unitMass.moments[2]}},
+            {"longest_edge_m", report.longestEdge},
+            {"thinnest_m", shape.innerThickness},
+            {"exact", shape.distance.solid() != nullptr},
+            {"voxel_m", shape.distance.spacing()},
+            {"sharp_edges", report.sharpEdges},
+            {"sharpest_degrees", report.sharpestEdge * 180.0 / kPi},
+            {"merged_points", shape.repairs.harmless.mergedPoints},
+            {"dropped_triangles", shape.repairs.harmless.droppedTriangles},
+            {"flipped_edges", shape.repairs.harmless.flippedEdges},
+            {"turned", shape.repairs.harmless.isTurned},
+            {"remeshed", shape.repairs.remeshed != MeshRepair::none},
+            {"drawn_to_colliding_m", shape.repairs.farthest}};
+}
+
+void printJson(const Shot& shot, const World& world, const ShotReport& report)
+{
+    nlohmann::ordered_json shapes = nlohmann::ordered_json::object();
+    for (const auto& [name, use] : report.shapes) shapes[name] = toJson(use);
+    nlohmann::ordered_json overlaps = nlohmann::ordered_json::array();
+    for (const StartOverlap& overlap : report.overlaps) {
+        overlaps.push_back({{"a", world.info[overlap.a].name},
+                            {"b", world.info[overlap.b].name},
+                            {"depth_m", overlap.depth},
+                            {"ratio", overlap.ratio}});
+    }
+    const nlohmann::ordered_json json = {
+        {"name", shot.name},
+        {"frames", {shot.firstFrame, shot.lastFrame}},
+        {"bodies", report.bodies},
+        {"movable_bodies", report.movable},
+        {"shapes", shapes},
+        {"repairs", report.repairs},
+        {"overlaps", overlaps},
+        {"warnings", report.warnings},
+        {"estimate",
+         {{"frames_tried", report.estimate.framesTried},
+          {"steps_tried", report.estimate.stepsTried},
+          {"wall_s", report.estimate.wallSeconds},
+          {"cpu_s", report.estimate.cpuSeconds},
+          {"disk_bytes", report.estimate.diskBytes},
+          {"memory_bytes", report.estimate.memoryBytes}}},
+    };
+    std::printf("%s\n", json.dump(2).c_str());
 }
 
 int runCheck(const CheckOptions& options)
@@ -77,13 +226,14 @@ int runCheck(const CheckOptions& options)
     }
     setThreadCount(threadsToUse(options.threads));
     const World world = buildWorld(shot);
-    std::size_t movable = 0;
-    for (const BodyMass& mass : world.mass) movable += mass.isMovable();
-    std::printf("%s: frames %d-%d at %g a second, %zu bodies, %zu of them movable\n\n",
-                shot.name.c_str(), shot.firstFrame, shot.lastFrame, shot.framesPerSecond,
-                world.bodyCount(), movable);
-    printShapes(world);
-    return kExitDone;
+    const ShotReport report = examine(shot, world, options.estimateFrames);
+    if (options.json)
+        printJson(shot, world, report);
+    else
+        printText(shot, world, report);
+    // What sim would refuse, check refuses too.
+    const bool isRefused = !report.overlaps.empty() && shot.startOverlap == StartOverlapRule::error;
+    return isRefused ? exitCodeFor(ErrorKind::badInput) : kExitDone;
 }
 
 }  // namespace
@@ -92,16 +242,23 @@ Command addCheckCommand(CLI::App& program)
 {
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command =
-        program.add_subcommand("check", "Say what a shot holds, without simulating");
+        program.add_subcommand("check", "Say all that can be said of a shot before simulating it");
     command->add_option("SHOT", options->shot, "The shot file")->required();
-    command->add_flag("--resolved", options->resolved,
-                      "Print the shot with all its defaults instead");
+    CLI::Option* resolved = command->add_flag("--resolved", options->resolved,
+                                              "Print the shot with all its defaults instead");
+    command->add_flag("--json", options->json, "As one JSON object")->excludes(resolved);
+    command
+        ->add_option("--estimate", options->estimateFrames,
+                     "Frames simulated to estimate the time [3]; 0 for none")
+        ->check(CLI::Range(0, 1000));
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->take_all();
-    command->footer("Example:\n  scree check shots/rings_100.toml");
+    command->footer(
+        "Ends with 65 when sim would refuse the shot.\n"
+        "Example:\n  scree check shots/rings_100.toml");
     return {command, [options](Console&) { return runCheck(*options); }};
 }
 

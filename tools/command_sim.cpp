@@ -19,6 +19,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/progress.h"
+#include "tools/start_rule.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
 #include "tools/version.h"
@@ -27,7 +28,7 @@ namespace scree {
 namespace {
 
 struct SimOptions {
-    std::string shot, take, frames, progress = "auto";
+    std::string shot, take, frames, from, progress = "auto";
     std::optional<int> threads;
     bool resume = false, overwrite = false;
     std::vector<std::string> overrides;
@@ -67,11 +68,18 @@ public:
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
         world_ = buildWorld(shot_);
+        for (const std::string& repair : repairsOf(world_)) console.info(repair);
+        applyStartRule(shot_, world_, console);
+        for (const std::string& warning : warningsBeforeStart(shot_, world_)) {
+            console.warning(warning);
+        }
         subframes_.emplace(shot_, world_);
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
                                                         : ExistingTake::refuse;
-        take_.emplace(folder, shot_, world_, programVersion(), existing);
+        std::optional<TakeBranch> branch;
+        if (!options.from.empty()) branch = parseBranch(options.from);
+        take_.emplace(folder, shot_, world_, programVersion(), existing, branch);
         for (const std::string& notice : take_->notices()) console.warning(notice);
     }
 
@@ -329,6 +337,11 @@ Command addSimCommand(CLI::App& program)
         command->add_flag("--resume", options->resume,
                           "Go on with the take, to the same bits; begin when there is none");
     command->add_flag("--overwrite", options->overwrite, "Replace the take that is there")
+        ->excludes(resume);
+    command
+        ->add_option("--from", options->from,
+                     "TAKE@FRAME: begin with that take's frames up to this one; the shot may "
+                     "differ from the take's in settings, not in bodies")
         ->excludes(resume);
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")

@@ -25,6 +25,8 @@ Command addMovieCommand(CLI::App& program);
 Command addCheckCommand(CLI::App& program);
 Command addExplainCommand(CLI::App& program);
 Command addInfoCommand(CLI::App& program);
+Command addDiffCommand(CLI::App& program);
+Command addSettleCommand(CLI::App& program);
 Command addStatsCommand(CLI::App& program);
 Command addVerifyCommand(CLI::App& program);
 

@@ -7,6 +7,7 @@
 namespace scree {
 
 constexpr int kExitDone = 0;
+constexpr int kExitDiffers = 1;  ///< of diff alone, as every diff does it
 constexpr int kExitUsage = 64;
 constexpr int kExitInternal = 70;
 constexpr int kExitStopped = 75;  ///< stopped cleanly at a checkpoint: run me again with --resume

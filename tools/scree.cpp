@@ -17,7 +17,8 @@ constexpr const char* kFooter =
     "Example:\n"
     "  scree sim shots/rings_100.toml\n"
     "  scree render takes/rings_100 && scree movie takes/rings_100 -o rings.mp4\n"
-    "Exit codes: 0 done, 64 usage, 65 bad shot or asset, 66 input missing, 70 internal,\n"
+    "Exit codes: 0 done, 1 takes differ (diff), 64 usage, 65 bad shot or asset, 66 input missing, "
+    "70 internal,\n"
     "  73 cannot create output, 74 I/O error or disk full, 75 stopped (run again with --resume),\n"
     "  79 quality limit broken";
 
@@ -45,10 +46,10 @@ int runProgram(int argumentCount, char** arguments, Console& console)
     program.fallthrough();
     addConsoleOptions(program, console);
     const Command commands[] = {
-        addSimCommand(program),    addRenderCommand(program), addExportCommand(program),
-        addSheetCommand(program),  addMovieCommand(program),  addCheckCommand(program),
-        addInfoCommand(program),   addStatsCommand(program),  addExplainCommand(program),
-        addVerifyCommand(program),
+        addSimCommand(program),   addRenderCommand(program), addExportCommand(program),
+        addSheetCommand(program), addMovieCommand(program),  addCheckCommand(program),
+        addInfoCommand(program),  addStatsCommand(program),  addExplainCommand(program),
+        addDiffCommand(program),  addSettleCommand(program), addVerifyCommand(program),
     };
     for (const Command& command : commands) command.options->fallthrough();
 

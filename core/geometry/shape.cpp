@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/geometry/mesh_defects.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -16,7 +17,9 @@ constexpr double kSharpEdge = 40.0 * kPi / 180.0;  // [A6]
 constexpr int kLeastResolution = 48;               // [A4]
 constexpr int kMostResolution = 512;
 constexpr double kVoxelsPerThickness = 12.0;
-constexpr int kMarginCells = 4;  // around the mesh
+constexpr int kMarginCells = 4;                // around the mesh
+constexpr int kRepairResolution = 64;          // of the lattice of a wrap, unless the shot says
+constexpr double kRepairVoxelsPerShell = 3.0;  // fewer tear the shell where it bends
 
 /// First percentile, by area, of the length of a ray from a face inward to the opposite wall; at
 /// most the shortest box edge.  [A16]
@@ -75,6 +78,35 @@ double chooseSpacing(const std::string& name, const ShapeSettings& settings, con
     return spacing;
 }
 
+/// The spacing of the lattice that a repair draws its surface on.
+double repairVoxel(const TriMesh& mesh, const ShapeSettings& settings)
+{
+    const double longest =
+        (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
+    double voxel = longest / settings.resolution.value_or(kRepairResolution);
+    if (settings.voxel) voxel = *settings.voxel;
+    if (settings.repair == MeshRepair::wrap) return voxel;
+    return std::min(voxel, settings.shellThickness / kRepairVoxelsPerShell);
+}
+
+/// The solid that collides, in the artist's frame.
+TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const ShapeSettings& settings,
+                  ShapeRepairs& repairs)
+{
+    TriMesh solid = repairHarmlessly(assetMesh, repairs.harmless);
+    if (settings.repair == MeshRepair::none) {
+        requireSolid(solid, name);
+        return solid;
+    }
+    requireSurface(solid, name);
+    repairs.remeshed = settings.repair;
+    repairs.voxel = repairVoxel(solid, settings);
+    const TriMesh remeshed =
+        remeshSolid(solid, {settings.repair, settings.shellThickness, repairs.voxel}, name);
+    repairs.farthest = farthestApart(solid, remeshed);
+    return remeshed;
+}
+
 GridNodes layOutNodes(const Aabb& box, double spacing)
 {
     // Nodes lie on the low faces of the box, and on the high ones where the edge is a multiple of
@@ -97,8 +129,7 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
     auto shape = std::make_shared<Shape>();
     shape->name = name;
     shape->assetMesh = assetMesh;
-    const TriMesh solid = mergeEqualPoints(assetMesh);
-    requireSolid(solid, name);
+    const TriMesh solid = makeSolid(name, assetMesh, settings, shape->repairs);
     try {
         shape->unitMass = massProperties(solid);
     } catch (const Error& error) {

@@ -11,7 +11,9 @@
 #include <string>
 
 #include "core/geometry/contact_features.h"
+#include "core/geometry/level_set_remesh.h"
 #include "core/geometry/mass_properties.h"
+#include "core/geometry/mesh_repair.h"
 #include "core/geometry/signed_distance.h"
 #include "core/geometry/smooth_surface.h"
 #include "core/geometry/surface_rays.h"
@@ -41,6 +43,16 @@ struct ShapeSettings {
     FieldMode field = FieldMode::refined;
     std::optional<bool>
         edgeSamples;  ///< [A8]; otherwise on when edges are long against the thickness
+    MeshRepair repair = MeshRepair::none;  ///< of a mesh that is no solid  [A1]
+    double shellThickness = 0.0;           ///< of MeshRepair::shell [m]
+};
+
+/// What was done to the artist's mesh before it became a solid.
+struct ShapeRepairs {
+    HarmlessRepairs harmless;
+    MeshRepair remeshed = MeshRepair::none;
+    double voxel = 0.0;     ///< of the remeshing [m]
+    double farthest = 0.0;  ///< between what is drawn and what collides [m]
 };
 
 struct Shape {
@@ -50,6 +62,7 @@ struct Shape {
         false;  ///< exact sphere or cylinder: its samples are no material points  [A9]
 
     TriMesh assetMesh;        ///< as the artist made it, scale baked in [m]; empty for a plane
+    ShapeRepairs repairs;     ///< between assetMesh and mesh
     Pose bodyFromAsset;       ///< object frame from the artist's frame
     MassProperties unitMass;  ///< for density 1 kg/m³, in the object frame
 
@@ -67,9 +80,9 @@ struct Shape {
 };
 
 /// Builds mass, field, samples and rays from a closed mesh in the artist's frame, lengths in
-/// metres. Throws Error{badInput} naming `name` when the mesh is not a solid [A1], has no volume
-/// [A2] or is too thin for the largest allowed resolution, 512 [A4]: the message says which would
-/// do.
+/// metres; what can be repaired without harm is. Throws Error{badInput} naming `name` when the mesh
+/// is not a solid [A1], has no volume [A2] or is too thin for the largest allowed resolution, 512
+/// [A4]: the message says which would do.
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
                                             const ShapeSettings& settings = {});
 

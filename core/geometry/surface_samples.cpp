@@ -65,6 +65,13 @@ double sharpestEdge(const TriMesh& mesh)
     return sharpest;
 }
 
+int countSharperEdges(const TriMesh& mesh, double angle)
+{
+    int count = 0;
+    for (const auto& [ends, between] : dihedralAngles(mesh)) count += between > angle;
+    return count;
+}
+
 double longestEdge(const TriMesh& mesh)
 {
     double longest = 0.0;

@@ -29,6 +29,9 @@ SurfaceSamples makeSurfaceSamples(const TriMesh& mesh, bool withEdges);
 /// The sharpest dihedral angle of the mesh, as the angle between the two normals [rad].
 double sharpestEdge(const TriMesh& mesh);
 
+/// How many edges are sharper than `angle` [rad].
+int countSharperEdges(const TriMesh& mesh, double angle);
+
 double longestEdge(const TriMesh& mesh);
 
 }  // namespace scree

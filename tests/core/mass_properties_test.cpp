@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/mass_properties.h"
+#include "core/geometry/mesh_defects.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
 #include "core/math/rotation.h"
@@ -138,10 +139,6 @@ std::string messageOf(const TriMesh& mesh)
 
 TEST(E10MassProperties, MeshesThatAreNoSolidAreRefusedWithThePlace)
 {
-    TriMesh inverted = makeBox(Vec3::Ones(), {1, 1, 1});
-    inverted.triangles.row(1).swap(inverted.triangles.row(2));
-    EXPECT_NE(messageOf(inverted).find("inside-out"), std::string::npos);
-
     TriMesh open = makeBox(Vec3::Ones(), {1, 1, 1});
     open.triangles = open.triangles.leftCols(11).eval();
     EXPECT_NE(messageOf(open).find("'thing'"), std::string::npos);

@@ -1,3 +1,4 @@
+#include "core/geometry/mesh_defects.h"
 #include "io/mesh_import.h"
 
 #include <gtest/gtest.h>

@@ -45,7 +45,8 @@ const char* const kMaterialKeys =
     "(valid: density, friction, restitution, rolling_friction, "
     "rolling_friction_raw, spinning_friction, spinning_friction_raw, color, roughness)";
 const char* const kTables =
-    "(valid: scree, extends, shot, solver, material, shape, body, force, pair, import, emitter, "
+    "(valid: scree, extends, shot, solver, start, material, shape, body, force, pair, import, "
+    "emitter, "
     "camera, render, output)";
 
 std::vector<BadShot> badShots()
@@ -224,6 +225,13 @@ std::vector<BadShot> badShots()
          "bad.toml:1:11: 'extends' must be text in quotes, not 3"},
         {"ExtendsItself", "extends = \"bad.toml\"\n" + kHead,
          "bad.toml:1:11: 'extends' goes round in a circle: \"bad.toml\" extends this shot"},
+        {"ShellWithoutThickness", kHead + "[shape.a]\nbox = {}\nmesh = { repair = \"shell\" }\n",
+         "bad.toml:6:19: a \"shell\" needs a 'thickness'"},
+        {"ThicknessWithoutShell", kHead + "[shape.a]\nbox = {}\nmesh = { thickness = 1 }\n",
+         "bad.toml:6:22: only a \"shell\" has a 'thickness'"},
+        {"StartOverlap", kHead + "[start]\noverlap = \"wran\"\n",
+         "bad.toml:5:11: 'overlap' must be one of \"error\", \"warn\", \"separate\", not \"wran\"; "
+         "did you mean 'warn'?"},
         {"Sleep", kHead + "[solver]\nsleep = true\n",
          "bad.toml:5:1: 'sleep' in [solver] is not supported yet by this version"},
         {"Contacts", kHead + "[output]\ncontacts = true\n",

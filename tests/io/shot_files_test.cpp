@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/mesh_defects.h"
 #include "io/build_world.h"
 #include "io/mesh_import.h"
 #include "io/shot_parser.h"

@@ -325,10 +325,10 @@ TEST(ShotSchema, AnUnknownKeyIsAnsweredWithTheNearest)
               "no key 'solver.contact_iteration' in shot files; did you mean "
               "'solver.contact_iterations'?");
     EXPECT_EQ(message("frictoin"), "no key 'frictoin' in shot files; did you mean 'friction'?");
-    EXPECT_EQ(
-        message("qqqqqqqqqqqq"),
-        "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, extends, shot, "
-        "solver, material, shape, body, force, pair, import, emitter, camera, render, output");
+    EXPECT_EQ(message("qqqqqqqqqqqq"),
+              "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, extends, shot, "
+              "solver, start, material, shape, body, force, pair, import, emitter, camera, render, "
+              "output");
 }
 
 TEST(NearestWord, ForgivesSlipsButNotOtherWords)

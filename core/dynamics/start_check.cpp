@@ -1,0 +1,206 @@
+// Symbols: g gravity, down its direction, drop the way to what lies under a body.
+#include "core/dynamics/start_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/dynamics/contact_graph.h"
+#include "core/dynamics/integrator.h"
+#include "core/dynamics/push_out.h"
+#include "core/dynamics/scratch.h"
+
+namespace scree {
+namespace {
+
+constexpr int kMostRounds = 100;                 // of pushing apart
+constexpr double kSeparationStep = 1.0 / 240.0;  // whose fall tells who rests on whom [s]
+constexpr double kAlphaPerSafety = 0.5;          // [A16]
+
+std::vector<Aabb> boxesOf(const World& world)
+{
+    std::vector<Aabb> boxes(world.bodyCount());  // an empty box meets nothing
+    for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
+        if (!world.isBorn(body)) continue;
+        boxes[body] = boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
+    }
+    return boxes;
+}
+
+double depthOf(const World& world, BodyId a, BodyId b)
+{
+    const PlacedPair pair{&world.shapeOf(a), &world.shapeOf(b), world.motion[a].worldFromBody(),
+                          world.motion[b].worldFromBody()};
+    std::vector<Touch> touches;
+    findTouchesPlainly(pair, 0.0, touches);
+    double depth = 0.0;
+    for (const Touch& touch : touches) depth = std::max(depth, -touch.phi);
+    return depth;
+}
+
+double smallerEdge(const World& world, BodyId a, BodyId b)
+{
+    double smaller = std::numeric_limits<double>::infinity();
+    for (const BodyId body : {a, b}) {
+        const Shape& shape = world.shapeOf(body);
+        if (!shape.isPlane) smaller = std::min(smaller, shape.box.longestEdge());
+    }
+    return smaller;
+}
+
+/// One sweep of push-out over everything that overlaps.
+void separateOnce(World& world, const StepSettings& settings)
+{
+    StepScratch scratch;
+    findPairs(world, settings, 0.0, scratch);
+    beginStep(world, settings, kSeparationStep, scratch);
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        PairRecord& pair = scratch.pairs[i];
+        pair.isTouched = depthOf(world, pair.bodies.a, pair.bodies.b) > 0.0;
+    }
+    const ContactGraph graph = buildContactGraph(world, settings, kSeparationStep, scratch);
+    separateOverlaps(world, graph, settings, scratch);
+}
+
+/// Who counts as lying under a body.
+enum class Under { heldBodies, anybody };
+
+/// How far along `down` the first thing under a body is; nothing when there is none.
+class Ground {
+public:
+    Ground(const World& world, const Vec3& down, Under who)
+        : world_(world), down_(down), boxes_(boxesOf(world))
+    {
+        Aabb all;
+        for (BodyId body = 0; body < static_cast<BodyId>(boxes_.size()); ++body) {
+            if (!world.shapeOf(body).isPlane && !boxes_[body].isEmpty()) all.include(boxes_[body]);
+            const bool isHeld = world.info[body].kind != BodyKind::dynamic;
+            if (isHeld || (who == Under::anybody && world.isBorn(body))) under_.push_back(body);
+        }
+        reach_ = all.isEmpty() ? 0.0 : 2.0 * all.diagonal();
+    }
+
+    std::optional<double> dropOf(BodyId body) const
+    {
+        std::optional<double> least;
+        for (const BodyId under : under_) {
+            if (under == body) continue;
+            const std::optional<double> drop =
+                world_.shapeOf(under).isPlane ? dropOnPlane(body, under) : dropOnBox(body, under);
+            if (drop && (!least || *drop < *least)) least = drop;
+        }
+        return least;
+    }
+
+private:
+    std::optional<double> dropOnPlane(BodyId body, BodyId plane) const
+    {
+        const BodyMotion& motion = world_.motion[plane];
+        const Vec3 normal = motion.orientation * Vec3::UnitY();
+        const double along = -normal.dot(down_);
+        if (along <= 1e-9) return std::nullopt;
+        return std::max(0.0, normal.dot(world_.motion[body].position - motion.position) / along);
+    }
+
+    std::optional<double> dropOnBox(BodyId body, BodyId under) const
+    {
+        Aabb swept = boxes_[body];
+        const Vec3 way = reach_ * down_;
+        swept.include(Aabb{boxes_[body].min + way, boxes_[body].max + way});
+        if (!swept.overlaps(boxes_[under])) return std::nullopt;
+        const double top =
+            down_.dot(boxes_[under].centre()) - 0.5 * down_.cwiseAbs().dot(boxes_[under].size());
+        const double bottom =
+            down_.dot(boxes_[body].centre()) + 0.5 * down_.cwiseAbs().dot(boxes_[body].size());
+        // What begins above a body's middle leans on it rather than holds it.
+        const bool isBelow = top > down_.dot(boxes_[body].centre());
+        if (world_.mass[under].isMovable() && !isBelow) return std::nullopt;
+        return std::max(0.0, top - bottom);
+    }
+
+    const World& world_;
+    Vec3 down_;
+    std::vector<Aabb> boxes_;
+    std::vector<BodyId> under_;
+    double reach_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRatio)
+{
+    std::vector<StartOverlap> overlaps;
+    BroadPhase broadPhase;
+    for (const BodyPair& pair : broadPhase.findPairs(boxesOf(world), world.mass)) {
+        if (!mayCollide(world, pair)) continue;
+        const double depth = depthOf(world, pair.a, pair.b);
+        const double ratio = depth / smallerEdge(world, pair.a, pair.b);
+        if (ratio > leastRatio) overlaps.push_back({pair.a, pair.b, depth, ratio});
+    }
+    std::stable_sort(overlaps.begin(), overlaps.end(),
+                     [](const auto& p, const auto& q) { return p.ratio > q.ratio; });
+    return overlaps;
+}
+
+bool separateAtStart(World& world, const StepSettings& settings, double leastRatio)
+{
+    // Velocities would tell the graph of falls that have nothing to do with who lies on whom.
+    const std::vector<BodyMotion> before = world.motion;
+    for (BodyMotion& motion : world.motion) {
+        motion.velocity.setZero();
+        motion.angularMomentum.setZero();
+    }
+    bool isApart = findStartOverlaps(world, 0.5 * leastRatio).empty();
+    for (int round = 0; round < kMostRounds && !isApart; ++round) {
+        separateOnce(world, settings);
+        isApart = findStartOverlaps(world, 0.5 * leastRatio).empty();
+    }
+    for (std::size_t body = 0; body < before.size(); ++body) {
+        world.motion[body].velocity = before[body].velocity;
+        world.motion[body].angularMomentum = before[body].angularMomentum;
+    }
+    return isApart;
+}
+
+std::vector<BodyId> findUnsupported(const World& world, const Vec3& gravity)
+{
+    std::vector<BodyId> unsupported;
+    if (gravity.isZero(0.0)) return unsupported;
+    const Ground ground(world, gravity.normalized(), Under::heldBodies);
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        if (world.mass[body].isMovable() && !ground.dropOf(body)) unsupported.push_back(body);
+    }
+    return unsupported;
+}
+
+std::vector<FastBody> findTooFast(const World& world, const StepSettings& settings,
+                                  double frameDuration)
+{
+    std::vector<FastBody> fast;
+    const double g = settings.gravity.norm();
+    const Vec3 down = g > 0.0 ? settings.gravity.normalized().eval() : Vec3::Zero().eval();
+    const Ground ground(world, down, Under::anybody);
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        if (!world.mass[body].isMovable()) continue;
+        const Shape& shape = world.shapeOf(body);
+        const double v = world.motion[body].velocity.norm();
+        const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
+        const double drop = g > 0.0 ? ground.dropOf(body).value_or(0.0) : 0.0;
+        const double landing = std::sqrt(v * v + 2.0 * g * drop);
+        const double way = kAlphaPerSafety * settings.substeps.safety * shape.innerThickness;
+        const auto stepsAt = [&](double speed) {
+            return frameDuration * (speed + spin * shape.boundingRadius) / way;
+        };
+        const bool isAtStart = stepsAt(v) > settings.substeps.max;
+        const double speed = isAtStart ? v : landing;
+        if (stepsAt(speed) <= settings.substeps.max) continue;
+        fast.push_back({body, speed + spin * shape.boundingRadius, stepsAt(speed), !isAtStart});
+    }
+    std::stable_sort(fast.begin(), fast.end(), [](const FastBody& p, const FastBody& q) {
+        return p.stepsNeeded > q.stepsNeeded;
+    });
+    return fast;
+}
+
+}  // namespace scree

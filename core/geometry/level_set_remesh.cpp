@@ -1,0 +1,182 @@
+// Symbols: h voxel, d distance to the mesh, w winding number.
+#include "core/geometry/level_set_remesh.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/geometry/mesh_defects.h"
+#include "core/geometry/mesh_repair.h"
+#include "core/geometry/surface_rays.h"
+#include "core/geometry/triangle_distance.h"
+#include "core/geometry/winding_number.h"
+#include "core/math/aabb.h"
+
+namespace scree {
+namespace {
+
+constexpr double kMostVoxels = 256.0;  // along the longest edge
+constexpr int kMarginVoxels = 4;
+constexpr int kLattices = 4;         // tried before giving up
+constexpr double kBandVoxels = 3.0;  // distances beyond are not needed
+
+using openvdb::FloatGrid;
+
+Aabb boxOf(const TriMesh& mesh)
+{
+    Aabb box;
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) box.include(mesh.points.col(v));
+    return box;
+}
+
+/// Unsigned distance in voxels, up to `reach` voxels; index (0, 0, 0) lies at `origin`.
+FloatGrid::Ptr unsignedDistance(const TriMesh& mesh, const Vec3& origin, double h, double reach)
+{
+    openvdb::initialize();
+    std::vector<openvdb::Vec3s> points;
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
+        const Vec3 p = (mesh.points.col(v) - origin) / h;
+        points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                            static_cast<float>(p.z()));
+    }
+    std::vector<openvdb::Vec3I> triangles;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        triangles.emplace_back(mesh.triangles(0, f), mesh.triangles(1, f), mesh.triangles(2, f));
+    }
+    const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(
+        points, triangles);
+    const auto unit = openvdb::math::Transform::createLinearTransform(1.0);
+    return openvdb::tools::meshToVolume<FloatGrid>(adapter, *unit, static_cast<float>(reach), 0.0f,
+                                                   openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+}
+
+/// The field whose zero is the wrapped surface. Where the mesh is, w jumps past one half and the
+/// value is ±d; where a hole is, w passes one half smoothly and takes over, so that the hole is
+/// closed by a membrane between nodes and not along their stairs.
+FloatGrid::Ptr wrapField(const TriMesh& mesh, const Aabb& box, const Vec3& origin, double h)
+{
+    const FloatGrid::Ptr distance = unsignedDistance(mesh, origin, h, kBandVoxels);
+    const WindingNumber winding(mesh);
+    openvdb::Coord last;
+    for (int k = 0; k < 3; ++k) {
+        last[k] = static_cast<int>(std::ceil((box.max[k] - origin[k]) / h)) + kMarginVoxels;
+    }
+    openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
+        openvdb::CoordBBox(openvdb::Coord(0), last));
+    parallelFor(last.z() + 1, 1, [&](std::size_t begin, std::size_t end) {
+        auto accessor = distance->getConstAccessor();
+        for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
+            for (int j = 0; j <= last.y(); ++j) {
+                for (int i = 0; i <= last.x(); ++i) {
+                    const openvdb::Coord node(i, j, k);
+                    const double w = winding.at(origin + h * Vec3(i, j, k));
+                    const double most = std::min(kBandVoxels, 8.0 * std::abs(w - 0.5));
+                    const double d = std::min<double>(accessor.getValue(node), most);
+                    dense.setValue(node, static_cast<float>(w > 0.5 ? -d : d));
+                }
+            }
+        }
+    });
+    auto field = FloatGrid::create(static_cast<float>(kBandVoxels));
+    openvdb::tools::copyFromDense(dense, *field, 0.0f);
+    return field;
+}
+
+TriMesh surfaceOf(const FloatGrid& field, double level, const Vec3& origin, double h)
+{
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec4I> quads;
+    openvdb::tools::volumeToMesh(field, points, quads, level);
+    TriMesh mesh{Points(3, points.size()), Triangles(3, 2 * quads.size())};
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        mesh.points.col(v) = origin + h * Vec3(points[v].x(), points[v].y(), points[v].z());
+    }
+    for (std::size_t q = 0; q < quads.size(); ++q) {
+        const auto corner = [&](int k) { return static_cast<int>(quads[q][k]); };
+        mesh.triangles.col(2 * q) << corner(0), corner(1), corner(2);
+        mesh.triangles.col(2 * q + 1) << corner(0), corner(2), corner(3);
+    }
+    return mesh;
+}
+
+/// One attempt; the lattice begins `shift` voxels lower.
+TriMesh remeshOnce(const TriMesh& mesh, const RemeshSettings& settings, double shift)
+{
+    const double h = settings.voxel;
+    const double level = settings.repair == MeshRepair::shell ? 0.5 * settings.thickness / h : 0.0;
+    const Aabb box = boxOf(mesh);
+    const Vec3 origin = box.min - Vec3::Constant((kMarginVoxels + shift) * h);
+    const FloatGrid::Ptr field = settings.repair == MeshRepair::shell
+                                     ? unsignedDistance(mesh, origin, h, level + kBandVoxels)
+                                     : wrapField(mesh, box, origin, h);
+    HarmlessRepairs ignored;
+    return repairHarmlessly(surfaceOf(*field, level, origin, h), ignored);
+}
+
+void requireAffordable(const TriMesh& mesh, const RemeshSettings& settings, const std::string& name)
+{
+    const double voxels = boxOf(mesh).longestEdge() / settings.voxel;
+    if (voxels <= kMostVoxels + 0.5) return;
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "shape '%s': its repair needs a lattice of %.0f voxels along the longest edge, "
+                  "more than the %.0f allowed; %s",
+                  name.c_str(), std::ceil(voxels), kMostVoxels,
+                  settings.repair == MeshRepair::shell ? "make the shell thicker or split the shape"
+                                                       : "write a smaller sdf resolution");
+    throw Error(ErrorKind::badInput, text);
+}
+
+double farthestFrom(const TriMesh& points, const TriMesh& surface)
+{
+    const SurfaceRays rays(surface);
+    double farthest = 0.0;
+    for (Eigen::Index v = 0; v < points.points.cols(); ++v) {
+        const Vec3 p = points.points.col(v);
+        const auto corners = surface.triangles.col(rays.closestTriangle(p));
+        const Vec3 closest =
+            closestOnTriangle(p, surface.points.col(corners[0]), surface.points.col(corners[1]),
+                              surface.points.col(corners[2]))
+                .point;
+        farthest = std::max(farthest, (p - closest).norm());
+    }
+    return farthest;
+}
+
+}  // namespace
+
+TriMesh remeshSolid(const TriMesh& mesh, const RemeshSettings& settings, const std::string& name)
+{
+    requireAffordable(mesh, settings, name);
+    // The surface can pinch where two of its sheets pass through one cell; on a lattice a fraction
+    // of a voxel aside they do not.
+    TriMesh solid;
+    for (int attempt = 0; attempt < kLattices; ++attempt) {
+        solid = remeshOnce(mesh, settings, 0.5 * attempt / kLattices);
+        if (solid.triangles.cols() == 0) {
+            throw Error(
+                ErrorKind::badInput,
+                "shape '" + name +
+                    "': nothing is left of it after repair; its faces disagree about what "
+                    "is outside, or it is thinner than a voxel. \"shell\" needs no outside");
+        }
+        if (findDefects(solid, DefectSearch::topology).empty()) return solid;
+    }
+    requireSolid(solid, name, DefectSearch::topology);
+    return solid;
+}
+
+double farthestApart(const TriMesh& a, const TriMesh& b)
+{
+    return std::max(farthestFrom(a, b), farthestFrom(b, a));
+}
+
+}  // namespace scree

@@ -1,0 +1,215 @@
+#include "core/geometry/mesh_defects.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/geometry/mesh_crossings.h"
+#include "core/geometry/winding_number.h"
+
+namespace scree {
+namespace {
+
+/// Gathers defects by class, in the order in which the classes are first met.
+class DefectList {
+public:
+    void add(const std::string& what, int triangle, const Vec3& place)
+    {
+        for (MeshDefect& defect : defects_) {
+            if (defect.what != what) continue;
+            ++defect.count;
+            return;
+        }
+        defects_.push_back({what, 1, triangle, place});
+    }
+
+    bool isEmpty() const { return defects_.empty(); }
+    std::vector<MeshDefect> take() { return std::move(defects_); }
+
+private:
+    std::vector<MeshDefect> defects_;
+};
+
+/// Defects of the numbers themselves: nothing else can be said of a mesh that has them.
+void findBrokenNumbers(const TriMesh& mesh, DefectList& defects)
+{
+    if (mesh.triangles.cols() == 0) defects.add("no triangles", -1, Vec3::Zero());
+    for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
+        const auto corners = mesh.triangles.col(f);
+        if (corners.minCoeff() < 0 || corners.maxCoeff() >= mesh.points.cols()) {
+            defects.add("triangle with a corner that does not exist", f, Vec3::Zero());
+        }
+    }
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
+        if (!mesh.points.col(v).allFinite()) {
+            defects.add("point that is not a number", -1, Vec3::Zero());
+        }
+    }
+    // Volumes are cubes of lengths and inertia their fifth power: beyond these nothing holds.
+    constexpr double kLargest = 1e9, kSmallest = 1e-9;
+    if (!defects.isEmpty()) return;
+    const double extent =
+        (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
+    const double farthest = mesh.points.cwiseAbs().maxCoeff();
+    const Vec3 place = mesh.points.col(mesh.triangles(0, 0));
+    if (farthest > kLargest) defects.add("point farther than 1e9 m from the origin", 0, place);
+    if (extent < kSmallest) defects.add("size of less than 1e-9 m", 0, place);
+}
+
+/// Every edge must be walked once in each direction.
+void findBadEdges(const TriMesh& mesh, DefectList& defects)
+{
+    struct EdgeUse {
+        int forward = 0, backward = 0;  // how often a triangle walks it low→high and high→low
+        int triangle = -1;
+    };
+    std::map<std::pair<int, int>, EdgeUse> edges;
+    for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
+        for (int k = 0; k < 3; ++k) {
+            const int from = mesh.triangles(k, f), to = mesh.triangles((k + 1) % 3, f);
+            EdgeUse& use = edges[std::minmax(from, to)];
+            (from < to ? use.forward : use.backward) += 1;
+            use.triangle = f;
+        }
+    }
+    for (const auto& [ends, use] : edges) {
+        const Vec3 middle = 0.5 * (mesh.points.col(ends.first) + mesh.points.col(ends.second));
+        if (use.forward + use.backward == 1) {
+            defects.add("open edge", use.triangle, middle);
+        } else if (use.forward + use.backward > 2) {
+            defects.add("non-manifold edge", use.triangle, middle);
+        } else if (use.forward != use.backward) {
+            defects.add("edge whose two faces are oriented against each other", use.triangle,
+                        middle);
+        }
+    }
+}
+
+void findFlatTriangles(const TriMesh& mesh, DefectList& defects)
+{
+    for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        if (!((b - a).cross(c - a).norm() > 0.0)) defects.add("zero-area triangle", f, a);
+    }
+}
+
+/// A part stands free or in a cavity, where the others wind around it 0 times; a part that is a
+/// cavity lies where they wind once.
+void findMisplacedParts(const TriMesh& mesh, DefectList& defects)
+{
+    const std::vector<int> partOf = findParts(mesh);
+    std::vector<std::vector<int>> trianglesOf(1 + *std::max_element(partOf.begin(), partOf.end()));
+    if (trianglesOf.size() == 1) return;
+    for (int f = 0; f < static_cast<int>(partOf.size()); ++f) trianglesOf[partOf[f]].push_back(f);
+    const WindingNumber whole(mesh);
+    for (const std::vector<int>& triangles : trianglesOf) {
+        TriMesh alone{mesh.points, Triangles(3, triangles.size())};
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            alone.triangles.col(i) = mesh.triangles.col(triangles[i]);
+        }
+        const int first = triangles.front();
+        const Vec3 place =
+            (mesh.points.col(mesh.triangles(0, first)) + mesh.points.col(mesh.triangles(1, first)) +
+             mesh.points.col(mesh.triangles(2, first))) /
+            3.0;
+        const double others = whole.at(place) - WindingNumber(alone).at(place);
+        const double wanted = signedVolume(alone) > 0.0 ? 0.0 : 1.0;
+        if (others > wanted - 0.5 && others < wanted + 0.5) continue;
+        defects.add(
+            wanted == 1.0 ? "part that is turned inside-out" : "part that lies inside another",
+            first, place);
+    }
+}
+
+}  // namespace
+
+std::vector<MeshDefect> findDefects(const TriMesh& mesh, DefectSearch search)
+{
+    DefectList defects;
+    findBrokenNumbers(mesh, defects);
+    if (!defects.isEmpty()) return defects.take();
+    findFlatTriangles(mesh, defects);
+    findBadEdges(mesh, defects);
+    if (search == DefectSearch::all) {
+        for (const MeshCrossing& crossing : findCrossings(mesh)) {
+            defects.add("face that pierces another", crossing.triangle, crossing.place);
+        }
+    }
+    if (!defects.isEmpty()) return defects.take();
+    if (!(signedVolume(mesh) > 0.0)) {
+        const Vec3 place = mesh.points.col(mesh.triangles(0, 0));
+        defects.add("inside-out or empty: the signed volume is not positive", 0, place);
+    } else if (search == DefectSearch::all) {
+        findMisplacedParts(mesh, defects);
+    }
+    return defects.take();
+}
+
+void requireSolid(const TriMesh& mesh, const std::string& name, DefectSearch search)
+{
+    requireSurface(mesh, name);
+    const std::vector<MeshDefect> defects = findDefects(mesh, search);
+    if (defects.empty()) return;
+    throw Error(ErrorKind::badInput,
+                "shape '" + name +
+                    "' is not a closed, outward-oriented solid: " + describe(defects) +
+                    "; mend the mesh, or write mesh = { repair = \"wrap\" } to collide as the "
+                    "solid it nearly bounds, or mesh = { repair = \"shell\", thickness = … } to "
+                    "give its sheets a thickness");
+}
+
+void requireSurface(const TriMesh& mesh, const std::string& name)
+{
+    DefectList defects;
+    findBrokenNumbers(mesh, defects);
+    if (defects.isEmpty()) return;
+    throw Error(ErrorKind::badInput,
+                "shape '" + name + "' is no surface: " + describe(defects.take()));
+}
+
+std::string describe(const std::vector<MeshDefect>& defects)
+{
+    std::string text;
+    for (const MeshDefect& defect : defects) text += (text.empty() ? "" : "; ") + describe(defect);
+    return text;
+}
+
+std::string describe(const MeshDefect& defect)
+{
+    if (defect.triangle < 0) return defect.what;
+    char place[128];
+    std::snprintf(place, sizeof place, " at (%.6g, %.6g, %.6g), triangle %d", defect.place.x(),
+                  defect.place.y(), defect.place.z(), defect.triangle);
+    return defect.what + place +
+           (defect.count > 1 ? " and " + std::to_string(defect.count - 1) + " more" : "");
+}
+
+std::vector<int> findParts(const TriMesh& mesh)
+{
+    // Union by the lowest point of each part.
+    std::vector<int> root(mesh.points.cols());
+    for (int v = 0; v < static_cast<int>(root.size()); ++v) root[v] = v;
+    const auto find = [&](int v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 1; k < 3; ++k) {
+            const int a = find(mesh.triangles(0, f)), b = find(mesh.triangles(k, f));
+            root[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    std::map<int, int> numberOf;
+    std::vector<int> partOf;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        const int next = static_cast<int>(numberOf.size());
+        partOf.push_back(numberOf.try_emplace(find(mesh.triangles(0, f)), next).first->second);
+    }
+    return partOf;
+}
+
+}  // namespace scree

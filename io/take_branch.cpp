@@ -1,0 +1,99 @@
+#include "io/take_branch.h"
+
+#include <charconv>
+
+#include "core/base/error.h"
+#include "io/file_bytes.h"
+#include "io/frame_stats.h"
+#include "io/take.h"
+
+namespace scree {
+namespace {
+
+[[noreturn]] void refuse(const TakeBranch& branch, const std::string& why)
+{
+    throw Error(ErrorKind::badInput, "cannot branch off \"" + branch.take.string() + "\": " + why +
+                                         "; a variant may differ in settings, not in bodies");
+}
+
+void requireSameCast(const TakeBranch& branch, const TakeInfo& theirs, const TakeInfo& ours)
+{
+    if (theirs.framesPerSecond != ours.framesPerSecond || theirs.firstFrame != ours.firstFrame) {
+        refuse(branch, "its first frame or frame rate is another");
+    }
+    if (theirs.bodies.size() != ours.bodies.size()) {
+        refuse(branch, "it has " + std::to_string(theirs.bodies.size()) + " bodies, the shot " +
+                           std::to_string(ours.bodies.size()));
+    }
+    for (std::size_t i = 0; i < ours.bodies.size(); ++i) {
+        const TakeBody &a = theirs.bodies[i], &b = ours.bodies[i];
+        if (a.name != b.name || a.kind != b.kind || a.shape != b.shape) {
+            refuse(branch, "its body '" + a.name + "' is not the shot's '" + b.name + "'");
+        }
+        if (a.mass != b.mass) refuse(branch, "the mass of '" + a.name + "' is another");
+    }
+    for (const TakeShape& shape : ours.shapes) {
+        for (const TakeShape& other : theirs.shapes) {
+            if (other.name == shape.name && other.hash != shape.hash) {
+                refuse(branch, "the mesh of '" + shape.name + "' is another");
+            }
+        }
+    }
+}
+
+FrameState readState(const TakePaths& paths, int frame)
+{
+    if (!std::filesystem::exists(paths.frame(frame))) {
+        throw Error(ErrorKind::missingInput, "\"" + paths.root.string() + "\" has no frame " +
+                                                 std::to_string(frame) + " to begin with");
+    }
+    return readFrameFile(paths.frame(frame));
+}
+
+}  // namespace
+
+TakeBranch parseBranch(const std::string& text)
+{
+    const std::size_t at = text.rfind('@');
+    TakeBranch branch;
+    if (at != std::string::npos && at > 0) {
+        branch.take = text.substr(0, at);
+        const char *begin = text.data() + at + 1, *end = text.data() + text.size();
+        const auto result = std::from_chars(begin, end, branch.frame);
+        if (result.ec == std::errc() && result.ptr == end && begin != end) return branch;
+    }
+    throw Error(ErrorKind::usage,
+                "\"" + text +
+                    "\" does not say where to begin: write TAKE@FRAME, for example "
+                    "takes/rings_100@1080");
+}
+
+std::map<int, std::string> copyBranch(const TakeBranch& branch, const Shot& shot,
+                                      const World& world, const TakeInfo& info,
+                                      const std::filesystem::path& root)
+{
+    const TakePaths from{branch.take}, to{root};
+    const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());
+    requireSameCast(branch, theirs, info);
+    if (branch.frame < shot.firstFrame || branch.frame >= shot.lastFrame) {
+        refuse(branch, "frame " + std::to_string(branch.frame) + " leaves nothing of the shot's " +
+                           std::to_string(shot.firstFrame) + "-" + std::to_string(shot.lastFrame));
+    }
+    for (int frame = shot.firstFrame; frame <= branch.frame; ++frame) {
+        FrameState state = readState(from, frame);
+        state.shotHash = info.shotHash;
+        const std::string bytes = encodeFrame(state);
+        // The same bodies in the same places: proved by the bits of the first frame.
+        const bool isOther =
+            frame == shot.firstFrame && bytes != encodeFrame(captureState(shot, world));
+        if (isOther) refuse(branch, "its bodies begin elsewhere, with other speeds or seed");
+        writeFileBytes(to.frame(frame), bytes);
+    }
+    std::map<int, std::string> lines;
+    for (const FrameSummary& summary : readStats(from.stats())) {
+        if (summary.frame <= branch.frame) lines[summary.frame] = summary.line;
+    }
+    return lines;
+}
+
+}  // namespace scree

@@ -1,0 +1,130 @@
+#include "io/take_diff.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+void requireSameBodies(const TakeInfo& a, const TakeInfo& b)
+{
+    const std::size_t count = std::min(a.bodies.size(), b.bodies.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        if (a.bodies[i].name == b.bodies[i].name) continue;
+        throw Error(ErrorKind::badInput, "the takes have different bodies: number " +
+                                             std::to_string(i + 1) + " is '" + a.bodies[i].name +
+                                             "' in one, '" + b.bodies[i].name + "' in the other");
+    }
+    if (a.bodies.size() != b.bodies.size()) {
+        throw Error(ErrorKind::badInput,
+                    "the takes have different bodies: " + std::to_string(a.bodies.size()) +
+                        " and " + std::to_string(b.bodies.size()));
+    }
+}
+
+/// Bit for bit, so that −0 and 0 differ as they do for resume.
+bool isSame(const BodyMotion& a, const BodyMotion& b)
+{
+    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
+           a.velocity == b.velocity && a.angularMomentum == b.angularMomentum;
+}
+
+bool isSame(const SceneFrame& a, const SceneFrame& b)
+{
+    for (std::size_t i = 0; i < a.worldFromAsset.size(); ++i) {
+        const Pose &p = a.worldFromAsset[i], &q = b.worldFromAsset[i];
+        if (p.position != q.position || p.orientation.coeffs() != q.orientation.coeffs()) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::optional<double> firstOffset(const FrameState& a, const FrameState& b)
+{
+    if (a.between.empty() || a.between.size() != b.between.size()) return std::nullopt;
+    for (std::size_t i = 0; i < a.between.size(); ++i) {
+        if (a.between[i].offset != b.between[i].offset) return std::nullopt;
+        if (!isSame(a.between[i], b.between[i])) return a.between[i].offset;
+    }
+    return std::nullopt;
+}
+
+std::optional<TakeDifference> compareFrames(const FrameState& a, const FrameState& b,
+                                            const TakeInfo& info)
+{
+    TakeDifference difference;
+    const auto bornAt = [](const FrameState& state, std::size_t body) {
+        return state.bornAt.empty() ? 0 : state.bornAt[body];
+    };
+    double farthest = -1.0;
+    for (std::size_t i = 0; i < a.motion.size(); ++i) {
+        if (isSame(a.motion[i], b.motion[i]) && bornAt(a, i) == bornAt(b, i)) continue;
+        difference.bodies.push_back(info.bodies[i].name);
+        const double apart = (a.motion[i].position - b.motion[i].position).norm();
+        if (apart <= farthest) continue;
+        farthest = difference.farthest = apart;
+        difference.farthestBody = info.bodies[i].name;
+        difference.largestTurn = a.motion[i].orientation.angularDistance(b.motion[i].orientation);
+    }
+    if (difference.bodies.empty() && a.order == b.order) return std::nullopt;
+    difference.frame = a.scene.frame;
+    difference.offset = firstOffset(a, b);
+    return difference;
+}
+
+int stepsOf(const TakeReader& take, int frame)
+{
+    for (const FrameSummary& summary : take.stats()) {
+        if (summary.frame == frame) return summary.steps;
+    }
+    return 0;
+}
+
+void noteSettings(const TakeReader& a, const TakeReader& b, TakeComparison& comparison)
+{
+    if (a.info().shotHash != b.info().shotHash) {
+        comparison.notes.push_back("their resolved shots differ");
+    }
+    if (a.info().programVersion != b.info().programVersion) {
+        comparison.notes.push_back("made by scree " + a.info().programVersion + " and " +
+                                   b.info().programVersion);
+    }
+    if (a.frames() != b.frames()) {
+        comparison.notes.push_back("they hold " + std::to_string(a.frames().size()) + " and " +
+                                   std::to_string(b.frames().size()) + " frames");
+    }
+}
+
+}  // namespace
+
+TakeComparison compareTakes(const TakeReader& a, const TakeReader& b)
+{
+    requireSameBodies(a.info(), b.info());
+    TakeComparison comparison;
+    noteSettings(a, b, comparison);
+    std::vector<int> frames;
+    std::set_intersection(a.frames().begin(), a.frames().end(), b.frames().begin(),
+                          b.frames().end(), std::back_inserter(frames));
+    for (const int frame : frames) {
+        const FrameState stateA = readFrameFile(a.paths().frame(frame));
+        const FrameState stateB = readFrameFile(b.paths().frame(frame));
+        const std::size_t count = a.info().bodies.size();
+        if (stateA.motion.size() != count || stateB.motion.size() != count) {
+            throw Error(ErrorKind::inputOutput,
+                        "frame " + std::to_string(frame) + " does not fit its take.json");
+        }
+        ++comparison.framesCompared;
+        comparison.difference = compareFrames(stateA, stateB, a.info());
+        if (!comparison.difference) continue;
+        comparison.difference->stepsA = stepsOf(a, frame);
+        comparison.difference->stepsB = stepsOf(b, frame);
+        break;
+    }
+    return comparison;
+}
+
+}  // namespace scree

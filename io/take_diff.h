@@ -1,0 +1,34 @@
+// Where two takes part: the first frame, sample and body that differ.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/take_reader.h"
+
+namespace scree {
+
+struct TakeDifference {
+    int frame = 0;
+    std::optional<double> offset;     ///< of the first sub-frame sample that differs [frames after
+                                      ///< the frame before]; when both takes hold the same samples
+    int stepsA = 0, stepsB = 0;       ///< of that frame; 0: unknown
+    std::vector<std::string> bodies;  ///< that differ in that frame, in the order of the takes
+    std::string farthestBody;         ///< of them, the one whose centre is farthest off
+    double farthest = 0.0;            ///< by how much [m]
+    double largestTurn = 0.0;         ///< between its two orientations [rad]
+};
+
+struct TakeComparison {
+    std::vector<std::string> notes;  ///< what else differs: frames, settings, missing files
+    int framesCompared = 0;
+    std::optional<TakeDifference> difference;  ///< of the states, to the last bit
+    bool isSame() const { return notes.empty() && !difference; }
+};
+
+/// Compares the state of every frame that both takes hold, in order, up to the first that differs.
+/// Throws Error{badInput} when their bodies are not the same.
+TakeComparison compareTakes(const TakeReader& a, const TakeReader& b);
+
+}  // namespace scree

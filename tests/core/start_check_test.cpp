@@ -1,0 +1,138 @@
+// What is said of a world before its first step.
+#include "core/dynamics/start_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/geometry/primitives.h"
+#include "core/geometry/shape.h"
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+class StartCheck : public testing::Test {
+protected:
+    StartCheck()
+    {
+        cube_ = world.addShape(buildMeshShape("cube", makeBox(Vec3::Ones(), {2, 2, 2})));
+        plane_ = world.addShape(buildPlaneShape("plane"));
+        Material wood;
+        wood.name = "wood";
+        material_ = world.addMaterial(wood);
+    }
+
+    BodyId add(const std::string& name, const Vec3& place, BodyKind kind = BodyKind::dynamic)
+    {
+        BodyDefinition body;
+        body.name = name;
+        body.shape = cube_;
+        body.material = material_;
+        body.kind = kind;
+        body.worldFromAsset.position = place;
+        return world.addBody(body);
+    }
+
+    BodyId addGround()
+    {
+        BodyDefinition ground;
+        ground.name = "ground";
+        ground.shape = plane_;
+        ground.material = material_;
+        ground.kind = BodyKind::fixed;
+        return world.addBody(ground);
+    }
+
+    World world;
+    StepSettings settings;
+
+private:
+    ShapeId cube_ = 0, plane_ = 0;
+    MaterialId material_ = 0;
+};
+
+TEST_F(StartCheck, OverlapsAreListedByDepthAndTouchingIsNone)
+{
+    const BodyId ground = addGround();
+    const BodyId low = add("low", {0, 0.45, 0});        // 0.05 into the ground
+    const BodyId high = add("high", {0.2, 1.25, 0.1});  // 0.2 into low
+    add("resting", {5, 0.5, 0});
+    add("beside", {6, 0.5, 0});  // touches with a face
+    const std::vector<StartOverlap> overlaps = findStartOverlaps(world, 0.01);
+    ASSERT_EQ(overlaps.size(), 2u);
+    EXPECT_EQ(overlaps[0].a, low);
+    EXPECT_EQ(overlaps[0].b, high);
+    EXPECT_NEAR(overlaps[0].depth, 0.2, 1e-7);  // deep inside the field is single precision
+    EXPECT_EQ(overlaps[1].a, ground);
+    EXPECT_NEAR(overlaps[1].ratio, 0.05, 1e-9);
+    EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 1u);
+    // Bodies whose groups do not meet may stand within each other.
+    world.info[high].groups.collidesWith = 0;
+    EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 0u);
+}
+
+TEST_F(StartCheck, SeparationPushesApartAndGivesNoSpeed)
+{
+    addGround();
+    const BodyId low = add("low", {0, 0.45, 0});
+    const BodyId high = add("high", {0.05, 1.3, 0.1});
+    const BodyId alone = add("alone", {7, 0.5, 0});
+    const Vec3 aloneBefore = world.motion[alone].position;
+    world.motion[high].velocity = Vec3(1, 2, 3);
+    ASSERT_TRUE(separateAtStart(world, settings, 0.01));
+    EXPECT_TRUE(findStartOverlaps(world, 0.005).empty());
+    EXPECT_EQ(world.motion[high].velocity, Vec3(1, 2, 3));
+    EXPECT_TRUE(world.motion[low].velocity.isZero(0.0));
+    EXPECT_TRUE(world.motion[low].angularMomentum.isZero(0.0));
+    EXPECT_EQ(world.motion[alone].position, aloneBefore);
+    // Nothing is thrown far: both moved by less than twice what they overlapped.
+    EXPECT_LT((world.motion[high].position - Vec3(0.05, 1.3, 0.1)).norm(), 0.4);
+}
+
+TEST_F(StartCheck, WhatCannotComeApartIsTold)
+{
+    // Between two fixed cubes there is less room than the third needs.
+    add("left", {-0.9, 0, 0}, BodyKind::fixed);
+    add("right", {0.9, 0, 0}, BodyKind::fixed);
+    add("top", {0, 0.9, 0}, BodyKind::fixed);
+    add("bottom", {0, -0.9, 0}, BodyKind::fixed);
+    add("front", {0, 0, 0.9}, BodyKind::fixed);
+    add("back", {0, 0, -0.9}, BodyKind::fixed);
+    add("wedged", {0, 0, 0});
+    EXPECT_FALSE(separateAtStart(world, settings, 0.01));
+}
+
+TEST_F(StartCheck, BodiesBesideAllSupportAreNamed)
+{
+    add("table", {0, 0, 0}, BodyKind::fixed);
+    add("above", {0.3, 5, 0});
+    const BodyId beside = add("beside", {3, 5, 0});
+    const BodyId below = add("below", {0, -3, 0});
+    EXPECT_EQ(findUnsupported(world, settings.gravity), (std::vector<BodyId>{beside, below}));
+    EXPECT_TRUE(findUnsupported(world, Vec3::Zero()).empty());
+    addGround();
+    EXPECT_TRUE(findUnsupported(world, settings.gravity).empty());
+}
+
+TEST_F(StartCheck, SpeedsBeyondTheCapAreNamedWithTheStepsTheyNeed)
+{
+    addGround();
+    const BodyId fast = add("fast", {0, 5, 0});
+    add("slow", {3, 5, 0});
+    const BodyId high = add("high", {6, 200000, 0});
+    add("on_top", {6, 200001, 0});  // falls with it, and is held by it
+    world.motion[fast].velocity = Vec3(3000, 0, 0);
+    const std::vector<FastBody> bodies = findTooFast(world, settings, 1.0 / 24.0);
+    ASSERT_EQ(bodies.size(), 2u);
+    EXPECT_EQ(bodies[0].body, fast);
+    // A16: a quarter of the thickness, 1 m, in a step at the default safety.
+    EXPECT_NEAR(bodies[0].stepsNeeded, 3000.0 / 24.0 / 0.25, 1e-6);
+    EXPECT_FALSE(bodies[0].whenItLands);
+    EXPECT_EQ(bodies[1].body, high);  // lands at √(2 · 9.81 · 200000) = 1981 m/s
+    EXPECT_NEAR(bodies[1].stepsNeeded, std::sqrt(2.0 * 9.81 * 200000.0) / 24.0 / 0.25, 1e-3);
+    EXPECT_TRUE(bodies[1].whenItLands);
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,362 @@
+// The torture set: every class of bad mesh, made from clean ones, has one stated outcome. It is a
+// solid, silently or with a repair that is told; or it is refused with a word that says why and,
+// where that can help, a repair that one may ask for. Nothing crashes.  [A1]
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/geometry/mesh_defects.h"
+#include "core/geometry/primitives.h"
+#include "core/geometry/shape.h"
+#include "core/geometry/shape_report.h"
+#include "core/geometry/winding_number.h"
+#include "io/mesh_import.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+TriMesh cube()
+{
+    return makeBox(Vec3::Ones(), {2, 2, 2});
+}
+
+TriMesh withTriangle(TriMesh mesh, int a, int b, int c)
+{
+    mesh.triangles.conservativeResize(3, mesh.triangles.cols() + 1);
+    mesh.triangles.rightCols(1) << a, b, c;
+    return mesh;
+}
+
+TriMesh withPoint(TriMesh mesh, const Vec3& point)
+{
+    mesh.points.conservativeResize(3, mesh.points.cols() + 1);
+    mesh.points.rightCols(1) = point;
+    return mesh;
+}
+
+TriMesh both(const TriMesh& a, const TriMesh& b)
+{
+    TriMesh mesh{Points(3, a.points.cols() + b.points.cols()),
+                 Triangles(3, a.triangles.cols() + b.triangles.cols())};
+    mesh.points << a.points, b.points;
+    mesh.triangles << a.triangles,
+        (b.triangles.array() + static_cast<int>(a.points.cols())).matrix();
+    return mesh;
+}
+
+TriMesh moved(const TriMesh& mesh, const Vec3& by)
+{
+    return transformed(mesh, {by, Quat::Identity()});
+}
+
+TriMesh turned(TriMesh mesh)
+{
+    mesh.triangles.row(1).swap(mesh.triangles.row(2));
+    return mesh;
+}
+
+TriMesh scaled(const TriMesh& mesh, double scale)
+{
+    return transformed(mesh, Pose(), Vec3::Constant(scale));
+}
+
+/// Every triangle with points of its own, as STL stores them.
+TriMesh exploded(const TriMesh& mesh)
+{
+    TriMesh soup{Points(3, 3 * mesh.triangles.cols()), Triangles(3, mesh.triangles.cols())};
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k) {
+            soup.points.col(3 * f + k) = mesh.points.col(mesh.triangles(k, f));
+            soup.triangles(k, f) = static_cast<int>(3 * f + k);
+        }
+    }
+    return soup;
+}
+
+/// One face is cut in two at the middle of an edge; a triangle without area fills the crack, as
+/// modellers leave them.
+TriMesh withFlatTriangle()
+{
+    TriMesh mesh = cube();
+    const int a = mesh.triangles(0, 0), c = mesh.triangles(1, 0), x = mesh.triangles(2, 0);
+    mesh = withPoint(mesh, 0.5 * (mesh.points.col(a) + mesh.points.col(c)));
+    const int m = static_cast<int>(mesh.points.cols()) - 1;
+    mesh.triangles.col(0) << a, m, x;
+    return withTriangle(withTriangle(mesh, m, c, x), a, c, m);
+}
+
+/// A square of n × n cells in the plane y = 0.
+TriMesh sheet(int n)
+{
+    TriMesh mesh{Points(3, (n + 1) * (n + 1)), Triangles(3, 2 * n * n)};
+    for (int j = 0; j <= n; ++j) {
+        for (int i = 0; i <= n; ++i) {
+            mesh.points.col(i + (n + 1) * j) = Vec3(i, 0.0, j) / n - Vec3(0.5, 0.0, 0.5);
+        }
+    }
+    for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+            const int p = i + (n + 1) * j, q = p + n + 1;
+            mesh.triangles.col(2 * (i + n * j)) << p, q, p + 1;
+            mesh.triangles.col(2 * (i + n * j) + 1) << p + 1, q, q + 1;
+        }
+    }
+    return mesh;
+}
+
+TriMesh withoutFace()
+{
+    TriMesh mesh = cube();
+    mesh.triangles = mesh.triangles.leftCols(mesh.triangles.cols() - 8).eval();
+    return mesh;
+}
+
+std::string refusalOf(const TriMesh& mesh, const ShapeSettings& settings = {})
+{
+    try {
+        buildMeshShape("thing", mesh, settings);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::badInput);
+        return error.what();
+    }
+    return "not refused";
+}
+
+TEST(TortureMesh, WhatIsHarmlessIsRepairedAndTold)
+{
+    struct Case {
+        const char* name;
+        TriMesh mesh;
+        std::string told;
+    };
+    const Case cases[] = {
+        {"clean", cube(), ""},
+        {"split points", exploded(cube()), "merged 118 equal or unused points"},
+        {"unused point", withPoint(cube(), Vec3(9, 9, 9)), "merged 1 equal or unused points"},
+        {"repeated corner", withTriangle(cube(), 0, 0, 1), "dropped 1 triangles without area"},
+        {"flat triangle", withFlatTriangle(), "flipped 1 edges of flat triangles"},
+        {"inside-out", turned(cube()), "turned the mesh, which was inside-out"},
+    };
+    for (const Case& item : cases) {
+        const auto shape = buildMeshShape("thing", item.mesh);
+        EXPECT_EQ(describe(shape->repairs.harmless), item.told) << item.name;
+        EXPECT_NEAR(shape->unitMass.volume, 1.0, 1e-12) << item.name;
+        EXPECT_EQ(shape->assetMesh.triangles, item.mesh.triangles) << item.name;
+    }
+}
+
+TEST(TortureMesh, EveryOtherDefectIsRefusedByName)
+{
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    TriMesh flippedFace = cube();
+    std::swap(flippedFace.triangles(1, 5), flippedFace.triangles(2, 5));
+    TriMesh broken = cube();
+    broken.points(1, 3) = nan;
+    TriMesh endless = cube();
+    endless.points(2, 7) = -infinity;
+    TriMesh dangling = cube();
+    dangling.triangles(0, 0) = 4711;
+    TriMesh negative = cube();
+    negative.triangles(2, 1) = -1;
+    TriMesh flat = cube();
+    flat.points.row(1).setZero();
+    const int fin = static_cast<int>(cube().points.cols());
+    const TriMesh inner = scaled(cube(), 0.5);
+    struct Case {
+        const char* name;
+        TriMesh mesh;
+        const char* why;
+    };
+    const Case cases[] = {
+        {"a face is missing", withoutFace(), "open edge at ("},
+        {"a sheet", sheet(4), "open edge at ("},
+        {"a face is turned round", flippedFace, "oriented against each other"},
+        {"a fin", withTriangle(withPoint(cube(), Vec3(3, 3, 3)), 0, 1, fin), "non-manifold edge"},
+        {"a face twice",
+         withTriangle(cube(), cube().triangles(0, 0), cube().triangles(1, 0),
+                      cube().triangles(2, 0)),
+         "non-manifold edge"},
+        {"two that pierce", both(cube(), moved(cube(), Vec3(0.61, 0.43, 0.27))),
+         "face that pierces another"},
+        {"one within another", both(cube(), inner), "part that lies inside another"},
+        {"a part inside-out", both(cube(), moved(turned(inner), Vec3(5, 0, 0))),
+         "part that is turned inside-out"},
+        {"all in one plane", flat, "is not a closed"},
+        {"not a number", broken, "point that is not a number"},
+        {"infinite", endless, "point that is not a number"},
+        {"no such corner", dangling, "corner that does not exist"},
+        {"negative corner", negative, "corner that does not exist"},
+        {"nothing", TriMesh(), "no triangles"},
+        {"points alone", TriMesh{cube().points, Triangles(3, 0)}, "no triangles"},
+        {"huge", scaled(cube(), 1e12), "farther than 1e9 m"},
+        {"beyond floats", scaled(cube(), 1e300), "farther than 1e9 m"},
+        {"tiny", scaled(cube(), 1e-12), "size of less than 1e-9 m"},
+        {"a foil", makeBox({1.0, 1e-3, 1.0}, {2, 1, 2}), "voxels"},
+    };
+    for (const Case& item : cases) {
+        const std::string told = refusalOf(item.mesh);
+        EXPECT_NE(told.find(item.why), std::string::npos) << item.name << ": " << told;
+        EXPECT_NE(told.find("'thing'"), std::string::npos) << item.name;
+    }
+    EXPECT_NE(refusalOf(withoutFace()).find("repair = \"wrap\""), std::string::npos);
+    // A cavity and a second solid beside the first are no defects.
+    EXPECT_TRUE(findDefects(both(cube(), turned(inner))).empty());
+    EXPECT_TRUE(findDefects(both(cube(), moved(cube(), Vec3(1.5, 0, 0)))).empty());
+}
+
+TEST(TortureMesh, AtEveryScaleTheOutcomeIsTheSame)
+{
+    for (const double scale : {1e-3, 1e-1, 1e1, 1e3}) {
+        const auto shape = buildMeshShape("thing", scaled(cube(), scale));
+        EXPECT_NEAR(shape->unitMass.volume / std::pow(scale, 3), 1.0, 1e-12) << scale;
+        EXPECT_EQ(
+            describe(buildMeshShape("thing", scaled(withFlatTriangle(), scale))->repairs.harmless),
+            "flipped 1 edges of flat triangles")
+            << scale;
+        EXPECT_NE(refusalOf(scaled(withoutFace(), scale)).find("open edge"), std::string::npos);
+        EXPECT_NE(refusalOf(scaled(both(cube(), moved(cube(), Vec3(0.61, 0.43, 0.27))), scale))
+                      .find("pierces"),
+                  std::string::npos)
+            << scale;
+    }
+}
+
+ShapeSettings repairBy(MeshRepair repair, double thickness = 0.0)
+{
+    ShapeSettings settings;
+    settings.repair = repair;
+    settings.shellThickness = thickness;
+    settings.resolution = 48;
+    return settings;
+}
+
+TEST(TortureMesh, WrapMakesTheSolidThatTheMeshNearlyBounds)
+{
+    const Vec3 by(0.61, 0.43, 0.27);
+    const double shared = (1 - 0.61) * (1 - 0.43) * (1 - 0.27);
+    struct Case {
+        const char* name;
+        TriMesh mesh;
+        double volume;
+    };
+    const int fin = static_cast<int>(cube().points.cols());
+    const Case cases[] = {
+        {"two that pierce", both(cube(), moved(cube(), by)), 2.0 - shared},
+        {"one within another", both(cube(), scaled(cube(), 0.5)), 1.0},
+        {"a fin", withTriangle(withPoint(cube(), Vec3(0.9, 0.9, 0.9)), 0, 1, fin), 1.0},
+        // In the plane of the missing face the others fill half of all directions: the wrap is
+        // flat.
+        {"a face is missing", withoutFace(), 1.0},
+        {"at 1e-3", scaled(both(cube(), moved(cube(), by)), 1e-3), 1e-9 * (2.0 - shared)},
+    };
+    for (const Case& item : cases) {
+        const auto shape = buildMeshShape("thing", item.mesh, repairBy(MeshRepair::wrap));
+        // Edges are rounded by about a voxel, a forty-eighth: 12 edges of length 1 and a section of
+        // half a square voxel, and as much again for what the lattice cuts.
+        EXPECT_NEAR(shape->unitMass.volume / item.volume, 1.0, 0.03) << item.name;
+        EXPECT_EQ(shape->repairs.remeshed, MeshRepair::wrap);
+        EXPECT_TRUE(findDefects(shape->mesh, DefectSearch::topology).empty());
+    }
+}
+
+TEST(TortureMesh, AShellGivesASheetItsThickness)
+{
+    const double thickness = 0.1;
+    const auto shape = buildMeshShape("thing", sheet(4), repairBy(MeshRepair::shell, thickness));
+    // A unit square of that thickness with a rounded rim of half the thickness.
+    const double volume = thickness + 0.25 * 3.14159265 * thickness * thickness * 4.0 / 2.0;
+    EXPECT_NEAR(shape->unitMass.volume / volume, 1.0, 0.03);
+    EXPECT_NEAR(shape->innerThickness / thickness, 1.0, 0.1);
+    EXPECT_NEAR(shape->repairs.farthest / (0.5 * thickness), 1.0, 0.1);
+    EXPECT_NE(refusalOf(sheet(4), repairBy(MeshRepair::shell, 0.01)).find("more than the 256"),
+              std::string::npos);
+}
+
+TEST(TortureMesh, ASheetCannotBeWrapped)
+{
+    EXPECT_NE(refusalOf(sheet(4), repairBy(MeshRepair::wrap)).find("nothing is left"),
+              std::string::npos);
+    EXPECT_NE(refusalOf(TriMesh(), repairBy(MeshRepair::wrap)).find("no triangles"),
+              std::string::npos);
+}
+
+TEST(TortureMesh, RepairsGiveTheSameBitsOnAnyNumberOfThreads)
+{
+    const TriMesh mesh = both(cube(), moved(cube(), Vec3(0.61, 0.43, 0.27)));
+    const RemeshSettings settings{MeshRepair::wrap, 0.0, 0.04};
+    const int before = threadCount();
+    setThreadCount(1);
+    const TriMesh one = remeshSolid(mesh, settings, "thing");
+    setThreadCount(3);
+    const TriMesh three = remeshSolid(mesh, settings, "thing");
+    setThreadCount(before);
+    ASSERT_EQ(one.triangles.cols(), three.triangles.cols());
+    EXPECT_EQ(one.triangles, three.triangles);
+    EXPECT_EQ(one.points, three.points);
+}
+
+TEST(WindingNumber, IsOneInsideZeroOutsideAndAHalfInAHole)
+{
+    // Far clusters count as one flux: the tolerance is what the header promises.
+    const WindingNumber ball(makeSphere(1.0, 3));
+    EXPECT_NEAR(ball.at(Vec3(0.3, 0.2, -0.4)), 1.0, 0.02);
+    EXPECT_NEAR(ball.at(Vec3(1.3, 0.2, -0.4)), 0.0, 0.02);
+    EXPECT_NEAR(ball.at(Vec3(30.0, 2.0, 4.0)), 0.0, 0.02);
+    // Seen from the middle of the missing face the five others fill half of all directions.
+    const TriMesh open = withoutFace();
+    const TriMesh whole = cube();
+    Vec3 middle = Vec3::Zero();
+    for (Eigen::Index f = open.triangles.cols(); f < whole.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k) middle += whole.points.col(whole.triangles(k, f)) / 24.0;
+    }
+    EXPECT_NEAR(WindingNumber(open).at(middle), 0.5, 0.01);
+}
+
+TEST(ShapeReport, TheFieldHoldsTheVolumeOfTheMesh)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const ShapeReport report = reportShape(*ring);
+    // Twelve voxels across the tube: the rounding of edges by the trilinear cells is second order.
+    EXPECT_NEAR(report.fieldVolume / report.meshVolume, 1.0, 0.01);
+    EXPECT_EQ(report.parts, 1);
+    EXPECT_EQ(report.triangles, 320u);
+    const ShapeReport two =
+        reportShape(*buildMeshShape("two", both(cube(), moved(cube(), Vec3(1.5, 0, 0)))));
+    EXPECT_EQ(two.parts, 2);
+    EXPECT_EQ(two.sharpEdges, 2 * 24);  // twelve edges of two segments each
+}
+
+TEST(TortureMesh, FilesThatAreCutOrEmptyOrNonsenseAreRefused)
+{
+    const test::TemporaryFolder folder;
+    const auto refusal = [&](const std::string& name, const std::string& text) {
+        std::ofstream(folder / name, std::ios::binary) << text;
+        try {
+            buildMeshShape("thing", importMesh((folder / name).string()));
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::badInput) << name;
+            return std::string(error.what());
+        }
+        return std::string("not refused");
+    };
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.gltf", "a.fbx"}) {
+        EXPECT_NE(refusal(name, ""), "not refused") << name;
+        EXPECT_NE(refusal(name, "solid\n\x01\x02 nonsense"), "not refused") << name;
+    }
+    EXPECT_NE(refusal("nan.obj",
+                      "v 0 0 0\nv 1 0 0\nv nan 1 0\nv 0 0 1\n"
+                      "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"),
+              "not refused");
+    EXPECT_NE(refusal("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2"),
+              "not refused");
+    EXPECT_NE(refusal("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9999\n"), "not refused");
+}
+
+}  // namespace
+}  // namespace scree

@@ -1,0 +1,155 @@
+// check, diff, settle and sim --from, as a shell meets them.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "io/file_bytes.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+constexpr const char* kShotText = R"(
+scree = 1
+[shot]
+name = "drop"
+frames = "1001-1006"
+[material.wood]
+density = 650
+[shape.block]
+box = { size = [0.4, 0.2, 0.4] }
+[[body]]
+name = "ground"
+plane = { point = [0, 0, 0], normal = [0, 1, 0] }
+material = "wood"
+motion = "static"
+[[body]]
+name = "low"
+shape = "block"
+material = "wood"
+position = [0, 0.15, 0]
+[[body]]
+name = "high"
+shape = "block"
+material = "wood"
+position = [0.02, 0.4, 0.03]
+)";
+
+class ShotTools : public testing::Test {
+protected:
+    struct Outcome {
+        int code = -1;
+        std::string out, err;
+    };
+
+    ShotTools() { writeFileBytes(folder / "drop.toml", kShotText); }
+
+    Outcome run(const std::string& arguments) const
+    {
+        const std::string command = "cd '" + folder.path().string() + "' && '" + SCREE_PROGRAM +
+                                    "' " + arguments + " > out 2> err";
+        Outcome outcome;
+        outcome.code = WEXITSTATUS(std::system(command.c_str()));
+        outcome.out = readFileBytes(folder / "out");
+        outcome.err = readFileBytes(folder / "err");
+        return outcome;
+    }
+
+    test::TemporaryFolder folder;
+};
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+TEST_F(ShotTools, CheckReportsShapesAndEstimateAsJson)
+{
+    const Outcome checked = run("check drop.toml --json --estimate 1");
+    ASSERT_EQ(checked.code, 0) << checked.err;
+    const nlohmann::json json = nlohmann::json::parse(checked.out);
+    EXPECT_EQ(json["movable_bodies"], 2);
+    EXPECT_NEAR(json["shapes"]["block"]["volume_m3"].get<double>(), 0.032, 1e-12);
+    EXPECT_NEAR(json["shapes"]["block"]["heaviest_kg"].get<double>(), 20.8, 1e-9);
+    EXPECT_NEAR(json["shapes"]["block"]["thinnest_m"].get<double>(), 0.2, 1e-9);
+    EXPECT_EQ(json["shapes"]["block"]["sharp_edges"], 24);  // twelve, each of two segments
+    EXPECT_EQ(json["estimate"]["frames_tried"], 1);
+    EXPECT_GT(json["estimate"]["disk_bytes"], 0);
+    EXPECT_TRUE(json["overlaps"].empty());
+    EXPECT_TRUE(json["warnings"].empty()) << json["warnings"];
+}
+
+TEST_F(ShotTools, OverlapsAtTheStartAreAnErrorAWarningOrPushedApart)
+{
+    const std::string overlap = " --set body.high.position=[0.02,0.3,0.03]";
+    const Outcome checked = run("check drop.toml --estimate 0" + overlap);
+    EXPECT_EQ(checked.code, 65);
+    EXPECT_TRUE(contains(checked.out, "low and high: 0.05 m")) << checked.out;
+
+    const Outcome refused = run("sim drop.toml -o refused" + overlap);
+    EXPECT_EQ(refused.code, 65);
+    EXPECT_TRUE(contains(refused.err, "low and high: 0.05 m")) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "refused"));
+
+    const Outcome warned =
+        run("sim drop.toml -o warned --set start.overlap=\\\"warn\\\"" + overlap);
+    EXPECT_TRUE(contains(warned.err, "Warning: 1 pair overlaps")) << warned.err;
+
+    const Outcome apart =
+        run("sim drop.toml -o apart --set start.overlap=\\\"separate\\\"" + overlap);
+    EXPECT_EQ(apart.code, 0) << apart.err;
+    EXPECT_TRUE(contains(apart.err, "pushed apart")) << apart.err;
+}
+
+TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
+{
+    const Outcome big = run("check drop.toml --estimate 0 --set shape.block.scale=500");
+    EXPECT_TRUE(contains(big.out, "200 m long: is shot.units right?")) << big.out;
+    const Outcome heavy = run("check drop.toml --estimate 0 --set shot.gravity=[0,-981,0]");
+    EXPECT_TRUE(contains(heavy.out, "100 times the earth's")) << heavy.out;
+    const Outcome away = run(
+        "check drop.toml --estimate 0 --set shot.gravity=[0,9.81,0] --set shot.units=\\\"m\\\"");
+    EXPECT_TRUE(contains(away.out, "2 bodies have nothing static under them: low, high") ||
+                contains(away.out, "may fall for ever: low, high"))
+        << away.out;
+}
+
+TEST_F(ShotTools, DiffEndsWithOneAndNamesTheFrameAndTheBody)
+{
+    ASSERT_EQ(run("sim drop.toml -o a").code, 0);
+    ASSERT_EQ(run("sim drop.toml -o b --from a@1003").code, 0);
+    ASSERT_EQ(run("sim drop.toml -o c --from a@1003 --set shot.gravity=[1,-9.81,0]").code, 0);
+    const Outcome same = run("diff a b");
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_TRUE(contains(same.out, "6 frames are the same")) << same.out;
+    const Outcome other = run("diff a c --json");
+    EXPECT_EQ(other.code, 1);
+    const nlohmann::json json = nlohmann::json::parse(other.out);
+    EXPECT_EQ(json["difference"]["frame"], 1004);
+    EXPECT_EQ(json["difference"]["bodies"].size(), 2u);
+    EXPECT_EQ(run("diff a nowhere").code, 66);
+    EXPECT_EQ(run("sim drop.toml -o d --from a@1006").code, 65);
+    EXPECT_EQ(run("sim drop.toml -o d --from a").code, 64);
+}
+
+TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
+{
+    const Outcome settled = run("settle drop.toml -o pose.json");
+    ASSERT_EQ(settled.code, 0) << settled.err;
+    const nlohmann::json json = nlohmann::json::parse(readFileBytes(folder / "pose.json"));
+    ASSERT_EQ(json["bodies"].size(), 3u);
+    EXPECT_EQ(json["bodies"][2]["name"], "high");
+    // On the ground and on each other, within the percent of overlap that goes unreported.
+    EXPECT_NEAR(json["bodies"][1]["position"][1].get<double>(), 0.1, 0.004);
+    EXPECT_NEAR(json["bodies"][2]["position"][1].get<double>(), 0.3, 0.008);
+    const Outcome mesh = run("settle drop.toml -o pose.obj --seconds 0.1");
+    EXPECT_EQ(mesh.code, 79);
+    EXPECT_TRUE(contains(mesh.err, "still moves")) << mesh.err;
+    EXPECT_TRUE(contains(readFileBytes(folder / "pose.obj"), "\nv "));
+}
+
+}  // namespace
+}  // namespace scree

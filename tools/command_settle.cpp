@@ -1,0 +1,204 @@
+// Shot → one pose: drop props, run until all is at rest, keep where they lie.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <filesystem>
+
+#include "core/base/parallel.h"
+#include "core/dynamics/stepper.h"
+#include "io/build_world.h"
+#include "io/file_bytes.h"
+#include "io/frame_pattern.h"
+#include "io/frame_writer.h"
+#include "io/pose_json.h"
+#include "io/shot_parser.h"
+#include "tools/command_line.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/start_rule.h"
+#include "tools/stop_signals.h"
+#include "tools/take_export.h"
+
+namespace scree {
+namespace {
+
+struct SettleOptions {
+    std::string shot, output;
+    double seconds = 30.0;
+    // The literal method keeps two blocks on each other creeping by 0.0016 for ever.
+    double tolerance = 5e-3;
+    std::optional<int> threads;
+    std::vector<std::string> overrides;
+};
+
+constexpr double kWindowSeconds = 0.5;  // over which nothing may move
+
+/// How far any point of the body can be from where it was, in bounding radii.
+double movedRadii(const Shape& shape, const BodyMotion& before, const BodyMotion& now)
+{
+    const double turn = 2.0 * (before.orientation.conjugate() * now.orientation).vec().norm();
+    return (now.position - before.position).norm() / shape.boundingRadius + turn;
+}
+
+std::string percentText(double ratio)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * ratio);
+    return text;
+}
+
+/// Runs a shot until nothing has moved for a while.
+class Settling {
+public:
+    Settling(const SettleOptions& options, Console& console)
+        : options_(options), console_(console), shot_(parseShot(options.shot, options.overrides))
+    {
+        setThreadCount(threadsToUse(options.threads));
+        world_ = buildWorld(shot_);
+        for (const std::string& repair : repairsOf(world_)) console.info(repair);
+        applyStartRule(shot_, world_, console);
+    }
+
+    int run()
+    {
+        watchSignals();
+        const bool isAtRest = simulate();
+        if (stopRequested()) {
+            console_.info("stopped; nothing is written");
+            return kExitStopped;
+        }
+        write();
+        std::printf("%s\n", options_.output.c_str());
+        if (isAtRest) return kExitDone;
+        console_.error("not at rest after " + describeDuration(options_.seconds) + ": '" +
+                       world_.info[restless_].name + "' still moves, " +
+                       percentText(restlessness_) +
+                       " of its radius in half a second; the pose is written all the same");
+        return kExitQuality;
+    }
+
+private:
+    bool simulate()
+    {
+        Stepper stepper(shot_.settings);
+        const auto window = static_cast<std::size_t>(
+            std::max(1.0, std::ceil(kWindowSeconds * shot_.framesPerSecond)));
+        const int most = static_cast<int>(std::ceil(options_.seconds * shot_.framesPerSecond));
+        std::deque<std::vector<BodyMotion>> past = {world_.motion};
+        for (int frame = 1; frame <= most; ++frame) {
+            const FrameReport report =
+                stepper.advanceFrame(world_, 1.0 / shot_.framesPerSecond, stopRequested);
+            if (!report.finished) return false;
+            refuseNonFinite(report);
+            past.push_back(world_.motion);
+            if (past.size() > window + 1) past.pop_front();
+            if (past.size() == window + 1 && isAtRest(past.front(), report.births)) {
+                console_.info("at rest after " + std::to_string(frame) + " frames");
+                return true;
+            }
+        }
+        return false;
+    }
+
+    bool isAtRest(const std::vector<BodyMotion>& before, const BirthReport& births)
+    {
+        double most = options_.tolerance;
+        bool result = births.born == 0 && births.waiting == 0;
+        for (BodyId body = 0; body < static_cast<BodyId>(world_.bodyCount()); ++body) {
+            if (world_.bornAt[body] == kUnborn) restless_ = body, result = false;
+            if (!world_.mass[body].isMovable()) continue;
+            const double moved =
+                movedRadii(world_.shapeOf(body), before[body], world_.motion[body]);
+            if (moved <= most) continue;
+            most = restlessness_ = moved;
+            restless_ = body;
+            result = false;
+        }
+        return result;
+    }
+
+    void refuseNonFinite(const FrameReport& report) const
+    {
+        if (report.sum.nonFinite.empty()) return;
+        throw Error(ErrorKind::qualityLimit,
+                    "'" + world_.info[report.sum.nonFinite.front()].name +
+                        "' is no longer finite after frame " +
+                        std::to_string(shot_.firstFrame + world_.clock.frame));
+    }
+
+    void write() const
+    {
+        const SceneFrame frame = captureFrame(shot_, world_);
+        double reach = 1.0;
+        for (const Pose& pose : frame.worldFromAsset) {
+            reach = std::max(reach, 1.5 * pose.position.norm());
+        }
+        const SceneDescription scene = describeScene(shot_, world_, reach);
+        createFolderOf(options_.output);
+        if (isJson()) {
+            writeFileBytes(options_.output, encodePoses(scene, frame));
+            return;
+        }
+        const std::string pattern = outputPattern();
+        const std::unique_ptr<FrameWriter> writer = makeFrameWriter(pattern);
+        writer->begin(scene, frame.frame, 1);
+        writer->write(frame);
+        writer->finish();
+        if (pattern == options_.output) return;
+        std::filesystem::rename(expandFramePattern(pattern, frame.frame), options_.output);
+    }
+
+    bool isJson() const { return options_.output.ends_with(".json"); }
+
+    /// Formats of one file a frame want a place for its number; a pose needs none.
+    std::string outputPattern() const
+    {
+        const std::filesystem::path output = options_.output;
+        const std::string ending = output.extension().string();
+        const bool isSequence = ending == ".obj" || ending == ".ply" || ending == ".pov";
+        if (!isSequence || hasFramePattern(options_.output)) return options_.output;
+        return (output.parent_path() / (output.stem().string() + ".####" + ending)).string();
+    }
+
+    const SettleOptions& options_;
+    Console& console_;
+    Shot shot_;
+    World world_;
+    BodyId restless_ = 0;        // who moves most
+    double restlessness_ = 0.0;  // by how much of its radius
+};
+
+}  // namespace
+
+Command addSettleCommand(CLI::App& program)
+{
+    auto options = std::make_shared<SettleOptions>();
+    CLI::App* command = program.add_subcommand(
+        "settle", "Run a shot until all is at rest and write where the bodies lie");
+    command->add_option("SHOT", options->shot, "The shot file")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "The ending chooses the format: out.json, out.usda, out.abc, out.glb, "
+                     "out.obj or out.ply")
+        ->required();
+    command->add_option("--seconds", options->seconds, "Simulated time to give up after [30]")
+        ->check(CLI::Range(1e-3, 1e6));
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "At rest is what moves less than this part of its radius in half a second "
+                     "[0.005]")
+        ->check(CLI::Range(1e-12, 1.0));
+    command->add_option("--threads", options->threads, "Number of threads [all]");
+    command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    command->footer(
+        "Ends with 79 when something still moves at the end; the pose is written all the same.\n"
+        "Example:\n  scree settle shots/rings_100.toml -o rings.json");
+    return {command, [options](Console& console) { return Settling(*options, console).run(); }};
+}
+
+}  // namespace scree

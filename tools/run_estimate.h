@@ -1,0 +1,23 @@
+// What a run will take, from a few frames of it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/scene/world.h"
+#include "io/shot.h"
+
+namespace scree {
+
+struct RunEstimate {
+    int framesTried = 0;
+    int stepsTried = 0;
+    double cpuSeconds = 0.0, wallSeconds = 0.0;  ///< for all frames of the shot, if they go on so
+    std::uint64_t diskBytes = 0;                 ///< of the take
+    std::uint64_t memoryBytes = 0;               ///< the most this process had
+};
+
+/// Simulates the first `frames` of a copy of the world, or as many as begin within `mostSeconds`.
+/// Bodies still in the air are cheap: a heap that forms later costs more than this says.
+RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double mostSeconds);
+
+}  // namespace scree

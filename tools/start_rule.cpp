@@ -1,0 +1,146 @@
+#include "tools/start_rule.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "core/base/error.h"
+
+namespace scree {
+namespace {
+
+constexpr std::size_t kNamed = 10;
+// Film props are rarely longer than a lorry or smaller than a crumb; beyond, it is usually the
+// unit.
+constexpr double kLargestProp = 40.0, kSmallestProp = 5e-4;  // [m]
+
+std::string formatted(const char* format, double a, double b = 0.0)
+{
+    char text[160];
+    std::snprintf(text, sizeof text, format, a, b);
+    return text;
+}
+
+std::string listOf(const std::vector<StartOverlap>& overlaps, const World& world)
+{
+    std::string text;
+    for (std::size_t i = 0; i < std::min(overlaps.size(), kNamed); ++i) {
+        text += "\n  " + describe(overlaps[i], world);
+    }
+    if (overlaps.size() > kNamed) {
+        text += "\n  and " + std::to_string(overlaps.size() - kNamed) + " more";
+    }
+    return text;
+}
+
+std::string namesOf(const std::vector<BodyId>& bodies, const World& world)
+{
+    std::string text;
+    for (std::size_t i = 0; i < std::min(bodies.size(), kNamed); ++i) {
+        text += (i == 0 ? "" : ", ") + world.info[bodies[i]].name;
+    }
+    return text + (bodies.size() > kNamed ? ", …" : "");
+}
+
+void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>& warnings)
+{
+    std::set<const Shape*> told;
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        const Shape& shape = world.shapeOf(body);
+        if (world.info[body].kind != BodyKind::dynamic || !told.insert(&shape).second) continue;
+        const double size = shape.box.longestEdge();
+        if (size <= kLargestProp && size >= kSmallestProp) continue;
+        warnings.push_back("'" + world.info[body].name + "' is " + formatted("%.3g m", size) +
+                           " long: is shot.units right? One unit is " +
+                           formatted("%.3g m", shot.metresPerUnit));
+    }
+    const double g = shot.settings.gravity.norm();
+    if (g > 50.0) {
+        warnings.push_back(
+            formatted("gravity is %.4g m/s², %.0f times the earth's: it is in m/s² "
+                      "whatever shot.units says",
+                      g, g / 9.81));
+    }
+}
+
+}  // namespace
+
+std::string describe(const StartOverlap& overlap, const World& world)
+{
+    return world.info[overlap.a].name + " and " + world.info[overlap.b].name +
+           formatted(": %.3g m, %.2g %% of the smaller one's length", overlap.depth,
+                     100.0 * overlap.ratio);
+}
+
+void applyStartRule(const Shot& shot, World& world, Console& console)
+{
+    const std::vector<StartOverlap> overlaps = findStartOverlaps(world, shot.penetrationWarn);
+    if (overlaps.empty()) return;
+    const std::string what = std::to_string(overlaps.size()) +
+                             (overlaps.size() == 1 ? " pair overlaps" : " pairs overlap") +
+                             " before anything moves:" + listOf(overlaps, world);
+    switch (shot.startOverlap) {
+        case StartOverlapRule::error:
+            throw Error(ErrorKind::badInput,
+                        what + "\nMove them, or write [start] overlap = \"separate\" or \"warn\"");
+        case StartOverlapRule::warn:
+            console.warning(what);
+            return;
+        case StartOverlapRule::separate:
+            if (!separateAtStart(world, shot.settings, shot.penetrationWarn)) {
+                throw Error(
+                    ErrorKind::badInput,
+                    what + "\nThey could not be pushed apart; still overlapping are:" +
+                        listOf(findStartOverlaps(world, 0.5 * shot.penetrationWarn), world));
+            }
+            console.info(what + "\nThey were pushed apart");
+            return;
+    }
+}
+
+std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world)
+{
+    std::vector<std::string> warnings;
+    const std::vector<BodyId> loose = findUnsupported(world, shot.settings.gravity);
+    if (!loose.empty()) {
+        warnings.push_back(std::to_string(loose.size()) +
+                           " bodies have nothing static under them and may fall for ever: " +
+                           namesOf(loose, world));
+    }
+    const std::vector<FastBody> fast =
+        findTooFast(world, shot.settings, 1.0 / shot.framesPerSecond);
+    if (!fast.empty()) {
+        warnings.push_back(std::to_string(fast.size()) +
+                           " bodies are too fast for solver.substeps.max = " +
+                           std::to_string(shot.settings.substeps.max) + "; '" +
+                           world.info[fast.front().body].name +
+                           formatted("' needs %.0f steps a frame at %.3g m/s",
+                                     fast.front().stepsNeeded, fast.front().speed) +
+                           (fast.front().whenItLands ? ", when it lands" : ", at the start"));
+    }
+    warnOfSizes(shot, world, warnings);
+    return warnings;
+}
+
+std::vector<std::string> repairsOf(const World& world)
+{
+    std::vector<std::string> repairs;
+    std::set<const Shape*> told;
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        const Shape& shape = world.shapeOf(body);
+        if (!told.insert(&shape).second) continue;
+        const ShapeRepairs& done = shape.repairs;
+        if (!done.harmless.isNone()) {
+            repairs.push_back("shape '" + shape.name + "': " + describe(done.harmless));
+        }
+        if (done.remeshed == MeshRepair::none) continue;
+        repairs.push_back(
+            "shape '" + shape.name +
+            "': " + (done.remeshed == MeshRepair::wrap ? "wrapped" : "made a shell") +
+            formatted(" with voxels of %.3g m; what collides is up to %.3g m from what is drawn",
+                      done.voxel, done.farthest));
+    }
+    return repairs;
+}
+
+}  // namespace scree

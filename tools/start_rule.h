@@ -1,0 +1,27 @@
+// Before the first frame: what the shot wants done about overlaps, done and told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/dynamics/start_check.h"
+#include "io/shot.h"
+#include "tools/console.h"
+
+namespace scree {
+
+/// "cup and saucer: 3.1 mm, 4.2 % of the smaller one".
+std::string describe(const StartOverlap& overlap, const World& world);
+
+/// Applies shot.startOverlap to the world at time zero. Throws Error{badInput} that names the pairs
+/// when they are an error or will not come apart.
+void applyStartRule(const Shot& shot, World& world, Console& console);
+
+/// Says what was repaired of the shapes, and what will not do as it is: bodies that nothing holds,
+/// speeds beyond the cap. One sentence each.
+std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world);
+
+/// One sentence for each shape whose mesh was repaired.
+std::vector<std::string> repairsOf(const World& world);
+
+}  // namespace scree
