@@ -32,7 +32,7 @@ inline const Vec3 kGroundLight(0.15, 0.125, 0.10);
 /// The tone curve: `toe` is the light [-] below which it falls off with the square, `gain` what it
 /// rises by above, `shoulder` where it begins to bend towards white. Tuned on shots/rings_100,
 /// whose picture was grey and flat with a gain of 1 and no toe.
-inline constexpr double kFilmToe = 0.035, kFilmGain = 1.35, kFilmShoulder = 0.6;
+inline constexpr double kFilmToe = 0.035, kFilmGain = 1.2, kFilmShoulder = 0.6;
 
 /// What a display shows of light in a scene, both linear.
 Vec3 tonedForDisplay(const Vec3& light);
