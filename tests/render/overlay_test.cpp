@@ -45,10 +45,11 @@ TEST(DrawLine, OutsideThePictureThereIsNothingToDraw)
 
 TEST(DrawContacts, DotNormalAndForceAreSeenFromTheContactPoint)
 {
-    // 10 units in front of the eye, 90° see 20 units: 10 pixels are one unit.
+    // 10 units in front of the eye, 90° see 20 units: 10 pixels are one unit. The point is in the
+    // middle of a pixel, so that thin lines cover theirs whole.
     Image image(200, 200);
     const Camera camera{{0.0, 0.0, 10.0}, Vec3::Zero(), Vec3::UnitY(), 90.0};
-    drawContacts(image, camera, {{{3.0, 2.0, 0.0}, {0.0, 4.0, 0.0}, {-5.0, 0.0, 0.0}}});
+    drawContacts(image, camera, {{{3.05, 1.95, 0.0}, {0.0, 4.0, 0.0}, {-5.0, 0.0, 0.0}}});
     const auto isLike = [&](int x, int y, const Color& color) {
         return (image.at(x, y) - color).norm() < 0.05f;
     };

@@ -189,7 +189,8 @@ TEST_F(RenderOptions, MotionBlurSmearsWhatMovesAndLeavesAloneWhatStands)
             sum += (sharp.at(x, y) - blurred.at(x, y)).cwiseAbs().maxCoeff();
         }
     EXPECT_GT(moving, 10.0);
-    EXPECT_LT(standing, 0.1 * moving);
+    // Below, the ground is a little darker or lighter as the sky above it is covered.
+    EXPECT_LT(standing, 0.25 * moving);
 }
 
 TEST_F(RenderOptions, EveryLookDrawsItsOwnPictureAndUnknownOnesNameTheNearest)
@@ -235,9 +236,11 @@ TEST_F(RenderOptions, ATakeWithoutContactsSaysHowToGetThem)
         scree("render " + quoted(bare) + " --look contacts -o " + quoted(pictures / "b.####.png"));
     EXPECT_EQ(wrong.exitCode, 66);
     EXPECT_NE(wrong.output.find("output.contacts=true"), std::string::npos) << wrong.output;
-    EXPECT_EQ(scree("diff " + quoted(bare) + " " + quoted(take()) + " --frames 1001-1002")
-                  .output.find("differ in"),
-              std::string::npos);
+    // Storing contacts has not changed the simulation.
+    const auto without = TakeReader(bare).stats(), with = TakeReader(take()).stats();
+    ASSERT_EQ(without.size(), 2U);
+    for (std::size_t i = 0; i < without.size(); ++i)
+        EXPECT_EQ(without[i].stateHash, with[i].stateHash);
 }
 
 TEST_F(RenderOptions, AFilmSaysItsColoursAndShowsThoseOfThePictures)
