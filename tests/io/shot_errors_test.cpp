@@ -226,8 +226,7 @@ std::vector<BadShot> badShots()
          "bad.toml:1:11: 'extends' goes round in a circle: \"bad.toml\" extends this shot"},
         {"Sleep", kHead + "[solver]\nsleep = true\n",
          "bad.toml:5:1: 'sleep' in [solver] is not supported yet by this version"},
-        {"Contacts", kHead + "[output]\ncontacts = true\n",
-         "bad.toml:5:1: 'contacts' in [output] is not supported yet by this version"},
+        {"Contacts", kHead + "[output]\ncontacts = 1\n", "bad.toml:5:12: 'contacts' must be"},
         {"SubframesThatSpanAFrame", kHead + "[output]\nsubframes = [-0.5, 0.0, 0.5]\n",
          "bad.toml:5:13: 'subframes' must lie within one frame and at least 0.01 frames apart, "
          "like [-0.25, 0.0, 0.25], not [-0.5, 0.0, 0.5]"},
