@@ -13,6 +13,7 @@
 
 #include "core/geometry/tri_mesh.h"
 #include "core/math/rotation.h"
+#include "core/scene/camera_motion.h"
 #include "core/scene/shaded_mesh.h"
 #include "io/alembic_archive.h"
 #include "io/byte_order.h"
@@ -132,6 +133,36 @@ Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh)
     return normals;
 }
 
+/// The sixteen numbers of Alembic's camera.
+std::array<double, 16> lensOf(const SceneCamera& camera, const SceneDescription& scene)
+{
+    constexpr double kFilmWidth = 3.6;  // [cm], of a 35 mm camera
+    const double filmHeight = kFilmWidth / scene.aspect;
+    double sine = 0.0, cosine = 0.0;
+    sinCos(camera.fovDegrees * kPi / 360.0, sine, cosine);
+    const double focalLength = 0.5 * filmHeight * cosine / sine;  // [cm]
+    const double toTarget = (camera.eye - camera.target).norm();
+    const double distance = toTarget > 0.0 ? toTarget : 1.0;
+    return {
+        10.0 * focalLength,  // focal length [mm]
+        kFilmWidth,
+        0.0,
+        filmHeight,
+        0.0,  // film and its shifts [cm]
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,  // squeeze, overscan on four sides
+        5.6,
+        100.0 * scene.metresPerUnit * distance,  // f-stop, focus [cm]
+        0.0,
+        0.5 / scene.framesPerSecond,  // shutter opens, closes [s]
+        1e-3 * distance,
+        1e3 * distance,  // nearest, farthest [shot's unit]
+    };
+}
+
 class AlembicWriter final : public FrameWriter {
 public:
     explicit AlembicWriter(fs::path output) : output_(std::move(output)) {}
@@ -151,6 +182,7 @@ private:
                              const std::string& material);
     AlembicObject writeMaterial(const std::string& name, const MeshSamples& mesh);
     AlembicObject writeCamera(const SceneCamera& camera);
+    AlembicProperty writeLens(const std::vector<SceneCamera>& samples);
     AlembicProperty textProperty(const std::string& name, const std::string& text);
     std::string freeName(std::string name) const;
     AlembicObject writeTransform(const std::string& name, const TransformTrack& track, bool moves,
@@ -390,35 +422,29 @@ std::string AlembicWriter::freeName(std::string name) const
     return name;
 }
 
+AlembicProperty AlembicWriter::writeLens(const std::vector<SceneCamera>& samples)
+{
+    const auto first = lensOf(samples.front(), *scene_);
+    SampleTrack track(archive_->writeScalar(bytesOf(first)));
+    auto last = first;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const auto now = lensOf(samples[i], *scene_);
+        if (now == last)
+            track.repeatLast();
+        else
+            track.append(archive_->writeScalar(bytesOf(now)));
+        last = now;
+    }
+    const int sampling = samples.size() > 1 ? everySample_ : 0;
+    return archive_->writeProperty(scalarLayout(".core", AlembicType::f64, 16, sampling), track);
+}
+
 AlembicObject AlembicWriter::writeCamera(const SceneCamera& camera)
 {
-    constexpr double kFilmWidth = 3.6;  // [cm], of a 35 mm camera
-    const double filmHeight = kFilmWidth / scene_->aspect;
-    double sine = 0.0, cosine = 0.0;
-    sinCos(camera.fovDegrees * kPi / 360.0, sine, cosine);
-    const double focalLength = 0.5 * filmHeight * cosine / sine;  // [cm]
-    const double toTarget = (camera.eye - camera.target).norm();
-    const double distance = toTarget > 0.0 ? toTarget : 1.0;
-    const std::array<double, 16> core = {
-        10.0 * focalLength,  // focal length [mm]
-        kFilmWidth,
-        0.0,
-        filmHeight,
-        0.0,  // film and its shifts [cm]
-        1.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,  // squeeze, overscan on four sides
-        5.6,
-        100.0 * scene_->metresPerUnit * distance,  // f-stop, focus [cm]
-        0.0,
-        0.5 / scene_->framesPerSecond,  // shutter opens, closes [s]
-        1e-3 * distance,
-        1e3 * distance,  // nearest, farthest [shot's unit]
-    };
-    const AlembicProperty property =
-        archive_->writeConstant(scalarLayout(".core", AlembicType::f64, 16), bytesOf(core));
+    const std::vector<SceneCamera> samples =
+        moves(camera) ? camerasAt(camera, times(), scene_->zUp)
+                      : camerasAt(camera, {times().front()}, scene_->zUp);
+    const AlembicProperty property = writeLens(samples);
     const AlembicProperty geometry =
         archive_->writeCompound(".geom", std::string(kCameraSchema), std::span(&property, 1));
     const std::string name = freeName(camera.name);
@@ -427,8 +453,9 @@ AlembicObject AlembicWriter::writeCamera(const SceneCamera& camera)
         std::span(&geometry, 1), {});
 
     TransformTrack place;
-    addSample(place, channelsOf(worldFromCamera(camera, scene_->zUp)));
-    return writeTransform(name, place, false, {}, std::span(&lens, 1));
+    for (const Pose& pose : worldFromCameras(samples, scene_->zUp))
+        addSample(place, channelsOf(pose));
+    return writeTransform(name, place, moves(camera), {}, std::span(&lens, 1));
 }
 
 AlembicObject AlembicWriter::writeTransform(const std::string& name, const TransformTrack& track,

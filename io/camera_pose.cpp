@@ -5,6 +5,7 @@
 
 #include "core/math/aabb.h"
 #include "core/math/rotation.h"
+#include "core/scene/camera_motion.h"
 
 namespace scree {
 
@@ -31,6 +32,26 @@ Pose worldFromCamera(const SceneCamera& camera, bool zUp)
     Mat3 axes;
     axes << right, backward.cross(right), backward;
     return {camera.eye, Quat(axes).normalized()};
+}
+
+std::vector<SceneCamera> camerasAt(const SceneCamera& camera, const std::vector<double>& times,
+                                   bool zUp)
+{
+    std::vector<SceneCamera> cameras;
+    for (const double time : times) cameras.push_back(cameraAt(camera, time, zUp));
+    return cameras;
+}
+
+std::vector<Pose> worldFromCameras(const std::vector<SceneCamera>& cameras, bool zUp)
+{
+    std::vector<Pose> poses;
+    for (const SceneCamera& camera : cameras) {
+        Pose pose = worldFromCamera(camera, zUp);
+        if (!poses.empty() && pose.orientation.dot(poses.back().orientation) < 0.0)
+            pose.orientation.coeffs() *= -1.0;
+        poses.push_back(pose);
+    }
+    return poses;
 }
 
 SceneCamera cameraOfAll(const SceneDescription& scene, const SceneFrame& frame)

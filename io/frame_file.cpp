@@ -285,6 +285,27 @@ void addBetween(FrameEncoder& encoder, std::span<const SceneFrame> between)
     addPoses(encoder, "sub", between);
 }
 
+/// The whole block is left out where nobody asked for it.
+void addLastStep(FrameEncoder& encoder, const std::optional<StepSeen>& step)
+{
+    if (!step) return;
+    std::vector<std::int32_t> bodies;
+    std::vector<double> point, normal, impulse;
+    for (const ContactSeen& contact : step->contacts) {
+        bodies.insert(bodies.end(), {contact.a, contact.b});
+        append(point, contact.point);
+        append(normal, contact.normal);
+        append(impulse, contact.impulse);
+    }
+    encoder.add<double>("step.dt", 1, {step->dt});
+    encoder.add("step.level", 1, step->level);
+    encoder.add("step.overlap", 1, step->overlap);
+    encoder.add("contact.bodies", 2, bodies);
+    encoder.add("contact.point", 3, point);
+    encoder.add("contact.normal", 3, normal);
+    encoder.add("contact.impulse", 3, impulse);
+}
+
 void readState(const FrameDecoder& decoder, std::uint64_t bodyCount, FrameState& state)
 {
     const auto steps = decoder.read<std::int64_t>("clock.steps", 1, 2);
@@ -364,6 +385,29 @@ std::vector<SceneFrame> readBetween(const FrameDecoder& decoder, std::uint64_t b
     return between;
 }
 
+std::optional<StepSeen> readLastStep(const FrameDecoder& decoder, std::uint64_t bodyCount)
+{
+    if (decoder.rowsOf("step.dt") == 0) return {};
+    StepSeen step;
+    step.dt = decoder.read<double>("step.dt", 1, 1)[0];
+    step.level = decoder.read<std::int32_t>("step.level", bodyCount, 1);
+    step.overlap = decoder.read<double>("step.overlap", bodyCount, 1);
+    const std::uint64_t count = decoder.rowsOf("contact.bodies");
+    const auto bodies = decoder.read<std::int32_t>("contact.bodies", count, 2);
+    const auto point = decoder.read<double>("contact.point", count, 3);
+    const auto normal = decoder.read<double>("contact.normal", count, 3);
+    const auto impulse = decoder.read<double>("contact.impulse", count, 3);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const std::int32_t body : {bodies[2 * i], bodies[2 * i + 1]})
+            if (body < 0 || static_cast<std::uint64_t>(body) >= bodyCount)
+                decoder.fail("a contact names body " + std::to_string(body) + " of " +
+                             std::to_string(bodyCount));
+        step.contacts.push_back({bodies[2 * i], bodies[2 * i + 1], vectorAt(point, i),
+                                 vectorAt(normal, i), vectorAt(impulse, i)});
+    }
+    return step;
+}
+
 }  // namespace
 
 std::string encodeFrame(const FrameState& state)
@@ -374,12 +418,14 @@ std::string encodeFrame(const FrameState& state)
     SCREE_CHECK(state.scene.worldFromAsset.size() == bodyCount, "scene and state differ in size");
     for (const SceneFrame& sample : state.between)
         SCREE_CHECK(sample.worldFromAsset.size() == bodyCount, "a sample lacks bodies");
+    SCREE_CHECK(!state.lastStep || state.lastStep->level.size() == bodyCount, "levels lack bodies");
 
     FrameEncoder encoder;
     addState(encoder, state);
     addMemory(encoder, state.contactMemory);
     addPoses(encoder, "asset", {&state.scene, 1});
     addBetween(encoder, state.between);
+    addLastStep(encoder, state.lastStep);
     Header header;
     header.frame = state.scene.frame;
     header.bodyCount = bodyCount;
@@ -400,6 +446,7 @@ FrameState decodeFrame(std::string_view bytes, const std::filesystem::path& path
     // A frame was reached from the one before; a checkpoint stands behind the frame it left.
     const bool isInside = state.clock.subStep > 0;
     state.between = readBetween(decoder, bodyCount, state.scene.frame - (isInside ? 0 : 1));
+    state.lastStep = readLastStep(decoder, bodyCount);
     return state;
 }
 

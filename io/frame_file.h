@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/diagnostics/step_observer.h"
 #include "core/scene/scene_description.h"
 #include "core/scene/world.h"
 
@@ -27,8 +29,9 @@ struct FrameState {
     std::vector<std::int32_t> bornAt;  ///< World::bornAt; empty when all are there from the start
     ContactMemory contactMemory;       ///< World::contactMemory; empty for method `paper`
     SceneFrame scene;
-    std::vector<SceneFrame> between;  ///< on the way here since the frame before: its number,
-                                      ///< offsets ascending in 0 … 1
+    std::vector<SceneFrame> between;   ///< on the way here since the frame before: its number,
+                                       ///< offsets ascending in 0 … 1
+    std::optional<StepSeen> lastStep;  ///< the step that ended here: on request, and not state
 };
 
 /// The bytes of a frame file, checksum included. Equal states give equal bytes.

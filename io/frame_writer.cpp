@@ -117,8 +117,8 @@ void FrameWriter::begin(const SceneDescription& scene, int firstFrame, int frame
     offsets_ = offsets;
     nextSample_ = 0;
     scene_ = &scene;
-    nextFrame_ = firstFrame;
-    framesLeft_ = frameCount;
+    nextFrame_ = firstFrame_ = firstFrame;
+    framesLeft_ = frameCount_ = frameCount;
     beginScene(scene, firstFrame, frameCount);
 }
 
@@ -145,6 +145,14 @@ void FrameWriter::write(const SceneFrame& frame)
     nextSample_ = 0;
     ++nextFrame_;
     --framesLeft_;
+}
+
+std::vector<double> FrameWriter::times() const
+{
+    std::vector<double> times;
+    for (int frame = firstFrame_; frame < firstFrame_ + frameCount_; ++frame)
+        for (const double offset : offsets_) times.push_back(frame + offset);
+    return times;
 }
 
 void FrameWriter::finish()

@@ -40,6 +40,9 @@ public:
 protected:
     const std::vector<double>& offsets() const { return offsets_; }
 
+    /// Of all samples, in order [frames].
+    std::vector<double> times() const;
+
 private:
     virtual void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) = 0;
     virtual void writeFrame(const SceneFrame& frame) = 0;
@@ -48,6 +51,7 @@ private:
     const SceneDescription* scene_ = nullptr;
     std::vector<double> offsets_;
     std::size_t nextSample_ = 0;  // index into offsets_
+    int firstFrame_ = 0, frameCount_ = 0;
     int nextFrame_ = 0;
     int framesLeft_ = 0;
 };

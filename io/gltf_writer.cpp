@@ -16,6 +16,7 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/math/rotation.h"
+#include "core/scene/camera_motion.h"
 #include "core/scene/shaded_mesh.h"
 #include "io/atomic_file.h"
 #include "io/byte_order.h"
@@ -72,6 +73,13 @@ Quat yUpFromShot(bool zUp)
     return zUp ? Quat(half, -half, 0.0, 0.0) : Quat::Identity();
 }
 
+/// A pose of the shot in the axes and the unit of glTF.
+Pose inYUpMetres(const Pose& pose, const SceneDescription& scene)
+{
+    const Quat turn = yUpFromShot(scene.zUp);
+    return {scene.metresPerUnit * (turn * pose.position), (turn * pose.orientation).normalized()};
+}
+
 std::string paddedTo4(std::string bytes, char filling)
 {
     bytes.resize((bytes.size() + 3) / 4 * 4, filling);
@@ -99,6 +107,11 @@ private:
     void addBodies(Json& rootNodes);
     void addAnimation();
     void addBirths(Json& samplers, Json& channels);
+    void addCameraMotion(Json& samplers, Json& channels);
+    std::size_t addTimes(const std::vector<float>& times);
+    std::size_t addValues(const std::vector<float>& values, std::size_t count, const char* type);
+    void addChannel(Json& samplers, Json& channels, std::size_t node, const char* path,
+                    const char* interpolation, std::size_t input, std::size_t output);
     void writeMotion();
 
     fs::path output_;
@@ -115,7 +128,7 @@ private:
     std::map<std::size_t, std::optional<MeshAccessors>> meshData_;  // of meshes met so far
     std::map<MeshAndMaterial, std::size_t> meshes_;
     std::map<std::string, std::size_t> materials_;
-    std::vector<std::size_t> nodeOfBody_;
+    std::vector<std::size_t> nodeOfBody_, nodeOfCamera_;
 };
 
 void GltfWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*frameCount*/)
@@ -308,17 +321,17 @@ void GltfWriter::addBodies(Json& rootNodes)
 
 void GltfWriter::addCameras(Json& rootNodes)
 {
-    for (const SceneCamera& camera : scene_->cameras) {
-        const Pose pose = worldFromCamera(camera, scene_->zUp);
-        const Quat turn = yUpFromShot(scene_->zUp);
+    for (const SceneCamera& moving : scene_->cameras) {
+        const SceneCamera camera = cameraAt(moving, times().front(), scene_->zUp);
+        const Pose pose = inYUpMetres(worldFromCamera(camera, scene_->zUp), *scene_);
         const double scale = scene_->metresPerUnit;
         const double distance = std::max((camera.eye - camera.target).norm() * scale, 1e-6);
+        nodeOfCamera_.push_back(json_["nodes"].size());
         rootNodes.push_back(json_["nodes"].size());
-        json_["nodes"].push_back(
-            {{"name", camera.name},
-             {"camera", json_["cameras"].size()},
-             {"translation", jsonArray((turn * pose.position * scale).eval())},
-             {"rotation", jsonQuaternion((turn * pose.orientation).normalized())}});
+        json_["nodes"].push_back({{"name", camera.name},
+                                  {"camera", json_["cameras"].size()},
+                                  {"translation", jsonArray(pose.position)},
+                                  {"rotation", jsonQuaternion(pose.orientation)}});
         json_["cameras"].push_back({{"name", camera.name},
                                     {"type", "perspective"},
                                     {"perspective",
@@ -329,30 +342,72 @@ void GltfWriter::addCameras(Json& rootNodes)
 }
 
 /// glTF 2.0 knows no visibility. A node of scale 0 is not drawn by any reader, so a body has none
-/// until it is born. These bytes stand with the meshes', before all motion.
+/// until it is born.
 void GltfWriter::addBirths(Json& samplers, Json& channels)
 {
-    const double start = motion_->times().front(), end = motion_->times().back();
+    const double start = times().front(), end = times().back();
     for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
         const int birthFrame = scene_->bodies[b].birthFrame;
         if (birthFrame <= start) continue;
-        std::vector<float> times = {0.0f}, scales = {0.0f, 0.0f, 0.0f};
+        std::vector<float> seconds = {0.0f}, scales = {0.0f, 0.0f, 0.0f};
         if (birthFrame <= end) {
-            times.push_back(static_cast<float>((birthFrame - start) / scene_->framesPerSecond));
+            seconds.push_back(static_cast<float>((birthFrame - start) / scene_->framesPerSecond));
             scales.insert(scales.end(), {1.0f, 1.0f, 1.0f});
         }
-        const auto add = [&](const std::vector<float>& values, const char* type) {
-            meshBytes_ += bytesOf(values);
-            const std::size_t view = addView(values.size() * sizeof(float), std::nullopt);
-            return addAccessor(view, 0, times.size(), type, kFloat);
-        };
-        const std::size_t input = add(times, "SCALAR"), output = add(scales, "VEC3");
-        json_["accessors"][input]["min"] = Json::array({static_cast<double>(times.front())});
-        json_["accessors"][input]["max"] = Json::array({static_cast<double>(times.back())});
-        channels.push_back({{"sampler", samplers.size()},
-                            {"target", {{"node", nodeOfBody_[b]}, {"path", "scale"}}}});
-        samplers.push_back({{"input", input}, {"interpolation", "STEP"}, {"output", output}});
+        const std::size_t input = addTimes(seconds);
+        addChannel(samplers, channels, nodeOfBody_[b], "scale", "STEP", input,
+                   addValues(scales, seconds.size(), "VEC3"));
     }
+}
+
+/// Where keyed cameras stand. A zoom is lost: glTF's cameras have one angle of view.
+void GltfWriter::addCameraMotion(Json& samplers, Json& channels)
+{
+    std::vector<float> seconds;
+    for (const double time : times())
+        seconds.push_back(static_cast<float>((time - times().front()) / scene_->framesPerSecond));
+    for (std::size_t k = 0; k < scene_->cameras.size(); ++k) {
+        if (!moves(scene_->cameras[k])) continue;
+        std::vector<float> places, turns;
+        for (const Pose& seen :
+             worldFromCameras(camerasAt(scene_->cameras[k], times(), scene_->zUp), scene_->zUp)) {
+            const Pose pose = inYUpMetres(seen, *scene_);
+            for (const double value : pose.position) places.push_back(static_cast<float>(value));
+            for (const double value : pose.orientation.coeffs())
+                turns.push_back(static_cast<float>(value));
+        }
+        const std::size_t input = addTimes(seconds);
+        addChannel(samplers, channels, nodeOfCamera_[k], "translation", "LINEAR", input,
+                   addValues(places, seconds.size(), "VEC3"));
+        addChannel(samplers, channels, nodeOfCamera_[k], "rotation", "LINEAR", input,
+                   addValues(turns, seconds.size(), "VEC4"));
+    }
+}
+
+/// These stand with the meshes' bytes, before all motion of bodies.
+std::size_t GltfWriter::addValues(const std::vector<float>& values, std::size_t count,
+                                  const char* type)
+{
+    meshBytes_ += bytesOf(values);
+    const std::size_t view = addView(values.size() * sizeof(float), std::nullopt);
+    return addAccessor(view, 0, count, type, kFloat);
+}
+
+/// Seconds, ascending; the format wants to know the first and the last.
+std::size_t GltfWriter::addTimes(const std::vector<float>& times)
+{
+    const std::size_t input = addValues(times, times.size(), "SCALAR");
+    json_["accessors"][input]["min"] = Json::array({static_cast<double>(times.front())});
+    json_["accessors"][input]["max"] = Json::array({static_cast<double>(times.back())});
+    return input;
+}
+
+void GltfWriter::addChannel(Json& samplers, Json& channels, std::size_t node, const char* path,
+                            const char* interpolation, std::size_t input, std::size_t output)
+{
+    channels.push_back(
+        {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+    samplers.push_back({{"input", input}, {"interpolation", interpolation}, {"output", output}});
 }
 
 /// Views: the times, then all translations, then all rotations that change.
@@ -365,13 +420,13 @@ void GltfWriter::addAnimation()
     }
     Json samplers = Json::array(), channels = Json::array();
     addBirths(samplers, channels);
+    addCameraMotion(samplers, channels);
     if (translationCount + rotationCount + channels.size() == 0) return;
 
-    const std::vector<double>& times = motion_->times();
-    const std::size_t count = times.size();
+    const std::size_t count = times().size();
     const std::size_t timeAccessor =
         addAccessor(addView(count * sizeof(float), std::nullopt), 0, count, "SCALAR", kFloat);
-    const double last = (times.back() - times.front()) / scene_->framesPerSecond;
+    const double last = (times().back() - times().front()) / scene_->framesPerSecond;
     json_["accessors"][timeAccessor]["min"] = Json::array({0.0});
     json_["accessors"][timeAccessor]["max"] =
         Json::array({static_cast<double>(static_cast<float>(last))});
@@ -386,10 +441,7 @@ void GltfWriter::addAnimation()
             if (!(changes_[body].*changes)) continue;
             const std::size_t output = addAccessor(view, offset, count, type, kFloat);
             offset += trackBytes;
-            channels.push_back({{"sampler", samplers.size()},
-                                {"target", {{"node", nodeOfBody_[body]}, {"path", path}}}});
-            samplers.push_back(
-                {{"input", timeAccessor}, {"interpolation", "LINEAR"}, {"output", output}});
+            addChannel(samplers, channels, nodeOfBody_[body], path, "LINEAR", timeAccessor, output);
         }
     };
     addTracks(&Changes::translation, translationCount, "translation", "VEC3", kTranslationBytes);
@@ -404,12 +456,11 @@ void GltfWriter::addAnimation()
 
 void GltfWriter::writeMotion()
 {
-    const std::vector<double>& times = motion_->times();
     if (!json_.contains("animations")) return;
+    const double start = times().front();
     std::string bytes;
-    for (const double time : times) {
-        appendBytes(bytes, static_cast<float>((time - times.front()) / scene_->framesPerSecond));
-    }
+    for (const double time : times())
+        appendBytes(bytes, static_cast<float>((time - start) / scene_->framesPerSecond));
     file_->write(bytes);
 
     const auto writeTracks = [&](bool Changes::*changes, auto valuesOf) {

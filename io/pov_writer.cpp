@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math/rotation.h"
+#include "core/scene/camera_motion.h"
 #include "core/scene/shaded_mesh.h"
 #include "io/atomic_file.h"
 #include "io/camera_pose.h"
@@ -78,7 +79,6 @@ private:
 void PovWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*frameCount*/)
 {
     scene_ = &scene;
-    if (!scene.cameras.empty()) camera_ = scene.cameras.front();
     isDrawn_.assign(scene.meshes.size(), false);
     for (const SceneBody& body : scene.bodies) isDrawn_[body.mesh] = true;
     for (const SceneMaterial& material : scene.materials) {
@@ -160,7 +160,10 @@ bool PovWriter::writeMesh(AtomicFile& file, std::size_t mesh) const
 
 void PovWriter::writeFrame(const SceneFrame& frame)
 {
-    if (!camera_) camera_ = cameraOfAll(*scene_, frame);
+    if (!scene_->cameras.empty())
+        camera_ = cameraAt(scene_->cameras.front(), frame.frame, scene_->zUp);
+    else if (!camera_)
+        camera_ = cameraOfAll(*scene_, frame);
 
     AtomicFile file(expandFramePattern(output_.string(), frame.frame));
     const std::string include = includeFile().filename().string();

@@ -18,6 +18,7 @@
 #include "core/scene/body.h"
 #include "core/scene/force_field.h"
 #include "core/scene/motion_script.h"
+#include "core/scene/scene_description.h"
 
 namespace scree {
 
@@ -119,13 +120,6 @@ enum class StartOverlapRule {
     separate,  ///< push them apart first
 };
 
-struct ShotCamera {
-    std::string name = "main";
-    Vec3 eye = Vec3::Zero();     ///< [m]
-    Vec3 target = Vec3::Zero();  ///< [m]
-    double fovDegrees = 35.0;    ///< vertical
-};
-
 struct ShotRender {
     std::array<int, 2> size = {1280, 720};
     bool burnIn = true;  ///< figures written into the pictures
@@ -136,6 +130,7 @@ struct ShotOutput {
     std::vector<std::string>
         exports;  ///< file name endings written when the simulation ends: "abc", …
     std::vector<double> subframes;  ///< samples around every frame [frames], see io/subframes.h
+    bool contacts = false;          ///< whether frames keep what their last step did
 };
 
 struct Shot {
@@ -154,7 +149,7 @@ struct Shot {
     std::vector<ShotBody> bodies;
     std::vector<ForceField> fields;  ///< SI
     std::vector<ShotPair> pairs;
-    std::vector<ShotCamera> cameras;
+    std::vector<SceneCamera> cameras;  ///< lengths [m]
     ShotRender render;
     ShotOutput output;
     std::string resolvedText;  ///< canonical TOML of everything, defaults included, --set applied

@@ -9,6 +9,7 @@
 #include "io/emitter.h"
 #include "io/nearest_word.h"
 #include "io/pose_file.h"
+#include "io/shot_camera.h"
 #include "io/shot_check.h"
 #include "io/shot_import.h"
 #include "io/shot_motion.h"
@@ -608,6 +609,7 @@ private:
                 shot_.output.exports.push_back(word.text);
             }
             readSubframes(*output->find("subframes"));
+            shot_.output.contacts = output->find("contacts")->boolean;
         }
     }
 
@@ -624,20 +626,12 @@ private:
 
     void readCamera(const ShotNode& node)
     {
-        ShotCamera camera;
         const ShotNode& name = *node.find("name");
-        camera.name = name.text;
-        for (const ShotCamera& other : shot_.cameras) {
-            if (other.name != camera.name) continue;
-            report(name, "camera name '" + camera.name + "' is taken by another camera");
+        for (const SceneCamera& other : shot_.cameras) {
+            if (other.name != name.text) continue;
+            report(name, "camera name '" + name.text + "' is taken by another camera");
         }
-        camera.target = toVec3(*node.find("target")) * shot_.metresPerUnit;
-        camera.fovDegrees = node.find("fov")->number;
-        if (const ShotNode* eye = node.find("eye")) {
-            camera.eye = toVec3(*eye) * shot_.metresPerUnit;
-            if (camera.eye == camera.target) report(*eye, "'eye' must not be where 'target' is");
-        }
-        shot_.cameras.push_back(camera);
+        shot_.cameras.push_back(interpretCamera(node, shot_, problems_));
     }
 
     static bool mentionsAny(const ShotNode& node, std::initializer_list<const char*> keys)

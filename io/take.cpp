@@ -304,9 +304,11 @@ std::vector<SceneFrame> TakeWriter::prepareFor(int frame, World& world) const
 }
 
 void TakeWriter::writeFrame(const World& world, const FrameStats& stats,
-                            const std::vector<SceneFrame>& between)
+                            const std::vector<SceneFrame>& between,
+                            const std::optional<StepSeen>& lastStep)
 {
-    const FrameState state = captureState(shot_, world, between);
+    FrameState state = captureState(shot_, world, between);
+    state.lastStep = lastStep;
     SCREE_CHECK(state.scene.frame == stats.frame && world.clock.subStep == 0,
                 "a frame is written at its boundary");
 

@@ -83,9 +83,10 @@ public:
     std::vector<SceneFrame> prepareFor(int frame, World& world) const;
 
     /// Stores the frame `world` has reached with the sub-frame samples of the way there; drops the
-    /// checkpoint that led to it.
+    /// checkpoint that led to it. `lastStep`: what the step that ended here did, if it is wanted.
     void writeFrame(const World& world, const FrameStats& stats,
-                    const std::vector<SceneFrame>& between = {});
+                    const std::vector<SceneFrame>& between = {},
+                    const std::optional<StepSeen>& lastStep = {});
 
     /// Stores `world` between two sub-steps.
     void writeCheckpoint(const World& world, const std::vector<SceneFrame>& between = {});

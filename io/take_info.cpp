@@ -7,6 +7,7 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/scene/camera_motion.h"
 #include "io/file_bytes.h"
 #include "io/subframes.h"
 
@@ -77,13 +78,39 @@ Json toJson(const TakeLook& look)
             {"friction", look.friction},   {"restitution", look.restitution}};
 }
 
-Json toJson(const TakeCamera& camera)
+Json toJson(const CameraKey& key)
 {
-    return {{"name", camera.name},
-            {"eye", toJson(camera.eye)},
-            {"target", toJson(camera.target)},
-            {"fov", camera.fovDegrees}};
+    return {{"frame", key.frame},
+            {"eye", toJson(key.eye)},
+            {"target", toJson(key.target)},
+            {"fov", key.fovDegrees}};
 }
+
+CameraKey keyFromJson(const Json& json)
+{
+    return {json.at("frame"), vectorFromJson(json.at("eye")), vectorFromJson(json.at("target")),
+            json.at("fov")};
+}
+
+Json toJson(const CameraOrbit& orbit)
+{
+    return {{"centre", toJson(orbit.centre)}, {"radius", orbit.radius},
+            {"height", orbit.height},         {"start", orbit.startDegrees},
+            {"degrees", orbit.degrees},       {"frames", {orbit.firstFrame, orbit.lastFrame}}};
+}
+
+CameraOrbit orbitFromJson(const Json& json)
+{
+    return {vectorFromJson(json.at("centre")),
+            json.at("radius"),
+            json.at("height"),
+            json.at("start"),
+            json.at("degrees"),
+            json.at("frames").at(0),
+            json.at("frames").at(1)};
+}
+
+Json toJson(const SceneCamera& camera);
 
 template <class T>
 Json listToJson(const std::vector<T>& items)
@@ -93,15 +120,43 @@ Json listToJson(const std::vector<T>& items)
     return list;
 }
 
+/// `eye` and `target` of a camera that moves are those of the shot's first frame.
+Json toJson(const SceneCamera& camera)
+{
+    Json json = {{"name", camera.name},
+                 {"eye", toJson(camera.eye)},
+                 {"target", toJson(camera.target)},
+                 {"fov", camera.fovDegrees}};
+    if (!camera.keys.empty()) {
+        json["keys"] = listToJson(camera.keys);
+        json["interpolate"] = camera.isSmooth ? "smooth" : "linear";
+    }
+    if (camera.orbit) json["orbit"] = toJson(*camera.orbit);
+    return json;
+}
+
+SceneCamera cameraFromJson(const Json& json)
+{
+    SceneCamera camera;
+    camera.name = json.at("name");
+    camera.eye = vectorFromJson(json.at("eye"));
+    camera.target = vectorFromJson(json.at("target"));
+    camera.fovDegrees = json.at("fov");
+    if (json.contains("keys")) {
+        for (const Json& key : json.at("keys")) camera.keys.push_back(keyFromJson(key));
+        camera.isSmooth = json.at("interpolate") == "smooth";
+    }
+    if (json.contains("orbit")) camera.orbit = orbitFromJson(json.at("orbit"));
+    return camera;
+}
+
 void readPictures(const Json& json, TakeInfo& info)
 {
     for (const Json& look : json.at("looks"))
         info.looks.push_back({look.at("material"), vectorFromJson(look.at("color")),
                               look.at("roughness"), look.value("density", 0.0),
                               look.value("friction", 0.0), look.value("restitution", 0.0)});
-    for (const Json& camera : json.at("cameras"))
-        info.cameras.push_back({camera.at("name"), vectorFromJson(camera.at("eye")),
-                                vectorFromJson(camera.at("target")), camera.at("fov")});
+    for (const Json& camera : json.at("cameras")) info.cameras.push_back(cameraFromJson(camera));
     info.pictureSize = {json.at("picture_size").at(0), json.at("picture_size").at(1)};
     info.burnIn = json.value("burnin", true);
     info.motionBlur = json.value("motion_blur", 1);
@@ -113,9 +168,8 @@ void describePictures(const Shot& shot, TakeInfo& info)
         info.looks.push_back({material.material.name, material.color, material.roughness,
                               material.material.density, material.material.friction,
                               material.material.restitution});
-    for (const ShotCamera& camera : shot.cameras)
-        info.cameras.push_back({camera.name, camera.eye / shot.metresPerUnit,
-                                camera.target / shot.metresPerUnit, camera.fovDegrees});
+    for (const SceneCamera& camera : shot.cameras)
+        info.cameras.push_back(scaled(camera, 1.0 / shot.metresPerUnit));
     info.pictureSize = shot.render.size;
     info.burnIn = shot.render.burnIn;
     info.motionBlur = shot.render.motionBlur;
@@ -159,6 +213,7 @@ TakeInfo infoFromJson(const Json& json)
     for (const Json& body : json.at("bodies")) info.bodies.push_back(bodyFromJson(body));
     readPictures(json, info);
     info.offsets = json.value("subframes", std::vector<double>{0.0});
+    info.hasContacts = json.value("contacts", false);
     info.resolvedShot = json.at("shot");
     return info;
 }
@@ -189,6 +244,7 @@ TakeInfo makeTakeInfo(const Shot& shot, const World& world, const SceneDescripti
     }
     describePictures(shot, info);
     info.offsets = sampleOffsets(shot.output.subframes);
+    info.hasContacts = shot.output.contacts;
     return info;
 }
 
@@ -219,6 +275,7 @@ std::string encodeTakeInfo(const TakeInfo& info)
         {"burnin", info.burnIn},
         {"motion_blur", info.motionBlur},
         {"subframes", info.offsets},
+        {"contacts", info.hasContacts},
         {"shot", info.resolvedShot},
     };
     if (!info.branchTake.empty()) {

@@ -45,14 +45,6 @@ struct TakeLook {
     double friction = 0.0, restitution = 0.0;
 };
 
-/// A camera in the shot's unit of length.
-struct TakeCamera {
-    std::string name;
-    Vec3 eye = Vec3::Zero();
-    Vec3 target = Vec3::Zero();
-    double fovDegrees = 35.0;  ///< vertical
-};
-
 struct TakeInfo {
     std::string programVersion;
     std::string name;
@@ -70,11 +62,12 @@ struct TakeInfo {
     std::vector<TakeShape> shapes;
     std::vector<TakeBody> bodies;
     std::vector<TakeLook> looks;
-    std::vector<TakeCamera> cameras;
+    std::vector<SceneCamera> cameras;
     std::array<int, 2> pictureSize = {1280, 720};
     bool burnIn = true;                   ///< figures written into the pictures
     int motionBlur = 1;                   ///< moments a picture is the mean of
     std::vector<double> offsets = {0.0};  ///< of the samples around every frame (io/subframes.h)
+    bool hasContacts = false;             ///< frames hold what their last step did
 };
 
 /// Everything but the hashes of the shapes, which exist once they are written. `scene` is what

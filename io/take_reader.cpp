@@ -92,8 +92,7 @@ SceneDescription TakeReader::describe() const
     for (const TakeLook& look : info_.looks)
         scene.materials.push_back({look.material, look.color, look.roughness, look.density,
                                    look.friction, look.restitution});
-    for (const TakeCamera& camera : info_.cameras)
-        scene.cameras.push_back({camera.name, camera.eye, camera.target, camera.fovDegrees});
+    scene.cameras = info_.cameras;
     scene.aspect = static_cast<double>(info_.pictureSize[0]) / info_.pictureSize[1];
     return scene;
 }

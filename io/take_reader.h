@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,10 @@ public:
     /// The frame and its sub-frame samples, one for each of offsets(). Where nothing was simulated,
     /// before the first and after the last frame, bodies coast. Throws as readFrame does.
     std::vector<SceneFrame> readSamples(int frame) const;
+
+    /// What the step that ended at the frame did (SI), where the shot asked for it with
+    /// output.contacts; nothing at the first frame, which no step led to. Throws as readFrame does.
+    std::optional<StepSeen> readLastStep(int frame) const { return readState(frame).lastStep; }
 
     std::vector<FrameSummary> stats() const { return readStats(paths_.stats()); }
 

@@ -5,6 +5,7 @@
 #include "core/math/rotation.h"
 #include "core/scene/shaded_mesh.h"
 #include "io/camera_pose.h"
+#include "io/motion_spool.h"
 #include "io/unique_names.h"
 
 namespace scree {
@@ -111,28 +112,55 @@ void writeMesh(UsdText& text, const std::string& name, const SceneMesh& mesh)
     text.closePrim();
 }
 
-void writeCamera(UsdText& text, const std::string& name, const SceneDescription& scene,
-                 const SceneCamera& camera)
+std::string floatText(double value)
 {
-    const Pose pose = worldFromCamera(camera, scene.zUp);
-    const double distance = std::max((camera.eye - camera.target).norm(), 1e-6);
-    const double focalLength = 0.5 * kApertureHeight / std::tan(camera.fovDegrees * kPi / 360.0);
-    const auto number = [&](const char* attribute, double value) {
-        text.line("float " + std::string(attribute) + " = " +
-                  numberText(static_cast<float>(value)));
+    return numberText(static_cast<float>(value));
+}
+
+double targetDistance(const SceneCamera& camera)
+{
+    return std::max((camera.eye - camera.target).norm(), 1e-6);
+}
+
+std::string clippingText(const SceneCamera& camera)
+{
+    const double distance = targetDistance(camera);
+    return usdTuple(
+        Eigen::Vector2d(kNearest * distance, kFarthest * distance).cast<float>().eval());
+}
+
+std::string focalText(const SceneCamera& camera)
+{
+    return floatText(0.5 * kApertureHeight / std::tan(camera.fovDegrees * kPi / 360.0));
+}
+
+std::string focusText(const SceneCamera& camera)
+{
+    return floatText(targetDistance(camera));
+}
+
+void writeCamera(UsdText& text, const std::string& name, const SceneDescription& scene,
+                 const SceneCamera& camera, const std::vector<double>& times)
+{
+    const std::vector<SceneCamera> samples = camerasAt(camera, times, scene.zUp);
+    const auto track = [&](const char* attribute, const auto& items, const auto& textOf) {
+        std::vector<std::string> values;
+        for (const auto& item : items) values.push_back(textOf(item));
+        writeUsdTrack(text, attribute, times, values);
     };
     text.openPrim(usdPrim("Camera", name));
-    const Eigen::Vector2f range =
-        Eigen::Vector2d(kNearest * distance, kFarthest * distance).cast<float>();
-    text.line("float2 clippingRange = " + usdTuple(range));
-    number("focalLength", focalLength);
-    number("focusDistance", distance);
-    number("horizontalAperture", kApertureHeight * scene.aspect);
+    track("float2 clippingRange", samples, clippingText);
+    track("float focalLength", samples, focalText);
+    track("float focusDistance", samples, focusText);
+    text.line("float horizontalAperture = " + floatText(kApertureHeight * scene.aspect));
     text.line("token projection = \"perspective\"");
-    number("verticalAperture", kApertureHeight);
+    text.line("float verticalAperture = " + floatText(kApertureHeight));
     writeUsdOldName(text, camera.name, name);
-    text.line("quatf xformOp:orient = " + usdTuple(usdQuaternion(pose.orientation)));
-    text.line("double3 xformOp:translate = " + usdTuple(pose.position));
+    const std::vector<Pose> poses = worldFromCameras(samples, scene.zUp);
+    track("quatf xformOp:orient", poses,
+          [](const Pose& pose) { return usdTuple(usdQuaternion(pose.orientation)); });
+    track("double3 xformOp:translate", poses,
+          [](const Pose& pose) { return usdTuple(pose.position); });
     text.line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
     text.closePrim();
 }
@@ -217,11 +245,26 @@ void writeUsdMeshes(UsdText& text, const UsdNames& names, const SceneDescription
     text.closePrim();
 }
 
-void writeUsdCameras(UsdText& text, const UsdNames& names, const SceneDescription& scene)
+void writeUsdCameras(UsdText& text, const UsdNames& names, const SceneDescription& scene,
+                     const std::vector<double>& times)
 {
     for (std::size_t k = 0; k < scene.cameras.size(); ++k) {
-        writeCamera(text, names.cameras[k], scene, scene.cameras[k]);
+        writeCamera(text, names.cameras[k], scene, scene.cameras[k], times);
     }
+}
+
+void writeUsdTrack(UsdText& text, const std::string& attribute, const std::vector<double>& times,
+                   const std::vector<std::string>& values)
+{
+    const std::vector<std::size_t> needed = neededTimes(
+        values.size(), [&](std::size_t i, std::size_t j) { return values[i] == values[j]; });
+    if (needed.size() == 1) {
+        text.line(attribute + " = " + values[0]);
+        return;
+    }
+    text.openTimes(attribute);
+    for (const std::size_t i : needed) text.time(times[i], values[i]);
+    text.closeTimes();
 }
 
 std::vector<std::string> usdBodyMetadata(const UsdNames& names, const SceneBody& body,

@@ -44,7 +44,14 @@ void writeUsdMaterials(UsdText& text, const UsdNames& names, const SceneDescript
 /// The meshes that bodies use, with normals that are sharp at creases. Not subdivided by readers.
 void writeUsdMeshes(UsdText& text, const UsdNames& names, const SceneDescription& scene);
 
-void writeUsdCameras(UsdText& text, const UsdNames& names, const SceneDescription& scene);
+/// As they are at each of `times` [frames].
+void writeUsdCameras(UsdText& text, const UsdNames& names, const SceneDescription& scene,
+                     const std::vector<double>& times);
+
+/// An attribute over time, `values` parallel to `times`; without time where it stays the same.
+/// Samples with equal text are equal to a reader.
+void writeUsdTrack(UsdText& text, const std::string& attribute, const std::vector<double>& times,
+                   const std::vector<std::string>& values);
 
 /// Metadata of a prim that stands for `body`: its mesh, and the schemas of writeUsdBodyProperties.
 std::vector<std::string> usdBodyMetadata(const UsdNames& names, const SceneBody& body,

@@ -53,22 +53,13 @@ std::string orientationText(const MotionSample& sample)
     return usdTuple(usdQuaternion(sample.worldFromAsset.orientation));
 }
 
-/// An attribute over time; samples with equal text are equal to a reader.
 void writeTrack(UsdText& text, const std::string& attribute, const std::vector<double>& times,
                 std::span<const MotionSample> track, std::string (*valueText)(const MotionSample&))
 {
     std::vector<std::string> values;
     values.reserve(track.size());
     for (const MotionSample& sample : track) values.push_back(valueText(sample));
-    const std::vector<std::size_t> needed = neededTimes(
-        values.size(), [&](std::size_t i, std::size_t j) { return values[i] == values[j]; });
-    if (needed.size() == 1) {
-        text.line(attribute + " = " + values[0]);
-        return;
-    }
-    text.openTimes(attribute);
-    for (const std::size_t i : needed) text.time(times[i], values[i]);
-    text.closeTimes();
+    writeUsdTrack(text, attribute, times, values);
 }
 
 void UsdWriter::beginScene(const SceneDescription& scene, int firstFrame, int frameCount)
@@ -99,7 +90,7 @@ void UsdWriter::finishScene()
     writeUsdOldName(text, scene_->name, names_->root);
     writeUsdMaterials(text, *names_, *scene_);
     writeUsdMeshes(text, *names_, *scene_);
-    writeUsdCameras(text, *names_, *scene_);
+    writeUsdCameras(text, *names_, *scene_, times());
     writeStaticBodies(text);
     if (form_ == UsdForm::instancer) {
         writeUsdInstancer(text, *names_, *scene_, *motion_);

@@ -78,18 +78,6 @@ Vec3 mixed(const Vec3& a, const Vec3& b, double share)
     return (1.0 - share) * a + share * b;
 }
 
-/// The shaders' tone curve: straight up to a shoulder, then bent below white.
-Vec3 displayed(const Vec3& light)
-{
-    constexpr double kShoulder = 0.6;
-    Vec3 result;
-    for (int i = 0; i < 3; ++i) {
-        const double over = std::max(light[i] - kShoulder, 0.0) / (1.0 - kShoulder);
-        result[i] = std::min(light[i], kShoulder) + (1.0 - kShoulder) * (1.0 - std::exp(-over));
-    }
-    return result;
-}
-
 /// The shaders' microfacet highlight.
 double highlight(const Vec3& n, const Vec3& v, const Vec3& toSun, double facing, double roughness)
 {
@@ -430,8 +418,8 @@ Vec3 RayTracer::Tracer::colorOf(const View& view, std::uint64_t pixel, int sampl
     const std::optional<Hit> plane = firstPlane(view, ray, x, y);
     if (plane && (!hit || plane->distance < hit->distance)) hit = plane;
     const Vec3 behind = background(ray.direction);
-    if (!hit) return displayed(behind);
-    return displayed(mixed(shaded(view, *hit, pixel, sample), behind, hit->haze));
+    if (!hit) return tonedForDisplay(behind);
+    return tonedForDisplay(mixed(shaded(view, *hit, pixel, sample), behind, hit->haze));
 }
 
 Image RayTracer::Tracer::draw(const SceneFrame& frame, const Camera& camera, int width, int height)

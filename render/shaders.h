@@ -88,12 +88,13 @@ vec3 background(vec3 direction)
     return mix(end, kHorizon, exp(-3.2 * abs(height)));
 }
 
-// Straight up to a shoulder, then bent so that no light, however bright, quite reaches white.
+// As film does: a toe that keeps what is deep in shadow dark, straight between, and a shoulder
+// behind which no light, however bright, quite reaches white. See tonedForDisplay in stage.h.
 vec3 displayed(vec3 light)
 {
-    const float shoulder = 0.6;
-    vec3 over = max(light - shoulder, 0.0) / (1.0 - shoulder);
-    return min(light, shoulder) + (1.0 - shoulder) * (1.0 - exp(-over));
+    vec3 c = kFilmGain * light * light / (light + kFilmToe);
+    vec3 over = max(c - kFilmShoulder, 0.0) / (1.0 - kFilmShoulder);
+    return min(c, kFilmShoulder) + (1.0 - kFilmShoulder) * (1.0 - exp(-over));
 }
 
 vec4 encoded(vec3 light)

@@ -2,6 +2,7 @@
 #include "render/stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace scree {
@@ -12,6 +13,13 @@ std::string glslConstant(const char* name, const Vec3& value)
     char text[160];
     std::snprintf(text, sizeof text, "const vec3 %s = vec3(%.9g, %.9g, %.9g);\n", name, value.x(),
                   value.y(), value.z());
+    return text;
+}
+
+std::string glslConstant(const char* name, double value)
+{
+    char text[80];
+    std::snprintf(text, sizeof text, "const float %s = %.9g;\n", name, value);
     return text;
 }
 
@@ -71,11 +79,24 @@ double typicalRadius(const SceneDescription& scene, const std::vector<double>& m
     return *middle;
 }
 
+Vec3 tonedForDisplay(const Vec3& light)
+{
+    Vec3 shown;
+    for (int i = 0; i < 3; ++i) {
+        const double toned = kFilmGain * light[i] * light[i] / (light[i] + kFilmToe);
+        const double over = std::max(toned - kFilmShoulder, 0.0) / (1.0 - kFilmShoulder);
+        shown[i] = std::min(toned, kFilmShoulder) + (1.0 - kFilmShoulder) * (1.0 - std::exp(-over));
+    }
+    return shown;
+}
+
 std::string lightConstantsInGlsl()
 {
     return glslConstant("kSun", kSunLight) + glslConstant("kZenith", kZenithColor) +
            glslConstant("kHorizon", kHorizonColor) + glslConstant("kNadir", kNadirColor) +
-           glslConstant("kSkyLight", kSkyLight) + glslConstant("kGroundLight", kGroundLight);
+           glslConstant("kSkyLight", kSkyLight) + glslConstant("kGroundLight", kGroundLight) +
+           glslConstant("kFilmToe", kFilmToe) + glslConstant("kFilmGain", kFilmGain) +
+           glslConstant("kFilmShoulder", kFilmShoulder);
 }
 
 }  // namespace scree

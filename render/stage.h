@@ -29,6 +29,14 @@ inline const Vec3 kNadirColor(0.10, 0.105, 0.115);
 inline const Vec3 kSkyLight(0.22, 0.27, 0.35);
 inline const Vec3 kGroundLight(0.15, 0.125, 0.10);
 
+/// The tone curve: `toe` is the light [-] below which it falls off with the square, `gain` what it
+/// rises by above, `shoulder` where it begins to bend towards white. Tuned on shots/rings_100,
+/// whose picture was grey and flat with a gain of 1 and no toe.
+inline constexpr double kFilmToe = 0.035, kFilmGain = 1.2, kFilmShoulder = 0.6;
+
+/// What a display shows of light in a scene, both linear.
+Vec3 tonedForDisplay(const Vec3& light);
+
 /// Haze on planes begins and ends at these multiples of the distance from eye to target: measured
 /// from the eye, so that it stands still while the heap moves.
 inline constexpr double kHazeBegin = 1.1, kHazeEnd = 6.0;

@@ -210,7 +210,7 @@ Command addRenderCommand(CLI::App& program)
                      "Mean of so many moments while the shutter is open [1: none]")
         ->check(CLI::Range(1, 1000));
     command->add_option("--look", options->look,
-                        "Colours tell: shaded, wireframe, speed, sleep or id [shaded]");
+                        "What colours tell: " + knownLooks() + " [shaded]");
     CLI::Option* burnIn = command->add_flag("--burnin", options->burnIn,
                                             "Shot, frame, time, bodies and overlap in the picture");
     command->add_flag("--no-burnin", options->noBurnIn, "Nothing written into the pictures")

@@ -127,6 +127,7 @@ private:
 
         Progress progress(console_, progressMode_, "sim", total, total - missing);
         Stepper stepper(shot_.settings);
+        if (shot_.output.contacts) stepper.observe(&lastStep_);
         if (!take_->hasFrame(shot_.firstFrame)) {
             writeInitialFrame();
             progress.frameDone(shot_.firstFrame, 0.0);
@@ -171,7 +172,7 @@ private:
             stoppedIn_ = frame;
             return;
         }
-        take_->writeFrame(world_, stats, subframes_->samples());
+        take_->writeFrame(world_, stats, subframes_->samples(), lastStep());
         subframes_->begin(world_, {});
         warnOfOverlap(frame, stats.report);
         warnOfCap(frame, stats.report);
@@ -183,6 +184,13 @@ private:
             isStopped_ = true;
             stoppedIn_ = frame + 1;
         }
+    }
+
+    /// A frame's last step is never taken in an earlier sitting: checkpoints need not keep it.
+    std::optional<StepSeen> lastStep() const
+    {
+        if (!shot_.output.contacts) return {};
+        return lastStep_.seen;
     }
 
     void saveAndTell(int frame)
@@ -315,6 +323,7 @@ private:
     World world_;
     std::optional<TakeWriter> take_;
     std::optional<SubframeRecorder> subframes_;
+    LastStep lastStep_;
     int lastFrame_ = 0;
     bool isStopped_ = false;
     int stoppedIn_ = 0;

@@ -39,9 +39,17 @@ def read_motion(take):
         yield frame, blocks["asset.position"], blocks["asset.orientation"]
 
 
+def forces(blocks):
+    """Mean force [N] that each contact put on its first body in the step that ended at the frame."""
+    return blocks["contact.impulse"] / blocks["step.dt"][0, 0]
+
+
 if __name__ == "__main__":
     frame, blocks = read_frame(sys.argv[1])
     take = json.loads((pathlib.Path(sys.argv[1]).parents[1] / "take.json").read_text())
     print(f"frame {frame} of {take['name']}")
     for body, place, turn in zip(take["bodies"], blocks["asset.position"], blocks["asset.orientation"]):
         print(f"{body['name']:24} position {place}  orientation w x y z {turn}")
+    if "step.dt" in blocks:
+        for (a, b), force in zip(blocks["contact.bodies"], forces(blocks)):
+            print(f"{take['bodies'][b]['name']} on {take['bodies'][a]['name']}: force {force} N")

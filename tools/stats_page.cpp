@@ -68,6 +68,11 @@ function colors() {
   const style = getComputedStyle(document.documentElement), of = n => style.getPropertyValue('--' + n).trim();
   return {ink: of('ink'), faint: of('faint'), line: of('line'), series: ['a','b','c','d','e','f','g'].map(of)};
 }
+// The distance between lines at round numbers, three to eight of them.
+function roundStep(range) {
+  const power = 10 ** Math.floor(Math.log10(range / 4));
+  return power * [1, 2, 5, 10].find(m => range / (m * power) <= 6);
+}
 function draw(plot) {
   const canvas = plot.canvas, ratio = devicePixelRatio || 1, color = colors();
   const width = canvas.clientWidth, height = canvas.clientHeight;
@@ -77,13 +82,15 @@ function draw(plot) {
   const left = 58, right = width - 8, top = 8, bottom = height - 20;
   // Where nothing was simulated, as in the first frame, there is nothing to plot.
   const values = plot.series.map(([, f]) => stats.map(s => s.substeps ? f(s) : NaN)), all = values.flat().filter(isFinite);
-  let least = Math.min(0, ...all), most = Math.max(...all, least + 1e-12);
+  const lowest = Math.min(0, ...all), highest = Math.max(...all, lowest + 1e-12);
+  const step = roundStep(highest - lowest);
+  const least = step * Math.floor(lowest / step), most = step * Math.ceil(highest / step - 1e-9);
   const x = i => left + (right - left) * (stats.length > 1 ? i / (stats.length - 1) : 0.5);
   const y = v => bottom - (bottom - top) * (v - least) / (most - least);
   pen.font = '11px system-ui, sans-serif';
   pen.textBaseline = 'middle';
-  for (let k = 0; k <= 4; ++k) {
-    const v = least + (most - least) * k / 4;
+  for (let k = Math.round(least / step); k <= Math.round(most / step); ++k) {
+    const v = k * step;
     pen.strokeStyle = color.line; pen.beginPath(); pen.moveTo(left, y(v)); pen.lineTo(right, y(v)); pen.stroke();
     pen.fillStyle = color.faint; pen.textAlign = 'right'; pen.fillText(number(v), left - 6, y(v));
   }

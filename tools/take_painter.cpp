@@ -1,57 +1,21 @@
 #include "tools/take_painter.h"
 
 #include <algorithm>
-#include <map>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/base/random.h"
 #include "core/math/aabb.h"
-#include "io/nearest_word.h"
+#include "core/scene/camera_motion.h"
 #include "io/subframes.h"
 #include "render/rasterizer.h"
 #include "render/ray_tracer.h"
 #include "render/text.h"
-#include "tools/command_line.h"
 
 namespace scree {
 namespace {
 
-/// Frames that are looked at to find how fast bodies get.
-constexpr int kScaleFrames = 24;
-
 /// Half the time that the shutter is open where the take has no samples that tell [frames].
 constexpr double kHalfShutter = 0.25;
-
-const std::array<std::pair<const char*, LookKind>, 5> kLookWords = {{
-    {"shaded", LookKind::shaded},
-    {"wireframe", LookKind::wireframe},
-    {"speed", LookKind::speed},
-    {"sleep", LookKind::sleep},
-    {"id", LookKind::id},
-}};
-
-const Look kStillLook = {{0.10, 0.22, 0.42}, 0.7}, kMovingLook = {{0.78, 0.30, 0.07}, 0.7};
-
-/// The next number at or above `value` that is 1, 2 or 5 times a power of ten.
-double roundedUp(double value)
-{
-    double step = 1e-6;
-    for (int i = 0; step < value && i < 60; ++i) step *= i % 3 == 1 ? 2.5 : 2.0;
-    return step;
-}
-
-/// A colour that is unlike those of bodies nearby in the list.
-Vec3 colorOfId(std::size_t body)
-{
-    const double hue = 6.0 * randomUnit(11, body), light = 0.25 + 0.45 * randomUnit(12, body);
-    Vec3 color;
-    for (int i = 0; i < 3; ++i) {
-        const double turned = std::fmod(hue + 2.0 * i, 6.0);
-        color[i] = light * (0.15 + 0.85 * std::clamp(std::abs(turned - 3.0) - 1.0, 0.0, 1.0));
-    }
-    return color;
-}
 
 /// The sample at `offset` frames from the frame that `samples` surround: between two of them, or
 /// coasting beyond the outermost.
@@ -73,16 +37,6 @@ SceneFrame sampleAt(const std::vector<SceneFrame>& samples, double offset, doubl
                                     from.orientation.slerp(share, to.orientation)};
     }
     return result;
-}
-
-std::vector<Look> looksOf(const TakeInfo& info, const SceneDescription& scene)
-{
-    std::map<std::string, Look> byMaterial;
-    for (const TakeLook& look : info.looks)
-        byMaterial[look.material] = {look.color, look.roughness};
-    std::vector<Look> looks;
-    for (const SceneBody& body : scene.bodies) looks.push_back(byMaterial[body.material]);
-    return variedLooks(scene, looks);
 }
 
 /// Around everything that movable bodies do, or around all bodies when none moves; planes not at
@@ -111,21 +65,18 @@ Aabb actionBox(const TakeReader& take, const SceneDescription& scene)
     return all.isEmpty() ? Aabb{-Vec3::Ones(), Vec3::Ones()} : all;
 }
 
-Camera chooseCamera(const TakeReader& take, const SceneDescription& scene, const std::string& name,
-                    double aspect)
+SceneCamera chooseCamera(const TakeReader& take, const SceneDescription& scene,
+                         const std::string& name, double aspect)
 {
-    const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
     std::string known;
-    for (const TakeCamera& camera : take.info().cameras) {
-        if (name.empty() || camera.name == name)
-            return {camera.eye, camera.target, up, camera.fovDegrees};
+    for (const SceneCamera& camera : take.info().cameras) {
+        if (name.empty() || camera.name == name) return camera;
         known += (known.empty() ? "" : ", ") + camera.name;
     }
     if (!name.empty())
         throw Error(ErrorKind::usage, "the shot has no camera \"" + name + "\"" +
                                           (known.empty() ? "" : "; it has " + known));
-    const SceneCamera view = viewOfAction(take, scene, aspect);
-    return {view.eye, view.target, up, view.fovDegrees};
+    return viewOfAction(take, scene, aspect);
 }
 
 }  // namespace
@@ -134,18 +85,12 @@ SceneCamera viewOfAction(const TakeReader& take, const SceneDescription& scene, 
 {
     const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
     const Camera view = frameAll(actionBox(take, scene), threeQuarterView(scene.zUp), up, aspect);
-    return {"view", view.eye, view.target, view.fovDegrees};
-}
-
-LookKind parseLook(const std::string& word)
-{
-    std::vector<std::string> known;
-    for (const auto& [name, kind] : kLookWords) {
-        if (word == name) return kind;
-        known.push_back(name);
-    }
-    throw Error(ErrorKind::usage,
-                "--look " + word + ": the looks are " + joined(known) + didYouMean(word, known));
+    SceneCamera camera;
+    camera.name = "view";
+    camera.eye = view.eye;
+    camera.target = view.target;
+    camera.fovDegrees = view.fovDegrees;
+    return camera;
 }
 
 /// An engine of its own for as long as a picture takes.
@@ -170,6 +115,7 @@ public:
         painter_.freeEngines_.push_back(std::move(engine_));
     }
     PictureEngine* operator->() const { return engine_.get(); }
+    PictureEngine& operator*() const { return *engine_; }
 
 private:
     TakePainter& painter_;
@@ -178,27 +124,19 @@ private:
 
 TakePainter::TakePainter(const TakeReader& take, const std::string& cameraName,
                          const std::array<int, 2>& size, const PaintSettings& settings)
-    : take_(take), scene_(take.describe()), size_(size), settings_(settings)
+    : take_(take),
+      scene_(take.describe()),
+      camera_(chooseCamera(take, scene_, cameraName, static_cast<double>(size[0]) / size[1])),
+      size_(size),
+      settings_(settings),
+      looks_(take, scene_, settings.look)
 {
-    const double aspect = static_cast<double>(size[0]) / size[1];
-    camera_ = chooseCamera(take, scene_, cameraName, aspect);
-    materialLooks_ = looksOf(take.info(), scene_);
-    if (settings.look == LookKind::speed) chooseScale();
-    if (settings.look == LookKind::sleep)
-        legend_.entries = {{kMovingLook.color.cast<float>(), "moves"},
-                           {kStillLook.color.cast<float>(), "stands still"}};
 }
 
-/// One scale for the whole shot: a colour means the same speed in every picture.
-void TakePainter::chooseScale()
+Camera TakePainter::cameraAtFrame(double frame) const
 {
-    double fastest = 1e-3;
-    for (const int number : spreadFrames(take_.frames(), kScaleFrames))
-        for (const Vec3& velocity : take_.readFrame(number).velocity)
-            if (velocity.allFinite()) fastest = std::max(fastest, velocity.norm());
-    fastest_ = roundedUp(fastest);
-    legend_.title = "units/s";
-    legend_.scaleEnd = fastest_;
+    const SceneCamera now = cameraAt(camera_, frame, scene_.zUp);
+    return {now.eye, now.target, scene_.zUp ? Vec3::UnitZ() : Vec3::UnitY(), now.fovDegrees};
 }
 
 std::unique_ptr<PictureEngine> TakePainter::makeEngine() const
@@ -211,11 +149,11 @@ std::unique_ptr<PictureEngine> TakePainter::makeEngine() const
         // A blurred picture is the mean of several: each needs only its share of the rays.
         if (settings_.motionBlur > 1)
             settings.samples = std::max(1, settings.samples / settings_.motionBlur);
-        return std::make_unique<RayTracer>(scene_, materialLooks_, settings);
+        return std::make_unique<RayTracer>(scene_, looks_.materials(), settings);
     }
     RasterSettings settings{stage};
     if (settings_.samples > 0) settings.samples = settings_.samples;
-    return std::make_unique<Rasterizer>(scene_, materialLooks_, settings);
+    return std::make_unique<Rasterizer>(scene_, looks_.materials(), settings);
 }
 
 int TakePainter::usefulThreads() const
@@ -223,59 +161,33 @@ int TakePainter::usefulThreads() const
     return settings_.isRayTraced ? 1 : threadCount();
 }
 
-std::vector<Look> TakePainter::looksIn(const SceneFrame& frame) const
-{
-    std::vector<Look> looks = materialLooks_;
-    for (std::size_t body = 0; body < looks.size(); ++body) {
-        if (!scene_.bodies[body].moves) {
-            looks[body].color = Vec3::Constant(0.35 * looks[body].color.mean() + 0.1);
-            continue;
-        }
-        const Vec3 &v = frame.velocity[body], &w = frame.angularVelocity[body];
-        switch (settings_.look) {
-            case LookKind::speed:
-                looks[body] = {scaleColor(v.norm() / fastest_).cast<double>(), 0.7};
-                break;
-            case LookKind::sleep:
-                looks[body] = v.isZero(0.0) && w.isZero(0.0) ? kStillLook : kMovingLook;
-                break;
-            case LookKind::id:
-                looks[body] = {colorOfId(body), 0.7};
-                break;
-            case LookKind::shaded:
-            case LookKind::wireframe:
-                break;
-        }
-    }
-    return looks;
-}
-
 Image TakePainter::paint(int frame, const std::string& burnedIn)
 {
-    const bool isDiagnostic =
-        settings_.look != LookKind::shaded && settings_.look != LookKind::wireframe;
     BorrowedEngine engine(*this);
-    Image image;
-    if (settings_.motionBlur < 2) {
-        const SceneFrame now = take_.readFrame(frame);
-        if (isDiagnostic) engine->setLooks(looksIn(now));
-        image = engine->draw(now, camera_, size_[0], size_[1]);
-    } else {
-        const std::vector<SceneFrame> samples = take_.readSamples(frame);
-        if (isDiagnostic) engine->setLooks(looksIn(take_.readFrame(frame)));
-        const bool tells = samples.size() > 1;
-        const double opens = tells ? samples.front().offset : -kHalfShutter;
-        const double closes = tells ? samples.back().offset : kHalfShutter;
-        image = Image(size_[0], size_[1]);
-        for (int i = 0; i < settings_.motionBlur; ++i) {
-            const double offset = opens + (closes - opens) * (i + 0.5) / settings_.motionBlur;
-            const SceneFrame moment = sampleAt(samples, offset, take_.info().framesPerSecond);
-            addShare(image, engine->draw(moment, camera_, size_[0], size_[1]),
-                     1.0f / static_cast<float>(settings_.motionBlur));
-        }
-    }
-    drawLegend(image, legend_);
+    const SceneFrame now = take_.readFrame(frame);
+    if (looks_.isDiagnostic()) engine->setLooks(looks_.looksAt(now));
+    const Camera camera = cameraAtFrame(frame);
+    Image image = settings_.motionBlur < 2 ? engine->draw(now, camera, size_[0], size_[1])
+                                           : drawBlurred(*engine, frame);
+    looks_.drawOver(image, camera, frame);
     if (!burnedIn.empty()) burnIn(image, burnedIn);
+    return image;
+}
+
+/// The mean of the moments in the middle of equal shares of the time that the shutter is open.
+Image TakePainter::drawBlurred(PictureEngine& engine, int frame) const
+{
+    const std::vector<SceneFrame> samples = take_.readSamples(frame);
+    const bool tells = samples.size() > 1;
+    const double opens = tells ? samples.front().offset : -kHalfShutter;
+    const double closes = tells ? samples.back().offset : kHalfShutter;
+    Image image(size_[0], size_[1]);
+    for (int i = 0; i < settings_.motionBlur; ++i) {
+        const double offset = opens + (closes - opens) * (i + 0.5) / settings_.motionBlur;
+        const SceneFrame moment = sampleAt(samples, offset, take_.info().framesPerSecond);
+        addShare(image, engine.draw(moment, cameraAtFrame(frame + offset), size_[0], size_[1]),
+                 1.0f / static_cast<float>(settings_.motionBlur));
+    }
     return image;
 }
 

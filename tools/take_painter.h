@@ -1,5 +1,5 @@
-// Take → pictures: looks from the take's materials or from what bodies do, a camera by name or one
-// that sees everything, motion blur from the take's sub-frame samples.
+// Take → pictures: looks (take_looks.h), a camera by name or one that sees everything, motion blur
+// from the take's sub-frame samples.
 #pragma once
 
 #include <array>
@@ -10,19 +10,10 @@
 
 #include "io/take_reader.h"
 #include "render/camera.h"
-#include "render/legend.h"
 #include "render/picture_engine.h"
+#include "tools/take_looks.h"
 
 namespace scree {
-
-/// What colours tell.
-enum class LookKind {
-    shaded,     ///< the materials, each body a little different
-    wireframe,  ///< the same with the edges of all triangles
-    speed,      ///< how fast the origin of a body moves
-    sleep,      ///< whether a body moves at all
-    id          ///< which body it is: neighbours in the list look unlike each other
-};
 
 struct PaintSettings {
     bool isRayTraced = false;  ///< Embree instead of OSMesa
@@ -30,9 +21,6 @@ struct PaintSettings {
     LookKind look = LookKind::shaded;
     int motionBlur = 0;  ///< moments a picture is the mean of [-]; below 2: no blur
 };
-
-/// "shaded", "wireframe", "speed", "sleep" or "id"; throws Error{usage} naming the nearest one.
-LookKind parseLook(const std::string& word);
 
 /// A camera that sees all that movable bodies do in the take, or all bodies when none moves; it
 /// never cuts anything off. For shots that have no camera.
@@ -56,17 +44,15 @@ private:
     class BorrowedEngine;
 
     std::unique_ptr<PictureEngine> makeEngine() const;
-    std::vector<Look> looksIn(const SceneFrame& frame) const;
-    void chooseScale();
+    Camera cameraAtFrame(double frame) const;
+    Image drawBlurred(PictureEngine& engine, int frame) const;
 
     const TakeReader& take_;
     SceneDescription scene_;
-    Camera camera_;
+    SceneCamera camera_;
     std::array<int, 2> size_;
     PaintSettings settings_;
-    std::vector<Look> materialLooks_;
-    double fastest_ = 0.0;  // end of the scale of speeds [units per second]
-    Legend legend_;
+    TakeLooks looks_;
     std::mutex engineLock_;
     std::vector<std::unique_ptr<PictureEngine>> freeEngines_;
 };

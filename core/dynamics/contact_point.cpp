@@ -3,6 +3,7 @@
 #include "core/collision/moving_samples.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/rolling_friction.h"
+#include "core/dynamics/step_view.h"
 #include "core/geometry/surface_curvature.h"
 #include "core/geometry/surface_normal.h"
 
@@ -32,6 +33,7 @@ ContactPoint placeAsIs(const World& world, const PairRecord& pair, const Touch& 
 
     ContactPoint contact;
     contact.sampleBody = ownedByA ? pair.bodies.a : pair.bodies.b;
+    contact.sample = touch.sample;
     contact.fieldBody = ownedByA ? pair.bodies.b : pair.bodies.a;
     contact.rS = poseS.orientation * touch.point;
     contact.rF = poseS.position - poseF.position + contact.rS;
@@ -100,6 +102,17 @@ RollingImpulse rollingAt(const World& world, const StepSettings& settings, const
         pair.rolling, factor);
 }
 
+/// An impulse on the body that owns the sample, told as one between A and B.
+ContactSeen seenAt(const PairRecord& pair, const ContactPoint& contact, const ContactFrames& frames,
+                   const Vec3& impulse)
+{
+    const bool ownedByA = contact.sampleBody == pair.bodies.a;
+    const Pose& poseS = ownedByA ? frames.geometry.worldFromA : frames.geometry.worldFromB;
+    const double sign = ownedByA ? 1.0 : -1.0;
+    return {pair.bodies.a, pair.bodies.b, poseS.position + contact.rS, sign * contact.normal,
+            sign * impulse};
+}
+
 }  // namespace
 
 ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
@@ -130,7 +143,7 @@ void updateApproach(const World& world, const PairRecord& pair, const PairInerti
                 pointVelocity(world.motion[contact.fieldBody], inverseF, contact.rF);
 }
 
-void applyContact(World& world, const StepSettings& settings, const PairRecord& pair,
+void applyContact(World& world, const StepSettings& settings, PairRecord& pair,
                   const ContactPoint& contact, const ContactFrames& frames,
                   const PairInertia& inertia, double restitution, ImpulseCounts& counts)
 {
@@ -150,9 +163,11 @@ void applyContact(World& world, const StepSettings& settings, const PairRecord& 
     applyCouple(world.motion[contact.sampleBody], ofS, applied.couple);
     applyCouple(world.motion[contact.fieldBody], ofF, -applied.couple);
     countImpulse(counts, j.kind);
+    if (pair.isWatched)
+        noteImpulse(pair, contact.sample, ownedByA, seenAt(pair, contact, frames, applied.impulse));
 }
 
-bool applyDeepest(World& world, const StepSettings& settings, const PairRecord& pair,
+bool applyDeepest(World& world, const StepSettings& settings, PairRecord& pair,
                   const ContactFrames& frames, const PairInertia& inertia, double restitution,
                   double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
 {

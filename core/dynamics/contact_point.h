@@ -13,7 +13,8 @@ namespace scree {
 /// is S's velocity against F's.
 struct ContactPoint {
     BodyId sampleBody = 0, fieldBody = 0;
-    Vec3 rS, rF;  ///< contact point minus centre of mass [m]
+    std::int32_t sample = 0;  ///< id in its body
+    Vec3 rS, rF;              ///< contact point minus centre of mass [m]
     Vec3 normal;
     Vec3 u;  ///< relative velocity [m/s]
 };
@@ -48,12 +49,12 @@ void updateApproach(const World& world, const PairRecord& pair, const PairInerti
 
 /// Applies the impulse of one approaching contact to both bodies, with rolling friction where it
 /// sticks. The contact must have been placed in these frames.
-void applyContact(World& world, const StepSettings& settings, const PairRecord& pair,
+void applyContact(World& world, const StepSettings& settings, PairRecord& pair,
                   const ContactPoint& contact, const ContactFrames& frames,
                   const PairInertia& inertia, double restitution, ImpulseCounts& counts);
 
 /// Applies the impulse of the deepest touch that approaches. False when there is none.
-bool applyDeepest(World& world, const StepSettings& settings, const PairRecord& pair,
+bool applyDeepest(World& world, const StepSettings& settings, PairRecord& pair,
                   const ContactFrames& frames, const PairInertia& inertia, double restitution,
                   double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
 

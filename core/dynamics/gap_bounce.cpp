@@ -46,6 +46,7 @@ public:
           scratch_(scratch),
           impacts_(scratch.bodies.size())
     {
+        scratch.impactImpulses.assign(scratch.isWatched ? scratch.rows.size() : 0, Vec3::Zero());
     }
 
     ImpulseCounts run(std::int64_t& loopsAtTheirCap)
@@ -129,6 +130,7 @@ private:
         const ContactImpulse j =
             contactImpulse(k, impact.velocity, row.normal, row.restitution, row.friction);
         applyImpulses(row, j.impulse, impact.time);
+        note(impact, j.impulse);
         countImpulse(counts, j.kind);
     }
 
@@ -140,8 +142,9 @@ private:
         double earliest = dt_;
         for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
         if (solveTogether(true) > 0.0) solveTogether(false);
-        for (const GapRow& row : rows_) {
-            applyImpulses(row, row.worldImpulse(), earliest);
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            applyImpulses(rows_[i], rows_[i].worldImpulse(), earliest);
+            note(hits_[i], rows_[i].worldImpulse());
             ++counts.sticking;
         }
     }
@@ -169,6 +172,12 @@ private:
             work += row.worldImpulse().dot(mean);
         }
         return work;
+    }
+
+    void note(const Impact& impact, const Vec3& impulse)
+    {
+        if (scratch_.isWatched)
+            scratch_.impactImpulses[impact.row - scratch_.rows.data()] += impulse;
     }
 
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time)

@@ -80,6 +80,9 @@ struct GapScratch {
     std::vector<GapRow> rows;        ///< pair by pair
     std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top
     std::vector<GapIsland> islands;
+    bool isWatched = false;  ///< an observer wants to see the impulses
+    /// Of the impacts of this step, by row, on A, world [N s]; empty unless watched.
+    std::vector<Vec3> impactImpulses;
 };
 
 /// Finds all contacts that may close within dt. Wakes what they are about to disturb.

@@ -130,24 +130,25 @@ PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const Ste
 
 DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch)
 {
-    std::vector<double> deepest(scratch.pairCount, 0.0);
     parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
         thread_local std::vector<Touch> touches;
         for (std::size_t i = begin; i < end; ++i) {
             PairRecord& pair = scratch.pairs[i];
+            pair.depth = 0.0;
             if (!pair.isTouched) continue;
             touches.clear();
             pair.proximity.findTouches(
                 placePair(world, pair, world.motion[pair.bodies.a].worldFromBody(),
                           world.motion[pair.bodies.b].worldFromBody()),
                 pair.tau, touches);
-            for (const Touch& touch : touches) deepest[i] = std::max(deepest[i], -touch.phi);
+            for (const Touch& touch : touches) pair.depth = std::max(pair.depth, -touch.phi);
         }
     });
     DeepestOverlap result;
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
-        if (deepest[i] <= result.depth) continue;
-        result = {deepest[i], scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b};
+        const PairRecord& pair = scratch.pairs[i];
+        if (pair.depth <= result.depth) continue;
+        result = {pair.depth, pair.bodies.a, pair.bodies.b};
     }
     return result;
 }

@@ -109,6 +109,16 @@ double lookMargin(const World& world, const StepSettings& settings, BodyPair bod
     return std::max(1e-3 * thinner, 2.0 * dt * (speed + dt * settings.gravity.norm()));
 }
 
+void beginPair(const World& world, const StepSettings& settings, double dt, bool isWatched,
+               PairRecord& pair)
+{
+    pair.proximity.reset(lookMargin(world, settings, pair.bodies, dt));
+    pair.isWatched = isWatched;
+    pair.impulses.clear();
+    pair.depth = 0.0;
+    pair.searched = pair.quiet = {};
+}
+
 }  // namespace
 
 bool mayCollide(const World& world, BodyPair pair)
@@ -191,11 +201,8 @@ void beginStep(const World& world, const StepSettings& settings, double dt, Step
             poseAfter(world, settings, static_cast<BodyId>(b), dt);
         predictBody(world, settings, dt, static_cast<BodyId>(b), scratch);
     }
-    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
-        PairRecord& pair = scratch.pairs[i];
-        pair.proximity.reset(lookMargin(world, settings, pair.bodies, dt));
-        pair.searched = pair.quiet = {};
-    }
+    for (std::size_t i = 0; i < scratch.pairCount; ++i)
+        beginPair(world, settings, dt, scratch.isWatched, scratch.pairs[i]);
     sortPairs(world, scratch);
 }
 
@@ -223,7 +230,7 @@ void widenPairs(const World& world, const StepSettings& settings, double dt, Ste
             wider[i] = std::move(scratch.pairs[old++]);
         } else {
             describePair(world, settings, found[i], wider[i]);
-            wider[i].proximity.reset(lookMargin(world, settings, found[i], dt));
+            beginPair(world, settings, dt, scratch.isWatched, wider[i]);
         }
     }
     scratch.pairs = std::move(wider);

@@ -7,6 +7,7 @@
 
 #include "core/collision/broad_phase.h"
 #include "core/collision/interference.h"
+#include "core/diagnostics/step_observer.h"
 #include "core/diagnostics/step_report.h"
 #include "core/dynamics/forces.h"
 #include "core/dynamics/impulse.h"
@@ -39,9 +40,20 @@ struct PairRecord {
     SkipStamp searched;      ///< interferesNow is known for this state of the bodies
     SkipStamp quiet;         ///< in this state a visit by contact had nothing to do
     Proximity proximity;
+    double depth = 0.0;  ///< where the step ends, by findDeepestOverlap [m]
+
+    /// What the step has applied so far at one sample; noted for an observer only.
+    struct NotedImpulse {
+        std::int32_t sample;
+        bool sampleOnA;
+        ContactSeen seen;
+    };
+    bool isWatched = false;
+    std::vector<NotedImpulse> impulses;
 };
 
 struct StepScratch {
+    bool isWatched = false;  // an observer wants to see the impulses
     BroadPhase broadPhase;
     std::vector<BodyPair> candidates;    // what it found, without pairs that groups keep apart
     std::vector<Aabb> sweptBoxes;        // per body: all it may reach in the rest of the frame

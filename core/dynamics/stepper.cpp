@@ -19,6 +19,7 @@
 #include "core/dynamics/scratch.h"
 #include "core/dynamics/sleep.h"
 #include "core/dynamics/step_limit.h"
+#include "core/dynamics/step_view.h"
 
 namespace scree {
 namespace {
@@ -169,6 +170,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     report.dt = dt;
     StepScratch& scratch = *scratch_;
     aimKeyedBodies(world, dt);
+    scratch.isWatched = observer_ != nullptr;
     shuffleOrder(world, settings_.seed);
     beginStep(world, settings_, dt, scratch);
 
@@ -222,6 +224,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     findNonFinite(world, Phase::pushOut, report);
 
     describeGraph(graph, scratch, report);
+    if (observer_) observer_->stepDone(seePairs(scratch, graph.levels, dt));
     ++world.clock.subStep;
     return report;
 }
@@ -232,6 +235,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.dt = dt;
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
+    scratch.isWatched = observer_ != nullptr;
     {
         const PhaseTimer timer(report, Phase::contactGraph);
         findGaps(world, settings_, dt, scratch);
@@ -254,6 +258,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
         const PhaseTimer timer(report, Phase::shock);
         propagateShockUp(world, settings_, dt, levels, scratch);
     }
+    if (observer_) observer_->stepDone(seeGaps(world, scratch, levels.graph, dt));
     {
         const PhaseTimer timer(report, Phase::position);
         writeVelocities(world, dt, scratch);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/diagnostics/step_observer.h"
 #include "core/diagnostics/step_report.h"
 #include "core/dynamics/settings.h"
 #include "core/scene/world.h"
@@ -32,6 +33,9 @@ public:
                              const std::function<bool()>& stopRequested = {},
                              const std::function<void(const World&, double)>& afterStep = {});
 
+    /// From now on shows every step to `observer`, which must outlive the stepper; null: to nobody.
+    void observe(StepObserver* observer) { observer_ = observer; }
+
     const StepSettings& settings() const { return settings_; }
 
 private:
@@ -40,6 +44,7 @@ private:
     StepReport stepGaps(World& world, double dt);
 
     StepSettings settings_;
+    StepObserver* observer_ = nullptr;
     std::unique_ptr<StepScratch> scratch_;
     std::unique_ptr<GapScratch> gaps_;
 };

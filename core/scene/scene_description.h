@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,10 +51,29 @@ struct SceneMaterial {
     double friction = 0.0, restitution = 0.0;
 };
 
-struct SceneCamera {
-    std::string name;
+/// Where a keyed camera is at one moment.
+struct CameraKey {
+    double frame = 1001.0;
     Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
     double fovDegrees = 35.0;  ///< vertical
+};
+
+/// Part of a circle around the up axis, at even speed, always looking at its centre.
+struct CameraOrbit {
+    Vec3 centre = Vec3::Zero();
+    double radius = 1.0, height = 0.0;           ///< of the eye from and above the centre
+    double startDegrees = 0.0, degrees = 360.0;  ///< where it begins, and how far it goes
+    double firstFrame = 1001.0, lastFrame = 1240.0;
+};
+
+/// Stands still, or has keys, or an orbit; camera_motion.h tells where it is then.
+struct SceneCamera {
+    std::string name = "main";
+    Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
+    double fovDegrees = 35.0;          ///< vertical
+    std::vector<CameraKey> keys = {};  ///< frames ascending
+    bool isSmooth = true;  ///< passes its keys without a kink; else straight on to the next
+    std::optional<CameraOrbit> orbit = {};
 };
 
 struct SceneDescription {

@@ -8,9 +8,12 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "core/base/error.h"
+#include "core/scene/camera_motion.h"
+#include "io/camera_pose.h"
 #include "tests/support/abc_check.h"
 #include "tests/support/export_scene.h"
 #include "tests/support/support.h"
@@ -308,6 +311,28 @@ TEST(AlembicWriter, ACameraStandsWhereTheShotPutsItUnderAFreeName)
     // It looks along -z already, so only its place is left.
     const Eigen::Matrix4d expected = matrixOf({Vec3(3.0, 4.0, 5.0), Quat::Identity()});
     EXPECT_LT((samples[0].world - expected).cwiseAbs().maxCoeff(), kTolerance);
+}
+
+TEST(AlembicWriter, AKeyedCameraHasItsPlaceAndLensAtEverySample)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::sceneOf({test::bodyNamed("ring")});
+    SceneCamera camera;
+    camera.keys = {{kFirst + 1.0, {3.0, 4.0, 5.0}, {3.0, 4.0, -5.0}, 40.0},
+                   {kFirst + 3.0, {5.0, 4.0, 7.0}, {3.0, 1.0, -5.0}, 20.0}};
+    scene.cameras.push_back(camera);
+    exportFrames(scene, tumblingFrames(scene, 5), folder / "a.abc");
+    const auto samples = readTransforms(folder / "a.abc")["/test_shot/main"];
+    ASSERT_EQ(samples.size(), 5U);
+    for (int i = 0; i < 5; ++i) {
+        const Pose pose = worldFromCamera(cameraAt(camera, kFirst + i, false), false);
+        EXPECT_LT((samples[i].world - matrixOf(pose)).cwiseAbs().maxCoeff(), kTolerance) << i;
+    }
+    // The lens zooms between the keys: frames 0 and 1 share one, so do 3 and 4.
+    EXPECT_TRUE(
+        std::regex_search(strictTree(folder / "a.abc"),
+                          std::regex("\\.core scalar float64_t\\[16\\] samples=5 stored=3")))
+        << strictTree(folder / "a.abc");
 }
 
 TEST(AlembicWriter, AZUpShotStandsUprightInAYUpReader)

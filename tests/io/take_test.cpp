@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/diagnostics/state_hash.h"
+#include "core/scene/camera_motion.h"
 #include "io/build_world.h"
 #include "io/file_bytes.h"
 #include "io/shot_parser.h"
@@ -202,6 +203,53 @@ TEST_F(TakeTest, TakeInfoSurvivesItsText)
     EXPECT_EQ(back.cameras.at(0).eye, info.cameras.at(0).eye);
     EXPECT_NEAR(back.cameras.at(0).eye.x(), 300.0, 1e-10);
     EXPECT_EQ(back.resolvedShot, shot.resolvedText);
+}
+
+TEST_F(TakeTest, CamerasThatMoveSurviveTheTextOfTheTake)
+{
+    SceneCamera keyed, orbiting;
+    keyed.keys = {{1001.0, {1.0, 2.0, 3.0}, {0.0, 0.1, 0.0}, 30.0},
+                  {1003.5, {4.0, 2.0, 3.0}, {0.0, 0.2, 0.0}, 40.0}};
+    keyed.isSmooth = false;
+    orbiting.orbit = CameraOrbit{{0.1, 0.2, 0.3}, 5.0, 2.0, 30.0, -90.0, 1001.0, 1004.0};
+    shot.cameras = {keyed, orbiting};
+    const TakeInfo info = makeTakeInfo(shot, world, describeScene(shot, world, 1.0), "1.2.3");
+    const TakeInfo back = decodeTakeInfo(encodeTakeInfo(info), "take.json");
+    ASSERT_EQ(back.cameras.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+        // The shot is in centimetres, the cameras above are in metres.
+        const Vec3 eye = 100.0 * cameraAt(shot.cameras[k], 1002.3, false).eye;
+        EXPECT_LT((cameraAt(back.cameras[k], 1002.3, false).eye - eye).norm(), 1e-9) << k;
+    }
+    EXPECT_FALSE(back.cameras[0].isSmooth);
+}
+
+TEST_F(TakeTest, WhatTheLastStepDidIsKeptAndIsNoPartOfTheState)
+{
+    StepSeen step;
+    step.dt = 1.0 / 96.0;
+    step.level = {0, 1};
+    step.overlap = {1e-5, 1e-5};
+    step.contacts = {{0, 1, {0.1, 0.2, 0.3}, {0.0, -1.0, 0.0}, {0.5, -4.0, 0.25}},
+                     {0, 1, {0.4, 0.2, 0.3}, {0.0, -1.0, 0.0}, {0.0, -3.0, 0.0}}};
+    FrameState state = captureState(shot, world);
+    const std::string without = encodeFrame(state);
+    state.lastStep = step;
+    const FrameState back = decodeFrame(encodeFrame(state), "memory");
+    ASSERT_TRUE(back.lastStep);
+    EXPECT_EQ(back.lastStep->dt, step.dt);
+    EXPECT_EQ(back.lastStep->level, step.level);
+    EXPECT_EQ(back.lastStep->overlap, step.overlap);
+    ASSERT_EQ(back.lastStep->contacts.size(), 2U);
+    EXPECT_EQ(back.lastStep->contacts[1].point, step.contacts[1].point);
+    EXPECT_EQ(back.lastStep->contacts[0].normal, step.contacts[0].normal);
+    EXPECT_EQ(back.lastStep->contacts[0].impulse, step.contacts[0].impulse);
+
+    World restored = buildWorld(shot);
+    restoreState(restored, back);
+    EXPECT_EQ(encodeFrame(captureState(shot, restored)), without);
+    state.lastStep->contacts[0].b = 2;  // there are two bodies
+    EXPECT_THROW(decodeFrame(encodeFrame(state), "memory"), Error);
 }
 
 TEST_F(TakeTest, ChangedShotTextInTakeJsonIsNoticed)

@@ -245,24 +245,45 @@ def check_camera(export, take):
         return "no camera"
     scene, camera = bpy.context.scene, cameras[0]
     scene.render.resolution_x, scene.render.resolution_y = info["picture_size"]
-    graph = set_time(info["frames"][0])
+    problem = check_lens(scene, camera, wanted)
+    for time, eye, target in camera_times(wanted, info["frames"][0]):
+        problem = problem or check_view(camera, time, blender_open.to_blender(eye, info),
+                                        blender_open.to_blender(target, info))
+    return problem
+
+
+def camera_times(wanted, first):
+    """Time, eye and target at the first frame, or at the keys and between them (linear ones)."""
+    if "keys" not in wanted:
+        return [(first, wanted["eye"], wanted["target"])]
+    times = []
+    for a, b in zip(wanted["keys"], wanted["keys"][1:]):
+        for share in (0.0, 0.5, 1.0):
+            mixed = lambda name: [(1 - share) * p + share * q for p, q in zip(a[name], b[name])]
+            times.append(((1 - share) * a["frame"] + share * b["frame"], mixed("eye"), mixed("target")))
+    return times
+
+
+def check_lens(scene, camera, wanted):
+    set_time(scene.frame_start)
 
     # The frame of the picture, one unit in front of the lens.
     corners = camera.data.view_frame(scene=scene)
     height = max(c.y for c in corners) - min(c.y for c in corners)
     fov = math.degrees(2 * math.atan(0.5 * height / abs(corners[0].z)))
-    place = camera.evaluated_get(graph).matrix_world
-    eye = blender_open.to_blender(wanted["eye"], info)
-    target = blender_open.to_blender(wanted["target"], info)
+    print(f"field of view {fov:.5f} degrees")
+    return "" if abs(fov - wanted["fov"]) < 1e-3 else f"the field of view is {fov}, not {wanted['fov']}"
+
+
+def check_view(camera, time, eye, target):
+    place = camera.evaluated_get(set_time(time)).matrix_world
     sight = place.to_quaternion() @ Vector((0, 0, -1))
     upward = (place.to_quaternion() @ Vector((0, 1, 0))).z
-    print(f"field of view {fov:.5f} degrees, eye off by {(place.translation - eye).length:.2e}")
-    if abs(fov - wanted["fov"]) > 1e-3:
-        return f"the field of view is {fov}, not {wanted['fov']}"
+    print(f"time {time}: eye off by {(place.translation - eye).length:.2e}")
     if (place.translation - eye).length > TOLERANCE * eye.length:
-        return f"the eye is at {place.translation}, not at {eye}"
+        return f"time {time}: the eye is at {place.translation}, not at {eye}"
     if sight.angle(target - eye) > 1e-4:
-        return "it looks elsewhere"
+        return f"time {time}: it looks elsewhere"
     return "" if upward > 0 else "it is upside down"
 
 

@@ -55,10 +55,10 @@ protected:
         ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
     }
 
-    void makeExport(const std::string& settings)
+    void makeExport(const std::string& settings, const std::string& shotText = kShotText)
     {
         const std::string program = test::quoted(SCREE_PROGRAM);
-        std::ofstream(folder / "spin.toml") << kShotText;
+        std::ofstream(folder / "spin.toml") << shotText;
         run(program + " sim " + test::quoted(folder / "spin.toml") + " -q -o " +
             test::quoted(take()) + settings);
         run(program + " export -q " + test::quoted(take()) + " -o " + test::quoted(cache()));
@@ -96,6 +96,18 @@ TEST_P(BlenderTest, AZUpShotStandsUpright)
 TEST_P(BlenderTest, TheCameraSeesWhatTheShotsCameraSees)
 {
     makeExport("");
+    check("camera " + cacheAndTake());
+}
+
+TEST_P(BlenderTest, AKeyedCameraMovesAsInTheShot)
+{
+    std::string text = kShotText;
+    const std::string still = "eye = [3, 4, 14]";
+    text.replace(text.find(still), still.size(),
+                 "keys = [{ frame = 1001, eye = [3, 4, 14] }, { frame = 1005, eye = [9, 4, 8] }, "
+                 "{ frame = 1012, eye = [9, 6, 8], target = [0, 2, 0] }]\n"
+                 "interpolate = \"linear\"");
+    makeExport("", text);
     check("camera " + cacheAndTake());
 }
 

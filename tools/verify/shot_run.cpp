@@ -148,7 +148,7 @@ void addPicture(const Context& context, const ShotRun& run, const std::string& c
 {
     if (!context.wantsPictures) return;
     const SceneDescription scene = describeScene(run.shot, run.world, kPlaneHalfWidth);
-    const ShotCamera& from = run.shot.cameras.at(0);
+    const SceneCamera& from = run.shot.cameras.at(0);
     const Vec3 up = run.shot.zUp ? Vec3::UnitZ() : Vec3::UnitY();
     const Camera camera{from.eye, from.target, up, from.fovDegrees};
     Rasterizer rasterizer(scene, looksOf(run.shot, scene));

@@ -1,0 +1,126 @@
+// Symbols: h length of the stretch between two keys, d slope at a key, s share of the stretch.
+#include "core/scene/camera_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+/// Eye, target and angle of view as one row of numbers: they all go from key to key the same way.
+using KeyValues = Eigen::Matrix<double, 7, 1>;
+
+KeyValues valuesOf(const CameraKey& key)
+{
+    KeyValues values;
+    values << key.eye, key.target, key.fovDegrees;
+    return values;
+}
+
+/// The slope with which a smooth curve passes a key between two stretches of mean slopes before and
+/// after: none at a turn, else their weighted harmonic mean, which never overshoots (Fritsch and
+/// Butland, “A Method for Constructing Local Monotone Piecewise Cubic Interpolants”, 1984).
+double slopeBetween(double before, double hBefore, double after, double hAfter)
+{
+    if (before * after <= 0.0) return 0.0;
+    const double w1 = 2.0 * hAfter + hBefore, w2 = hAfter + 2.0 * hBefore;
+    return (w1 + w2) / (w1 / before + w2 / after);
+}
+
+double lengthOf(const std::vector<CameraKey>& keys, std::size_t stretch)
+{
+    return keys[stretch + 1].frame - keys[stretch].frame;
+}
+
+KeyValues meanSlope(const std::vector<CameraKey>& keys, std::size_t stretch)
+{
+    return (valuesOf(keys[stretch + 1]) - valuesOf(keys[stretch])) / lengthOf(keys, stretch);
+}
+
+/// At rest at the first and the last key.
+KeyValues slopeAt(const std::vector<CameraKey>& keys, std::size_t key)
+{
+    KeyValues slope = KeyValues::Zero();
+    if (key == 0 || key + 1 == keys.size()) return slope;
+    const KeyValues before = meanSlope(keys, key - 1), after = meanSlope(keys, key);
+    for (Eigen::Index i = 0; i < slope.size(); ++i)
+        slope[i] = slopeBetween(before[i], lengthOf(keys, key - 1), after[i], lengthOf(keys, key));
+    return slope;
+}
+
+KeyValues betweenKeys(const SceneCamera& camera, double frame)
+{
+    const std::vector<CameraKey>& keys = camera.keys;
+    if (frame <= keys.front().frame) return valuesOf(keys.front());
+    if (frame >= keys.back().frame) return valuesOf(keys.back());
+    const auto after = std::find_if(keys.begin(), keys.end(),
+                                    [&](const CameraKey& key) { return key.frame > frame; });
+    const auto k = static_cast<std::size_t>(after - keys.begin()) - 1;
+    const KeyValues from = valuesOf(keys[k]), to = valuesOf(keys[k + 1]);
+    const double h = lengthOf(keys, k), s = (frame - keys[k].frame) / h;
+    if (!camera.isSmooth) return from + s * (to - from);
+
+    // Hermite's cubic, so written that between two equal keys nothing moves, not even by rounding.
+    const double rest = 1.0 - s;
+    return from + s * s * (3.0 - 2.0 * s) * (to - from) +
+           h * s * rest * (rest * slopeAt(keys, k) - s * slopeAt(keys, k + 1));
+}
+
+/// 0° is in front, +z (−y when z is up); onwards against the clock, seen from above.
+Vec3 eyeOnOrbit(const CameraOrbit& orbit, double frame, bool zUp)
+{
+    const double length = orbit.lastFrame - orbit.firstFrame;
+    const double share =
+        length > 0.0 ? std::clamp((frame - orbit.firstFrame) / length, 0.0, 1.0) : 0.0;
+    double sine = 0.0, cosine = 0.0;
+    sinCos((orbit.startDegrees + share * orbit.degrees) * kPi / 180.0, sine, cosine);
+    const double right = orbit.radius * sine, front = orbit.radius * cosine;
+    return orbit.centre +
+           (zUp ? Vec3(right, -front, orbit.height) : Vec3(right, orbit.height, front));
+}
+
+}  // namespace
+
+bool moves(const SceneCamera& camera)
+{
+    return camera.orbit.has_value() || camera.keys.size() > 1;
+}
+
+SceneCamera cameraAt(const SceneCamera& camera, double frame, bool zUp)
+{
+    SceneCamera now;
+    now.name = camera.name;
+    now.eye = camera.eye;
+    now.target = camera.target;
+    now.fovDegrees = camera.fovDegrees;
+    if (!camera.keys.empty()) {
+        const KeyValues values = betweenKeys(camera, frame);
+        now.eye = values.head<3>();
+        now.target = values.segment<3>(3);
+        now.fovDegrees = values[6];
+    } else if (camera.orbit) {
+        now.eye = eyeOnOrbit(*camera.orbit, frame, zUp);
+        now.target = camera.orbit->centre;
+    }
+    return now;
+}
+
+SceneCamera scaled(const SceneCamera& camera, double factor)
+{
+    SceneCamera result = camera;
+    result.eye *= factor;
+    result.target *= factor;
+    for (CameraKey& key : result.keys) {
+        key.eye *= factor;
+        key.target *= factor;
+    }
+    if (!result.orbit) return result;
+    result.orbit->centre *= factor;
+    result.orbit->radius *= factor;
+    result.orbit->height *= factor;
+    return result;
+}
+
+}  // namespace scree

@@ -1,0 +1,18 @@
+// Where a camera stands that is keyed or goes around something.
+#pragma once
+
+#include "core/scene/scene_description.h"
+
+namespace scree {
+
+/// Whether it ever moves or zooms.
+bool moves(const SceneCamera& camera);
+
+/// The camera as it is at a moment [frames, with fraction], without keys or orbit. It rests before
+/// its first key and after its last.
+SceneCamera cameraAt(const SceneCamera& camera, double frame, bool zUp);
+
+/// The same in another unit: all lengths times `factor`.
+SceneCamera scaled(const SceneCamera& camera, double factor);
+
+}  // namespace scree

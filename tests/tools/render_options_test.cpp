@@ -1,0 +1,287 @@
+// What a farm and an artist ask of `scree render` and `scree movie`: parts of a range, cameras,
+// looks, slates, blur, films with the right colours.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "io/file_bytes.h"
+#include "io/take_reader.h"
+#include "render/png_writer.h"
+#include "tests/support/readers.h"
+
+namespace scree::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A stack, and a box that flies past it; two cameras, of which one pans.
+constexpr const char* kShotText = R"(
+scree = 1
+[shot]
+name = "looks"
+frames = "1001-1008"
+[material.wood]
+density = 650
+friction = 0.5
+color = [0.6, 0.3, 0.1]
+[shape.block]
+box = { size = [1, 1, 1] }
+[shape.lid]
+box = { size = [0.7, 0.7, 0.7] }
+[[body]]
+name = "ground"
+plane = { point = [0, 0, 0], normal = [0, 1, 0] }
+material = "wood"
+motion = "static"
+[[body]]
+name = "low"
+shape = "block"
+material = "wood"
+position = [0, 0.5, 0]
+[[body]]
+name = "high"
+shape = "lid"
+material = "wood"
+position = [0, 1.35, 0]
+[[body]]
+name = "fast"
+shape = "block"
+material = "wood"
+position = [-3, 3, 0]
+velocity = [24, 0, 0]
+[[camera]]
+name = "still"
+eye = [0, 2, 9]
+target = [0, 1.5, 0]
+[[camera]]
+name = "pan"
+keys = [{ frame = 1001, eye = [0, 2, 9], target = [0, 1.5, 0] },
+        { frame = 1008, eye = [8, 2, 5], target = [0, 1.5, 0], fov = 50 }]
+interpolate = "linear"
+[render]
+size = [160, 90]
+burnin = false
+[output]
+contacts = true
+)";
+
+/// One take for all tests: they only look at it.
+class RenderOptions : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        folder_ = new TemporaryFolder();
+        std::ofstream(*folder_ / "looks.toml") << kShotText;
+        const CommandResult made =
+            scree("sim " + quoted(*folder_ / "looks.toml") + " -q -o " + quoted(take()));
+        ASSERT_EQ(made.exitCode, 0) << made.output;
+    }
+    static void TearDownTestSuite()
+    {
+        delete folder_;
+        folder_ = nullptr;
+    }
+
+    static fs::path take() { return *folder_ / "take"; }
+
+    static CommandResult scree(const std::string& arguments)
+    {
+        return runCommand(quoted(SCREE_PROGRAM) + " " + arguments);
+    }
+
+    /// Renders into a folder of its own.
+    CommandResult render(const std::string& arguments) const
+    {
+        return scree("render -q " + quoted(take()) + " -o " + quoted(pictures / "p.####.png") +
+                     " " + arguments);
+    }
+
+    Image picture(int frame) const
+    {
+        return readPng(pictures / ("p." + std::to_string(frame) + ".png")).image;
+    }
+
+    std::vector<std::string> files() const
+    {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(pictures.path()))
+            names.push_back(entry.path().filename().string());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    TemporaryFolder pictures;
+
+private:
+    static TemporaryFolder* folder_;
+};
+
+TemporaryFolder* RenderOptions::folder_ = nullptr;
+
+/// Mean difference of two pictures of one size [linear].
+double difference(const Image& a, const Image& b)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) sum += std::abs(a.values[i] - b.values[i]);
+    return sum / static_cast<double>(a.values.size());
+}
+
+Color meanOf(const Image& image)
+{
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) sum += image.at(x, y).cast<double>();
+    return (sum / (image.width * image.height)).cast<float>();
+}
+
+TEST_F(RenderOptions, ChunksOfAFarmAreTheWholeRangeAndOnlyTheFirstWritesTheSlate)
+{
+    ASSERT_EQ(render("--frames 1001-1008 --chunk 2/3 --slate").exitCode, 0);
+    EXPECT_EQ(files(), (std::vector<std::string>{"p.1003.png", "p.1004.png", "p.1005.png"}));
+    ASSERT_EQ(render("--frames 1001-1008 --chunk 1/3 --slate").exitCode, 0);
+    ASSERT_EQ(render("--frames 1001-1008 --chunk 3/3 --slate").exitCode, 0);
+    std::vector<std::string> all;
+    for (int frame = 1000; frame <= 1008; ++frame)
+        all.push_back("p." + std::to_string(frame) + ".png");
+    EXPECT_EQ(files(), all);
+    // A card: dark, with light words, and unlike the picture after it.
+    const Image slate = picture(1000);
+    EXPECT_LT(slate.at(slate.width - 1, 0).maxCoeff(), 0.05f);
+    EXPECT_GT(*std::max_element(slate.values.begin(), slate.values.end()), 0.8f);
+    for (const char* wrong : {"0/3", "4/3", "2", "2/3x", "-1/3"})
+        EXPECT_EQ(render(std::string("--chunk ") + wrong).exitCode, 64) << wrong;
+}
+
+TEST_F(RenderOptions, SkipExistingDrawsWhatIsMissingOrOlderThanItsFrame)
+{
+    ASSERT_EQ(render("--frames 1001-1003").exitCode, 0);
+    const fs::path kept = pictures / "p.1001.png", old = pictures / "p.1002.png";
+    std::ofstream(kept) << "kept";
+    std::ofstream(old) << "old";
+    const auto simulated = fs::last_write_time(TakePaths{take()}.frame(1002));
+    fs::last_write_time(old, simulated - std::chrono::seconds(1));
+    fs::remove(pictures / "p.1003.png");
+    ASSERT_EQ(render("--frames 1001-1003 --skip-existing").exitCode, 0);
+    EXPECT_EQ(readFileBytes(kept), "kept");
+    EXPECT_NE(readFileBytes(old), "old");
+    EXPECT_TRUE(fs::exists(pictures / "p.1003.png"));
+}
+
+TEST_F(RenderOptions, ACameraIsChosenByNameAndAKeyedOneMoves)
+{
+    ASSERT_EQ(render("--frames 1001,1008").exitCode, 0);
+    const Image first = picture(1001), last = picture(1008);
+    ASSERT_EQ(render("--frames 1001,1008 --camera pan").exitCode, 0);
+    EXPECT_EQ(difference(picture(1001), first), 0.0) << "the pan begins where the still one stands";
+    EXPECT_GT(difference(picture(1008), last), 0.01);
+    const CommandResult wrong = render("--camera pam");
+    EXPECT_EQ(wrong.exitCode, 64);
+    EXPECT_NE(wrong.output.find("still, pan"), std::string::npos) << wrong.output;
+}
+
+TEST_F(RenderOptions, MotionBlurSmearsWhatMovesAndLeavesAloneWhatStands)
+{
+    ASSERT_EQ(render("--frames 1003").exitCode, 0);
+    const Image sharp = picture(1003);
+    ASSERT_EQ(render("--frames 1003 --motion-blur 8").exitCode, 0);
+    const Image blurred = picture(1003);
+    double standing = 0.0, moving = 0.0;
+    for (int y = 0; y < sharp.height; ++y)
+        for (int x = 0; x < sharp.width; ++x) {
+            // The box flies at a height of 2.5 to 3.5: above row 36 of 90. The stack's foot and the
+            // ground in front of it are below row 60, where only the flying shadow may fall.
+            double& sum = y < 36 ? moving : standing;
+            if (y >= 36 && y < 60) continue;
+            sum += (sharp.at(x, y) - blurred.at(x, y)).cwiseAbs().maxCoeff();
+        }
+    EXPECT_GT(moving, 10.0);
+    // Below, the ground is a little darker or lighter as the sky above it is covered.
+    EXPECT_LT(standing, 0.25 * moving);
+}
+
+TEST_F(RenderOptions, EveryLookDrawsItsOwnPictureAndUnknownOnesNameTheNearest)
+{
+    std::vector<Image> seen;
+    for (const char* look :
+         {"shaded", "wireframe", "speed", "sleep", "id", "levels", "overlap", "contacts"}) {
+        const CommandResult drawn = render(std::string("--frames 1006 --look ") + look);
+        ASSERT_EQ(drawn.exitCode, 0) << drawn.output;
+        for (const Image& other : seen) {
+            EXPECT_GT(difference(picture(1006), other), 1e-4) << look;
+        }
+        seen.push_back(picture(1006));
+    }
+    const CommandResult wrong = render("--look level");
+    EXPECT_EQ(wrong.exitCode, 64);
+    EXPECT_NE(wrong.output.find("levels"), std::string::npos) << wrong.output;
+}
+
+TEST_F(RenderOptions, LevelsOfAStackDifferAndAContactCarriesTheBoxAboveIt)
+{
+    const TakeReader reader(take());
+    EXPECT_TRUE(reader.info().hasContacts);
+    EXPECT_FALSE(reader.readLastStep(1001)) << "no step led to the first frame";
+    const std::optional<StepSeen> step = reader.readLastStep(1006);
+    ASSERT_TRUE(step);
+    EXPECT_EQ(step->level, (std::vector<std::int32_t>{0, 1, 2, 0}));
+    double onLow = 0.0;
+    for (const ContactSeen& contact : step->contacts)
+        if (contact.a == 1 && contact.b == 2) onLow -= contact.impulse.y() / step->dt;
+    const double weight = 650.0 * 0.343 * 9.81;
+    EXPECT_NEAR(onLow, weight, 0.02 * weight);
+}
+
+TEST_F(RenderOptions, ATakeWithoutContactsSaysHowToGetThem)
+{
+    const fs::path bare = pictures / "bare";
+    ASSERT_EQ(scree("sim " + quoted(take().parent_path() / "looks.toml") +
+                    " -q --frames 1001-1002 --set output.contacts=false -o " + quoted(bare))
+                  .exitCode,
+              0);
+    const CommandResult wrong =
+        scree("render " + quoted(bare) + " --look contacts -o " + quoted(pictures / "b.####.png"));
+    EXPECT_EQ(wrong.exitCode, 66);
+    EXPECT_NE(wrong.output.find("output.contacts=true"), std::string::npos) << wrong.output;
+    // Storing contacts has not changed the simulation.
+    const auto without = TakeReader(bare).stats(), with = TakeReader(take()).stats();
+    ASSERT_EQ(without.size(), 2U);
+    for (std::size_t i = 0; i < without.size(); ++i)
+        EXPECT_EQ(without[i].stateHash, with[i].stateHash);
+}
+
+TEST_F(RenderOptions, AFilmSaysItsColoursAndShowsThoseOfThePictures)
+{
+    SCREE_REQUIRE_READER(runCommand("command -v ffprobe && command -v ffmpeg").exitCode == 0,
+                         "ffprobe: apt-get install ffmpeg");
+    ASSERT_EQ(render("--frames 1001-1004 --size 320x180").exitCode, 0);
+    const std::string film = quoted(pictures / "film.mp4");
+    const CommandResult made =
+        scree("movie " + quoted(pictures / "p.####.png") + " -o " + film + " --fps 24");
+    ASSERT_EQ(made.exitCode, 0) << made.output;
+    const CommandResult tags = runCommand(
+        "ffprobe -v error -select_streams v:0 -of default=noprint_wrappers=1 -show_entries "
+        "stream=codec_name,pix_fmt,color_range,color_space,color_transfer,color_primaries,"
+        "avg_frame_rate,nb_frames " +
+        film);
+    for (const char* tag :
+         {"codec_name=h264", "pix_fmt=yuv420p", "color_range=tv", "color_space=bt709",
+          "color_transfer=bt709", "color_primaries=bt709", "avg_frame_rate=24/1", "nb_frames=4"})
+        EXPECT_NE(tags.output.find(tag), std::string::npos) << tag << "\n" << tags.output;
+
+    // A player that believes the tags sees the colours again: measured, the means of a picture come
+    // back within 0.0012. BT.601 read as BT.709 shifts them by 0.016, full range read as
+    // television's by 0.1.
+    const CommandResult decoded =
+        runCommand("ffmpeg -nostdin -v error -y -i " + film +
+                   " -frames:v 1 -vf scale=in_color_matrix=bt709:in_range=tv:"
+                   "flags=bicubic+accurate_rnd+full_chroma_int,format=rgb24 " +
+                   quoted(pictures / "decoded.png"));
+    ASSERT_EQ(decoded.exitCode, 0) << decoded.output;
+    const Color shift = meanOf(readPng(pictures / "decoded.png").image) - meanOf(picture(1001));
+    EXPECT_LT(shift.cwiseAbs().maxCoeff(), 0.004F) << shift.transpose();
+}
+
+}  // namespace
+}  // namespace scree::test
