@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "io/build_world.h"
+#include "io/distance_cache.h"
 #include "io/shot_parser.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
@@ -15,7 +16,7 @@ namespace {
 
 struct CheckOptions {
     std::string shot;
-    bool resolved = false;
+    bool resolved = false, noCache = false;
     std::optional<int> threads;
     std::vector<std::string> overrides;
 };
@@ -46,8 +47,8 @@ std::map<std::string, ShapeUse> collectUses(const World& world)
 
 void printShapes(const World& world)
 {
-    std::printf("%-20s %7s %9s %12s %16s %10s %10s %7s\n", "shape", "bodies", "triangles",
-                "volume m3", "mass kg", "thick m", "voxel m", "voxels");
+    std::printf("%-20s %7s %9s %12s %16s %10s %10s %7s %7s %9s\n", "shape", "bodies", "triangles",
+                "volume m3", "mass kg", "thick m", "voxel m", "voxels", "field", "field MB");
     for (const auto& [name, use] : collectUses(world)) {
         const Shape& shape = *use.shape;
         char mass[64] = "-";
@@ -57,18 +58,30 @@ void printShapes(const World& world)
                           use.heaviest);
         const double spacing = shape.distance.spacing();
         if (shape.distance.solid()) {
-            std::printf("%-20s %7d %9ld %12.5g %16s %10.4g %10s %7s\n", name.c_str(), use.bodies,
-                        static_cast<long>(shape.mesh.triangles.cols()), shape.unitMass.volume, mass,
-                        shape.innerThickness, "exact", "-");
+            std::printf("%-20s %7d %9ld %12.5g %16s %10.4g %10s %7s %7s %9s\n", name.c_str(),
+                        use.bodies, static_cast<long>(shape.mesh.triangles.cols()),
+                        shape.unitMass.volume, mass, shape.innerThickness, "-", "-", "exact", "-");
             continue;
         }
-        std::printf("%-20s %7d %9ld %12.5g %16s %10.4g %10.4g %7.0f\n", name.c_str(), use.bodies,
-                    static_cast<long>(shape.mesh.triangles.cols()), shape.unitMass.volume, mass,
-                    shape.innerThickness, spacing, shape.box.longestEdge() / spacing);
+        std::printf(
+            "%-20s %7d %9ld %12.5g %16s %10.4g %10.4g %7.0f %7s %9.1f\n", name.c_str(), use.bodies,
+            static_cast<long>(shape.mesh.triangles.cols()), shape.unitMass.volume, mass,
+            shape.innerThickness, spacing, shape.box.longestEdge() / spacing,
+            shape.distance.field().nodes.storage == FieldStorage::dense ? "dense" : "bricks",
+            1e-6 * static_cast<double>(shape.distance.byteCount()));
     }
 }
 
-int runCheck(const CheckOptions& options)
+void printCache(const DistanceCache& cache)
+{
+    if (cache.folder().empty()) return;
+    const DistanceCache::Size size = cache.size();
+    std::printf("\ndistance fields: %d from the cache, %d built; \"%s\" holds %d, %.1f MB\n",
+                cache.foundCount(), cache.keptCount(), cache.folder().string().c_str(), size.files,
+                1e-6 * static_cast<double>(size.bytes));
+}
+
+int runCheck(const CheckOptions& options, Console& console)
 {
     const Shot shot = parseShot(options.shot, options.overrides);
     if (options.resolved) {
@@ -76,13 +89,16 @@ int runCheck(const CheckOptions& options)
         return kExitDone;
     }
     setThreadCount(threadsToUse(options.threads));
-    const World world = buildWorld(shot);
+    DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
+    const World world = buildWorld(shot, &cache);
+    if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
     std::size_t movable = 0;
     for (const BodyMass& mass : world.mass) movable += mass.isMovable();
     std::printf("%s: frames %d-%d at %g a second, %zu bodies, %zu of them movable\n\n",
                 shot.name.c_str(), shot.firstFrame, shot.lastFrame, shot.framesPerSecond,
                 world.bodyCount(), movable);
     printShapes(world);
+    printCache(cache);
     return kExitDone;
 }
 
@@ -97,12 +113,14 @@ Command addCheckCommand(CLI::App& program)
     command->add_flag("--resolved", options->resolved,
                       "Print the shot with all its defaults instead");
     command->add_option("--threads", options->threads, "Number of threads [all]");
+    command->add_flag("--no-cache", options->noCache,
+                      "Build every distance field anew and keep none");
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->take_all();
     command->footer("Example:\n  scree check shots/rings_100.toml");
-    return {command, [options](Console&) { return runCheck(*options); }};
+    return {command, [options](Console& console) { return runCheck(*options, console); }};
 }
 
 }  // namespace scree

@@ -11,6 +11,7 @@
 #include "core/diagnostics/state_hash.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
+#include "io/distance_cache.h"
 #include "io/shot_parser.h"
 #include "io/subframes.h"
 #include "io/take.h"
@@ -29,7 +30,7 @@ namespace {
 struct SimOptions {
     std::string shot, take, frames, progress = "auto";
     std::optional<int> threads;
-    bool resume = false, overwrite = false;
+    bool resume = false, overwrite = false, noCache = false;
     std::vector<std::string> overrides;
 };
 
@@ -66,7 +67,9 @@ public:
         shot_ = parseShot(options.shot, options.overrides);
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
-        world_ = buildWorld(shot_);
+        DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
+        world_ = buildWorld(shot_, &cache);
+        if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
         subframes_.emplace(shot_, world_);
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
@@ -330,6 +333,8 @@ Command addSimCommand(CLI::App& program)
                           "Go on with the take, to the same bits; begin when there is none");
     command->add_flag("--overwrite", options->overwrite, "Replace the take that is there")
         ->excludes(resume);
+    command->add_flag("--no-cache", options->noCache,
+                      "Build every distance field anew and keep none");
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")
         ->expected(1)
