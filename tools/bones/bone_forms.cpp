@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 namespace scree {
 namespace {
@@ -59,7 +58,7 @@ double chain(const Vec3& p, std::initializer_list<Knot> knots)
 {
     double phi = 1e9;
     for (const Knot* knot = knots.begin(); knot + 1 != knots.end(); ++knot) {
-        phi = join(phi, rod(p, knot[0], knot[1]), 0.02);
+        phi = std::min(phi, rod(p, knot[0], knot[1]));
     }
     return phi;
 }
@@ -87,15 +86,15 @@ double skull(const Vec3& q)
 
     // Everything that is open: brain case, eyes and nose into it, the way out below.
     phi = cut(phi, hollow, 0.02);
-    phi = cut(phi, rod(p, {{0.27, -0.035, 0.085}, 0.064}, {{0.10, -0.01, 0.055}, 0.042}), 0.03);
-    phi = cut(phi, rod(p, {{0.30, -0.125, 0.0}, 0.035}, {{0.08, -0.03, 0.0}, 0.03}), 0.02);
+    phi = cut(phi, rod(p, {{0.27, -0.035, 0.098}, 0.058}, {{0.10, -0.01, 0.062}, 0.040}), 0.03);
+    phi = cut(phi, rod(p, {{0.30, -0.130, 0.0}, 0.032}, {{0.08, -0.05, 0.0}, 0.028}), 0.02);
     phi = cut(phi, rod(p, {{-0.10, 0.0, 0.0}, 0.055}, {{-0.10, -0.30, 0.0}, 0.06}), 0.03);
 
-    // Teeth, upper and lower.
+    // Upper teeth.
     for (int i = 0; i < 4; ++i) {
         const double a = 0.30 * (i + 0.5);
         const Vec3 root(0.155 + 0.075 * std::cos(a), 0.0, 0.085 * std::sin(a));
-        phi = join(phi, ball(p, root + Vec3(0.0, -0.225, 0.0), 0.021), 0.008);
+        phi = join(phi, ball(p, root + Vec3(0.0, -0.235, 0.0), 0.024), 0.006);
     }
     return phi;
 }
