@@ -500,7 +500,7 @@ const std::vector<ShotKey> kShapeKeys = {
      .choices = "auto|dense|bricks",
      .help = "How the field is kept: \"dense\" holds every node and answers fastest, \"bricks\" "
              "only blocks near the surface, for large fields. \"auto\" takes bricks above 2 MiB "
-             "where they save at least half. Near the surface both say the same to the last bit."},
+             "where they save a quarter. Near the surface both say the same to the last bit."},
     {.path = "shape.field",
      .type = word,
      .byDefault = "\"refined\"",

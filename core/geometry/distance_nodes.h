@@ -22,7 +22,7 @@
 namespace scree {
 
 enum class FieldStorage {
-    automatic,  ///< dense while it is small, bricks where they save at least half of it
+    automatic,  ///< dense while it is small, bricks where they save a quarter or more
     dense,
     bricks,
 };

@@ -260,7 +260,7 @@ DistanceNodes buildDistanceNodes(const TriMesh& mesh, const SurfaceRays& rays,
     if (storage != FieldStorage::dense) {
         DistanceNodes nodes = emptyNodes(layout, FieldStorage::bricks);
         const std::size_t count = layOutBricks(nodes, *band);
-        if (storage == FieldStorage::bricks || 2 * count * sizeof(float) <= denseBytes) {
+        if (storage == FieldStorage::bricks || 4 * count * sizeof(float) <= 3 * denseBytes) {
             nodes.values.resize(count);
             fillBricks(nodes, mesh, rays, *band);
             noteRanges(nodes);

@@ -146,7 +146,7 @@ TEST(E21FieldStorage, BlocksAndClustersLeaveTheSampleListsAsTheyAreInBothStorage
     EXPECT_GT(touching, 1000);
 }
 
-TEST(E21FieldStorage, AutomaticTakesBricksOnlyWhereTheySaveHalfOfALargeField)
+TEST(E21FieldStorage, AutomaticTakesBricksWhereTheySaveMuchOfALargeField)
 {
     const auto storageOf = [](const TriMesh& mesh, int resolution) {
         ShapeSettings settings;
