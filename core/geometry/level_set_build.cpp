@@ -42,8 +42,10 @@ openvdb::FloatGrid::Ptr narrowBand(const TriMesh& mesh, const NodeLayout& layout
     const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(
         points, triangles);
     const auto unitTransform = openvdb::math::Transform::createLinearTransform(1.0);
+    // The same band on both sides: OpenVDB would widen the inner one from neighbour to neighbour,
+    // slower than asking the mesh and not quite exact.
     return openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *unitTransform, kBandVoxels,
-                                                            std::numeric_limits<float>::max());
+                                                            kBandVoxels);
 }
 
 /// Reads OpenVDB's band, and asks the mesh beyond it. One for each thread.

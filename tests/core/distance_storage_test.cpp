@@ -154,7 +154,7 @@ TEST(E21FieldStorage, AutomaticTakesBricksWhereTheySaveMuchOfALargeField)
         return buildMeshShape("shape", mesh, settings)->distance.field().nodes.storage;
     };
     EXPECT_EQ(storageOf(makeTorus(1.0, 0.25, {16, 10}), 48), FieldStorage::dense);
-    EXPECT_EQ(storageOf(makeSphere(1.0, 3), 160), FieldStorage::bricks);
+    EXPECT_EQ(storageOf(makeSphere(1.0, 2), 120), FieldStorage::bricks);
 }
 
 TEST(E21FieldStorage, TheFieldHasTheSameBitsForAnyThreadCount)
