@@ -63,7 +63,8 @@ struct SolidMaker {
 /// Shapes and materials of a shot by name, each added to the world when the first body needs it.
 class WorldBuilder {
 public:
-    explicit WorldBuilder(const Shot& shot) : shot_(shot), problems_(fileOf(shot))
+    WorldBuilder(const Shot& shot, FieldStore* fields)
+        : shot_(shot), fields_(fields), problems_(fileOf(shot))
     {
         for (const ShotShape& shape : shot.shapes) shapeNamed_.emplace(shape.name, &shape);
     }
@@ -173,10 +174,11 @@ private:
                 return buildExactShape(shape.name, *solid, mesh, shape.settings);
             }
         }
-        return buildMeshShape(shape.name, mesh, shape.settings);
+        return buildMeshShape(shape.name, mesh, shape.settings, fields_);
     }
 
     const Shot& shot_;
+    FieldStore* fields_;
     ProblemList problems_;
     World world_;
     // Asked by name, never walked.
@@ -209,9 +211,9 @@ SceneMesh toSceneMesh(const Shape& shape, double metresPerUnit, double planeHalf
 
 }  // namespace
 
-World buildWorld(const Shot& shot)
+World buildWorld(const Shot& shot, FieldStore* fields)
 {
-    return WorldBuilder(shot).build();
+    return WorldBuilder(shot, fields).build();
 }
 
 SceneDescription describeScene(const Shot& shot, const World& world, double planeHalfWidth)

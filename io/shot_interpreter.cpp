@@ -279,6 +279,10 @@ private:
             if (const ShotNode* voxel = sdf->find("voxel")) {
                 settings.voxel = voxel->number * shot_.metresPerUnit;
             }
+            const std::string& storage = sdf->find("storage")->text;
+            settings.storage = storage == "dense"    ? FieldStorage::dense
+                               : storage == "bricks" ? FieldStorage::bricks
+                                                     : FieldStorage::automatic;
         }
         const bool isGrid = isStrict_ || node.find("field")->text == "grid";
         settings.field = isGrid ? FieldMode::grid : FieldMode::refined;

@@ -520,6 +520,13 @@ const std::vector<ShotKey> kShapeKeys = {
      .isOpen = true,
      .excludes = "resolution",
      .help = "Edge of a voxel, instead of resolution."},
+    {.path = "shape.sdf.storage",
+     .type = word,
+     .byDefault = "\"auto\"",
+     .choices = "auto|dense|bricks",
+     .help = "How the field is kept: \"dense\" holds every node and answers fastest, \"bricks\" "
+             "only blocks near the surface, for large fields. \"auto\" takes bricks above 2 MiB "
+             "where they save a quarter. Near the surface both say the same to the last bit."},
     {.path = "shape.field",
      .type = word,
      .byDefault = "\"refined\"",

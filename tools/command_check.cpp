@@ -8,6 +8,7 @@
 #include "core/geometry/shape_report.h"
 #include "core/math/rotation.h"
 #include "io/build_world.h"
+#include "io/distance_cache.h"
 #include "io/shot_parser.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
@@ -23,7 +24,7 @@ constexpr std::size_t kMostOverlapsPrinted = 20;
 
 struct CheckOptions {
     std::string shot;
-    bool resolved = false, json = false;
+    bool resolved = false, json = false, noCache = false;
     int estimateFrames = 3;
     std::optional<int> threads;
     std::vector<std::string> overrides;
@@ -112,6 +113,10 @@ void printShape(const std::string& name, const ShapeUse& use)
         std::printf("  walls   %.4g m at the thinnest, %.1f voxels of %.4g m, %.0f along the box\n",
                     shape.innerThickness, shape.innerThickness / spacing, spacing,
                     report.longestEdge / spacing);
+        std::printf(
+            "  field   %s, %.1f MB\n",
+            shape.distance.field().nodes.storage == FieldStorage::dense ? "dense" : "bricks",
+            1e-6 * static_cast<double>(shape.distance.byteCount()));
     }
     std::printf("  edges   %d sharper than 40 degrees, the sharpest %.0f; normals %s\n",
                 report.sharpEdges, report.sharpestEdge * 180.0 / kPi,
@@ -125,7 +130,17 @@ void printList(const char* title, const std::vector<std::string>& lines)
     for (const std::string& line : lines) std::printf("  %s\n", line.c_str());
 }
 
-void printText(const Shot& shot, const World& world, const ShotReport& report)
+void printCache(const DistanceCache& cache)
+{
+    if (cache.folder().empty()) return;
+    const DistanceCache::Size size = cache.size();
+    std::printf("\ndistance fields: %d from the cache, %d built; \"%s\" holds %d, %.1f MB\n",
+                cache.foundCount(), cache.keptCount(), cache.folder().string().c_str(), size.files,
+                1e-6 * static_cast<double>(size.bytes));
+}
+
+void printText(const Shot& shot, const World& world, const ShotReport& report,
+               const DistanceCache& cache)
 {
     std::printf("%s: frames %d-%d at %g a second, %zu bodies, %zu of them movable\n\n",
                 shot.name.c_str(), shot.firstFrame, shot.lastFrame, shot.framesPerSecond,
@@ -155,6 +170,7 @@ void printText(const Shot& shot, const World& world, const ShotReport& report)
             estimate.stepsTried);
     }
     std::printf("\n");
+    printCache(cache);
 }
 
 nlohmann::ordered_json toJson(const ShapeUse& use)
@@ -217,7 +233,7 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
     std::printf("%s\n", json.dump(2).c_str());
 }
 
-int runCheck(const CheckOptions& options)
+int runCheck(const CheckOptions& options, Console& console)
 {
     const Shot shot = parseShot(options.shot, options.overrides);
     if (options.resolved) {
@@ -225,12 +241,14 @@ int runCheck(const CheckOptions& options)
         return kExitDone;
     }
     setThreadCount(threadsToUse(options.threads));
-    const World world = buildWorld(shot);
+    DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
+    const World world = buildWorld(shot, &cache);
+    if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
     const ShotReport report = examine(shot, world, options.estimateFrames);
     if (options.json)
         printJson(shot, world, report);
     else
-        printText(shot, world, report);
+        printText(shot, world, report, cache);
     // What sim would refuse, check refuses too.
     const bool isRefused = !report.overlaps.empty() && shot.startOverlap == StartOverlapRule::error;
     return isRefused ? exitCodeFor(ErrorKind::badInput) : kExitDone;
@@ -252,6 +270,8 @@ Command addCheckCommand(CLI::App& program)
                      "Frames simulated to estimate the time [3]; 0 for none")
         ->check(CLI::Range(0, 1000));
     command->add_option("--threads", options->threads, "Number of threads [all]");
+    command->add_flag("--no-cache", options->noCache,
+                      "Build every distance field anew and keep none");
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")
         ->expected(1)
@@ -259,7 +279,7 @@ Command addCheckCommand(CLI::App& program)
     command->footer(
         "Ends with 65 when sim would refuse the shot.\n"
         "Example:\n  scree check shots/rings_100.toml");
-    return {command, [options](Console&) { return runCheck(*options); }};
+    return {command, [options](Console& console) { return runCheck(*options, console); }};
 }
 
 }  // namespace scree

@@ -11,6 +11,7 @@
 #include "core/diagnostics/state_hash.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
+#include "io/distance_cache.h"
 #include "io/shot_parser.h"
 #include "io/subframes.h"
 #include "io/take.h"
@@ -30,7 +31,7 @@ namespace {
 struct SimOptions {
     std::string shot, take, frames, from, progress = "auto";
     std::optional<int> threads;
-    bool resume = false, overwrite = false;
+    bool resume = false, overwrite = false, noCache = false;
     std::vector<std::string> overrides;
 };
 
@@ -67,7 +68,9 @@ public:
         shot_ = parseShot(options.shot, options.overrides);
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
-        world_ = buildWorld(shot_);
+        DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
+        world_ = buildWorld(shot_, &cache);
+        if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
         for (const std::string& warning : warningsBeforeStart(shot_, world_)) {
@@ -352,6 +355,8 @@ Command addSimCommand(CLI::App& program)
                      "TAKE@FRAME: begin with that take's frames up to this one; the shot may "
                      "differ from the take's in settings, not in bodies")
         ->excludes(resume);
+    command->add_flag("--no-cache", options->noCache,
+                      "Build every distance field anew and keep none");
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")
         ->expected(1)

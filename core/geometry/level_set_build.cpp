@@ -1,10 +1,14 @@
+// Symbols: h node spacing, phi signed distance. A block is coarse when no node of it, its faces
+// included, lies in OpenVDB's band.
 #include "core/geometry/level_set_build.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/geometry/triangle_distance.h"
@@ -14,14 +18,19 @@ namespace {
 
 constexpr float kBandVoxels = 3.0f;
 
-openvdb::FloatGrid::Ptr narrowBand(const TriMesh& mesh, const GridNodes& nodes)
+/// Up to here a lattice is dense without asking: it fits a core's own cache [bytes].
+constexpr std::size_t kSmallLattice = 2u << 20;
+
+using Index3 = std::array<int, 3>;
+
+openvdb::FloatGrid::Ptr narrowBand(const TriMesh& mesh, const NodeLayout& layout)
 {
     openvdb::initialize();
     // Index space: one unit per node spacing, node (0, 0, 0) at the origin.
     std::vector<openvdb::Vec3s> points;
     points.reserve(mesh.points.cols());
     for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
-        const Vec3 p = (mesh.points.col(v) - nodes.origin) / nodes.spacing;
+        const Vec3 p = (mesh.points.col(v) - layout.origin) / layout.spacing;
         points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
                             static_cast<float>(p.z()));
     }
@@ -33,42 +42,237 @@ openvdb::FloatGrid::Ptr narrowBand(const TriMesh& mesh, const GridNodes& nodes)
     const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(
         points, triangles);
     const auto unitTransform = openvdb::math::Transform::createLinearTransform(1.0);
+    // The same band on both sides: OpenVDB would widen the inner one from neighbour to neighbour,
+    // slower than asking the mesh and not quite exact.
     return openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *unitTransform, kBandVoxels,
-                                                            std::numeric_limits<float>::max());
+                                                            kBandVoxels);
 }
 
-}  // namespace
+/// Reads OpenVDB's band, and asks the mesh beyond it. One for each thread.
+class NodeReader {
+public:
+    NodeReader(const TriMesh& mesh, const SurfaceRays& rays, const NodeLayout& layout,
+               const openvdb::FloatGrid& band)
+        : mesh_(mesh), rays_(rays), layout_(layout), accessor_(band.getConstAccessor())
+    {
+    }
 
-void fillSignedDistance(const TriMesh& mesh, const SurfaceRays& rays, GridNodes& nodes)
+    /// Signed distance at a node. Neighbours asked one after another are found fastest: the last
+    /// answer bounds the next search.
+    float read(const Index3& node)
+    {
+        const float voxels = accessor_.getValue(openvdb::Coord(node[0], node[1], node[2]));
+        const double h = layout_.spacing;
+        if (std::abs(voxels) < kBandVoxels) return static_cast<float>(h * voxels);
+        const Vec3 p = layout_.node(node[0], node[1], node[2]);
+        const double reach = lastDistance_ + (p - lastPoint_).norm();
+        const int t = rays_.closestTriangle(p, reach);
+        const Vec3 closest = closestOnTriangle(p, mesh_.points.col(mesh_.triangles(0, t)),
+                                               mesh_.points.col(mesh_.triangles(1, t)),
+                                               mesh_.points.col(mesh_.triangles(2, t)))
+                                 .point;
+        lastDistance_ = (p - closest).norm();
+        lastPoint_ = p;
+        return static_cast<float>(std::copysign(lastDistance_, static_cast<double>(voxels)));
+    }
+
+private:
+    const TriMesh& mesh_;
+    const SurfaceRays& rays_;
+    const NodeLayout& layout_;
+    openvdb::FloatGrid::ConstAccessor accessor_;
+    Vec3 lastPoint_ = Vec3::Zero();
+    double lastDistance_ = std::numeric_limits<double>::infinity();
+};
+
+/// Calls visit(node) for every node of a block, those on its faces included, x fastest.
+template <class Visit>
+void visitNodes(const NodeLayout& layout, const Index3& block, const Visit& visit)
 {
-    const openvdb::FloatGrid::Ptr band = narrowBand(mesh, nodes);
-    const auto [nx, ny, nz] = nodes.count;
-    nodes.values.resize(static_cast<std::size_t>(nx) * ny * nz);
+    const Index3 cells = cellsOfBlock(layout, block);
+    for (int k = 0; k <= cells[2]; ++k) {
+        for (int j = 0; j <= cells[1]; ++j) {
+            for (int i = 0; i <= cells[0]; ++i) {
+                visit(Index3{kBlockCells * block[0] + i, kBlockCells * block[1] + j,
+                             kBlockCells * block[2] + k});
+            }
+        }
+    }
+}
 
+Index3 bitsOf(int corner)
+{
+    return {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+}
+
+/// The corner nodes of a block, x fastest.
+std::array<Index3, 8> cornersOf(const NodeLayout& layout, const Index3& block)
+{
+    const Index3 cells = cellsOfBlock(layout, block);
+    std::array<Index3, 8> corners;
+    for (int c = 0; c < 8; ++c) {
+        for (int axis = 0; axis < 3; ++axis) {
+            corners[c][axis] = kBlockCells * block[axis] + bitsOf(c)[axis] * cells[axis];
+        }
+    }
+    return corners;
+}
+
+/// Whether the band has a node in the block or on its faces. OpenVDB's leaves are our blocks, but
+/// for the faces that a block shares with the next ones.
+bool isInBand(const openvdb::FloatGrid& band, const Index3& block)
+{
+    auto accessor = band.getConstAccessor();
+    for (int c = 0; c < 8; ++c) {
+        const Index3 side = bitsOf(c);
+        const openvdb::Coord origin(kBlockCells * (block[0] + side[0]),
+                                    kBlockCells * (block[1] + side[1]),
+                                    kBlockCells * (block[2] + side[2]));
+        const auto* leaf = accessor.probeConstLeaf(origin);
+        if (!leaf) continue;
+        for (auto node = leaf->cbeginValueOn(); node; ++node) {
+            const openvdb::Coord at = node.getCoord() - origin;
+            bool isOurs = true;
+            for (int axis = 0; axis < 3; ++axis) isOurs &= side[axis] == 0 || at[axis] == 0;
+            if (isOurs) return true;
+        }
+    }
+    return false;
+}
+
+void noteRange(FieldBlock& block, float value)
+{
+    block.low = std::min(block.low, value);
+    block.high = std::max(block.high, value);
+}
+
+void fillDense(DistanceNodes& nodes, const TriMesh& mesh, const SurfaceRays& rays,
+               const openvdb::FloatGrid& band)
+{
+    const auto [nx, ny, nz] = nodes.layout.count;
+    nodes.values.resize(nodes.layout.nodeCount());
     parallelFor(nz, 1, [&](std::size_t begin, std::size_t end) {
-        auto accessor = band->getConstAccessor();
+        NodeReader reader(mesh, rays, nodes.layout, band);
         for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
             for (int j = 0; j < ny; ++j) {
                 for (int i = 0; i < nx; ++i) {
-                    const float voxels = accessor.getValue(openvdb::Coord(i, j, k));
-                    double distance = nodes.spacing * voxels;
-                    if (std::abs(voxels) >= kBandVoxels) {
-                        const Vec3 p = nodes.origin + nodes.spacing * Vec3(i, j, k);
-                        const int t = rays.closestTriangle(p);
-                        const Vec3 closest =
-                            closestOnTriangle(p, mesh.points.col(mesh.triangles(0, t)),
-                                              mesh.points.col(mesh.triangles(1, t)),
-                                              mesh.points.col(mesh.triangles(2, t)))
-                                .point;
-                        distance = std::copysign((p - closest).norm(), distance);
-                    }
-                    nodes.values[i + static_cast<std::size_t>(nx) *
-                                         (j + static_cast<std::size_t>(ny) * k)] =
-                        static_cast<float>(distance);
+                    nodes.values[nodes.valueIndex({i, j, k}, {})] = reader.read({i, j, k});
                 }
             }
         }
     });
+}
+
+/// Gives every block its place among the values; returns how many there are.
+std::size_t layOutBricks(DistanceNodes& nodes, const openvdb::FloatGrid& band)
+{
+    parallelFor(nodes.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            nodes.blocks[b].isCoarse = isInBand(band, nodes.blockAt(b)) ? 0 : 1;
+        }
+    });
+    std::size_t count = 0;
+    for (FieldBlock& block : nodes.blocks) {
+        block.first = static_cast<std::uint32_t>(count);
+        count += block.isCoarse ? 8 : kBrickValues;
+    }
+    return count;
+}
+
+/// What the field says at a node that belongs to a coarse block; nothing where none of the blocks
+/// around the node is coarse.
+std::optional<float> coarseValue(const DistanceNodes& nodes, const Index3& node)
+{
+    for (int c = 0; c < 8; ++c) {
+        const Index3 side = bitsOf(c);
+        Index3 cell;
+        bool isThere = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            cell[axis] = node[axis] - side[axis];
+            isThere &= cell[axis] >= 0 && cell[axis] < nodes.layout.count[axis] - 1;
+        }
+        if (!isThere || !nodes.blockOf(cell).isCoarse) continue;
+        const std::size_t block = nodes.blockIndex(cell);
+        return static_cast<float>(nodes.interpolateCoarse(block, node));
+    }
+    return std::nullopt;
+}
+
+void fillBricks(DistanceNodes& nodes, const TriMesh& mesh, const SurfaceRays& rays,
+                const openvdb::FloatGrid& band)
+{
+    const auto forEachBlock = [&](bool coarse, const auto& fill) {
+        parallelFor(nodes.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
+            NodeReader reader(mesh, rays, nodes.layout, band);
+            for (std::size_t b = begin; b < end; ++b) {
+                if ((nodes.blocks[b].isCoarse != 0) == coarse) fill(reader, b);
+            }
+        });
+    };
+    forEachBlock(true, [&](NodeReader& reader, std::size_t b) {
+        const auto corners = cornersOf(nodes.layout, nodes.blockAt(b));
+        for (int c = 0; c < 8; ++c)
+            nodes.values[nodes.blocks[b].first + c] = reader.read(corners[c]);
+    });
+    forEachBlock(false, [&](NodeReader& reader, std::size_t b) {
+        const Index3 at = nodes.blockAt(b);
+        visitNodes(nodes.layout, at, [&](const Index3& node) {
+            const float exact = reader.read(node);
+            const float value = coarseValue(nodes, node).value_or(exact);
+            nodes.values[nodes.valueIndex(node, at)] = value;
+            // Read on below as what the value exceeds the distance by.
+            nodes.blocks[b].slack = std::max(nodes.blocks[b].slack, std::abs(value - exact));
+        });
+    });
+}
+
+/// Lowest and highest value of every block, and how far interpolation can be off.  [A11]
+void noteRanges(DistanceNodes& nodes)
+{
+    const double halfCell = kHalfDiagonal * nodes.layout.spacing;
+    parallelFor(nodes.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            FieldBlock& block = nodes.blocks[b];
+            block.low = std::numeric_limits<float>::infinity();
+            block.high = -std::numeric_limits<float>::infinity();
+            if (block.isCoarse) {
+                for (int c = 0; c < 8; ++c) noteRange(block, nodes.values[block.first + c]);
+                block.slack = static_cast<float>(kBlockCells * halfCell);
+                continue;
+            }
+            const Index3 at = nodes.blockAt(b);
+            visitNodes(nodes.layout, at, [&](const Index3& node) {
+                noteRange(block, nodes.values[nodes.valueIndex(node, at)]);
+            });
+            block.slack = std::nextafter(static_cast<float>(halfCell + block.slack), 1e30f);
+        }
+    });
+}
+
+}  // namespace
+
+DistanceNodes buildDistanceNodes(const TriMesh& mesh, const SurfaceRays& rays,
+                                 const NodeLayout& layout, FieldStorage storage)
+{
+    const openvdb::FloatGrid::Ptr band = narrowBand(mesh, layout);
+    const std::size_t denseBytes = layout.nodeCount() * sizeof(float);
+    if (storage == FieldStorage::automatic && denseBytes <= kSmallLattice) {
+        storage = FieldStorage::dense;
+    }
+    if (storage != FieldStorage::dense) {
+        DistanceNodes nodes = emptyNodes(layout, FieldStorage::bricks);
+        const std::size_t count = layOutBricks(nodes, *band);
+        if (storage == FieldStorage::bricks || 4 * count * sizeof(float) <= 3 * denseBytes) {
+            nodes.values.resize(count);
+            fillBricks(nodes, mesh, rays, *band);
+            noteRanges(nodes);
+            return nodes;
+        }
+    }
+    DistanceNodes nodes = emptyNodes(layout, FieldStorage::dense);
+    fillDense(nodes, mesh, rays, *band);
+    noteRanges(nodes);
+    return nodes;
 }
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/geometry/level_set_build.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/math/rotation.h"
 
@@ -107,11 +108,11 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
     return remeshed;
 }
 
-GridNodes layOutNodes(const Aabb& box, double spacing)
+NodeLayout layOutNodes(const Aabb& box, double spacing)
 {
     // Nodes lie on the low faces of the box, and on the high ones where the edge is a multiple of
     // h.
-    GridNodes nodes;
+    NodeLayout nodes;
     nodes.spacing = spacing;
     nodes.origin = box.min - Vec3::Constant(kMarginCells * spacing);
     for (int k = 0; k < 3; ++k) {
@@ -121,10 +122,25 @@ GridNodes layOutNodes(const Aabb& box, double spacing)
     return nodes;
 }
 
+/// The field of the shape's mesh, from the store if it is there.
+DistanceField fieldOf(const Shape& shape, const NodeLayout& layout, const ShapeSettings& settings,
+                      FieldStore* store)
+{
+    const std::uint64_t key = fieldKey(shape.mesh, layout, settings.storage);
+    if (store) {
+        if (auto kept = store->find(key)) return std::move(*kept);
+    }
+    DistanceField field;
+    field.nodes = buildDistanceNodes(shape.mesh, shape.rays, layout, settings.storage);
+    field.nearest = findNearestFaces(shape.mesh, field.nodes);
+    if (store) store->keep(key, field);
+    return field;
+}
+
 }  // namespace
 
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
-                                            const ShapeSettings& settings)
+                                            const ShapeSettings& settings, FieldStore* store)
 {
     auto shape = std::make_shared<Shape>();
     shape->name = name;
@@ -156,10 +172,9 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
     if (!shape->usesTrueNormals) shape->smooth = SmoothSurface(shape->mesh);
 
     const double spacing = chooseSpacing(name, settings, shape->box, shape->innerThickness);
-    GridNodes nodes = layOutNodes(shape->box, spacing);
-    fillSignedDistance(shape->mesh, shape->rays, nodes);
-    shape->distance =
-        SignedDistance(shape->mesh, std::move(nodes), settings.field == FieldMode::refined);
+    shape->distance = SignedDistance(
+        shape->mesh, fieldOf(*shape, layOutNodes(shape->box, spacing), settings, store),
+        settings.field == FieldMode::refined);
     return shape;
 }
 

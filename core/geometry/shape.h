@@ -39,6 +39,7 @@ enum class FieldMode {
 struct ShapeSettings {
     std::optional<int> resolution;  ///< voxels along the longest box edge; default from thickness
     std::optional<double> voxel;    ///< [m], instead of resolution
+    FieldStorage storage = FieldStorage::automatic;
     NormalMode normals = NormalMode::automatic;
     FieldMode field = FieldMode::refined;
     std::optional<bool>
@@ -82,9 +83,11 @@ struct Shape {
 /// Builds mass, field, samples and rays from a closed mesh in the artist's frame, lengths in
 /// metres; what can be repaired without harm is. Throws Error{badInput} naming `name` when the mesh
 /// is not a solid [A1], has no volume [A2] or is too thin for the largest allowed resolution, 512
-/// [A4]: the message says which would do.
+/// [A4]: the message says which would do. A field that `store` has is not
+/// built again, and one that is built is kept there.
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
-                                            const ShapeSettings& settings = {});
+                                            const ShapeSettings& settings = {},
+                                            FieldStore* store = nullptr);
 
 /// A sphere, box or cylinder that collides as the formula says, not as a mesh: field, normals and
 /// mass are exact. `mesh`, in the solid's own frame, is what is drawn; of a box it also supplies

@@ -1,5 +1,4 @@
-// Signed distance to a solid: a dense grid of nodes, and near the surface the mesh itself.  [A4,
-// A5]
+// Signed distance to a solid: a lattice of nodes, and near the surface the mesh itself.  [A4, A5]
 //
 // A few solids have a formula for it and need neither (exact_solid.h).
 //
@@ -16,10 +15,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geometry/exact_solid.h"
-#include "core/geometry/level_set_build.h"
+#include "core/geometry/field_store.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/math/aabb.h"
 
@@ -33,14 +33,18 @@ public:
     /// in the field take for small.  [A9]
     explicit SignedDistance(const ExactSolid& solid, double spacing = 0.0);
 
-    /// From a solid mesh and its filled lattice. `refined` switches the exact distance near the
+    /// From a solid mesh and its finished field. `refined` switches the exact distance near the
     /// surface on; without it values are purely trilinear, as in the paper.
-    SignedDistance(const TriMesh& mesh, GridNodes nodes, bool refined);
+    SignedDistance(const TriMesh& mesh, DistanceField field, bool refined);
 
     /// The formula; null where there is a lattice.
     const ExactSolid* solid() const { return solid_ ? &*solid_ : nullptr; }
-    double spacing() const { return nodes_.spacing; }
+    double spacing() const { return solid_ ? solidSpacing_ : field_.nodes.layout.spacing; }
     const Aabb& domain() const { return domain_; }
+    /// Without nodes where there is a formula.
+    const DistanceField& field() const { return field_; }
+    /// What nodes, blocks, lists and triangles take [bytes].
+    std::size_t byteCount() const;
 
     /// Signed distance [m]: this decides inside, depth and rank.
     double value(const Vec3& point) const;
@@ -100,19 +104,22 @@ private:
     };
 
     void buildFaces(const TriMesh& mesh);
-    void buildCandidates();
-    std::size_t cellIndex(const Vec3& pointInDomain) const;
+    Vec3 clamped(const Vec3& point) const
+    {
+        return point.cwiseMax(domain_.min).cwiseMin(domain_.max);
+    }
+    const FieldBlock& blockAround(const Vec3& pointInDomain) const;
+    std::span<const std::uint32_t> facesOfCell(const Vec3& pointInDomain) const;
     Closest closestInCell(const Vec3& point) const;
     static double signedValue(const Closest& closest, const Vec3& point);
 
     std::optional<ExactSolid> solid_;
-    GridNodes nodes_;
+    double solidSpacing_ = 0.0;
+    DistanceField field_;
     Aabb domain_;        // of the nodes
     Aabb surfaceBox_;    // of the mesh
     double band_ = 0.0;  // 0: never refine
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> candidateStart_;  // #cells + 1
-    std::vector<std::uint32_t> candidates_;  // triangles that can be closest somewhere in the cell
 };
 
 }  // namespace scree

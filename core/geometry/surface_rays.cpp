@@ -116,7 +116,7 @@ std::optional<SurfaceRays::Hit> SurfaceRays::firstHit(const Vec3& origin, const 
     return Hit{triangle, distance};
 }
 
-int SurfaceRays::closestTriangle(const Vec3& point) const
+int SurfaceRays::closestTriangle(const Vec3& point, double reach) const
 {
     struct Query {
         const TriMesh* mesh;
@@ -129,7 +129,8 @@ int SurfaceRays::closestTriangle(const Vec3& point) const
     query.x = static_cast<float>(point.x());
     query.y = static_cast<float>(point.y());
     query.z = static_cast<float>(point.z());
-    query.radius = std::numeric_limits<float>::infinity();
+    // A thousandth more: the mesh in single precision may lie a little farther.
+    query.radius = static_cast<float>(reach * 1.001);
     query.time = 0.0f;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
@@ -154,6 +155,7 @@ int SurfaceRays::closestTriangle(const Vec3& point) const
             return true;
         },
         &state);
+    SCREE_CHECK(state.triangle >= 0, "no triangle within reach");
     return state.triangle;
 }
 

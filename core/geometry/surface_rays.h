@@ -2,6 +2,7 @@
 // are computed here in double precision, so that single precision only ever decides ties.  [A6]
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -30,8 +31,10 @@ public:
     std::optional<Hit> firstHit(const Vec3& origin, const Vec3& direction, double reach,
                                 Facing facing) const;
 
-    /// Index of the triangle closest to `point`.
-    int closestTriangle(const Vec3& point) const;
+    /// Index of the triangle closest to `point`. Something must lie within `reach` [m]; the closer
+    /// it is to the answer, the shorter the search.
+    int closestTriangle(const Vec3& point,
+                        double reach = std::numeric_limits<double>::infinity()) const;
 
 private:
     struct Scene;

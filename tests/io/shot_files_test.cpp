@@ -104,6 +104,53 @@ TEST(ShotFiles, WedgeIsASharpSolidOfTwelveTriangles)
     }
 }
 
+TEST(ShotFiles, BonesAreSolidsOfTheTrianglesTheyPromise)
+{
+    struct Bone {
+        std::string name;
+        Eigen::Index triangles;
+        Eigen::Index handles;  ///< genus
+    };
+    // The skull: brain case with two eyes, a nose and the way out below, cheek and jaw bones as
+    // handles. The pelvis: the brim and two seats.
+    for (const Bone& bone : {Bone{"skull", 3520, 6}, {"pelvis", 8680, 3}, {"femur", 8160, 0}}) {
+        const TriMesh mesh =
+            importMesh(test::sourceFile("shots/meshes/" + bone.name + ".ply").string());
+        EXPECT_EQ(mesh.triangles.cols(), bone.triangles) << bone.name;
+        EXPECT_TRUE(findDefects(mesh).empty()) << bone.name;
+        // Euler's formula, with three half edges to a face.
+        EXPECT_EQ(mesh.points.cols() - mesh.triangles.cols() / 2, 2 - 2 * bone.handles)
+            << bone.name;
+    }
+}
+
+TEST(ShotFiles, BonesStartApartInColumnsAboveTheFunnel)
+{
+    // Balls as given to tools/scatter_poses.py hold the bones, which are scaled by 0.8.
+    const std::map<std::string, double> balls = {
+        {"skull", 0.345}, {"pelvis", 0.34}, {"femur", 0.345}};
+    for (const auto& [name, radius] : balls) {
+        const TriMesh mesh = importMesh(test::sourceFile("shots/meshes/" + name + ".ply").string());
+        EXPECT_LT(0.8 * mesh.points.colwise().norm().maxCoeff(), radius) << name;
+    }
+    const Shot shot = shippedShot("bones_500.toml");
+    std::map<std::string, int> counts;
+    std::vector<std::pair<Vec3, double>> placed;
+    for (const ShotBody& body : shot.bodies) {
+        if (!body.shape || !balls.count(*body.shape)) continue;
+        ++counts[*body.shape];
+        const double radius = balls.at(*body.shape);
+        const Vec3 at = body.worldFromAsset.position;
+        EXPECT_GE(at.y() - radius, 10.0);
+        EXPECT_LE(at.y() + radius, 50.0);
+        for (const auto& [other, otherRadius] : placed) {
+            EXPECT_GT((at - other).norm(), radius + otherRadius - 1e-6);
+        }
+        placed.emplace_back(at, radius);
+    }
+    EXPECT_EQ(counts, (std::map<std::string, int>{{"skull", 300}, {"pelvis", 150}, {"femur", 50}}));
+}
+
 TEST(ShotFiles, ExactShapesAreBuiltWithTheirScaleAndTheMassOfTheSolid)
 {
     const Shot shot = parseShotText(

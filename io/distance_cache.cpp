@@ -1,0 +1,204 @@
+// File: mark, format version, key, layout, storage, four arrays (count, then elements), and the
+// hash of all before it.
+#include "io/distance_cache.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "io/byte_order.h"
+#include "io/file_bytes.h"
+#include "io/take_info.h"
+
+namespace scree {
+namespace {
+
+constexpr std::string_view kMark = "scree distance field\n";
+constexpr std::uint32_t kFormat = 1;
+constexpr std::string_view kEnding = ".field";
+
+template <class Element>
+void appendArray(std::string& bytes, const std::vector<Element>& elements)
+{
+    appendBytes(bytes, static_cast<std::uint64_t>(elements.size()));
+    bytes.append(reinterpret_cast<const char*>(elements.data()), sizeof(Element) * elements.size());
+}
+
+/// Takes values off the front; once something is missing all further values are zero.
+class Reader {
+public:
+    explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+
+    template <class Value>
+    Value take()
+    {
+        if (bytes_.size() < sizeof(Value)) isWhole_ = false;
+        if (!isWhole_) return Value{};
+        const auto value = readBytes<Value>(bytes_, 0);
+        bytes_.remove_prefix(sizeof(Value));
+        return value;
+    }
+
+    template <class Element>
+    std::vector<Element> takeArray()
+    {
+        const auto count = take<std::uint64_t>();
+        if (count > bytes_.size() / sizeof(Element)) isWhole_ = false;
+        if (!isWhole_) return {};
+        std::vector<Element> elements(count);
+        std::memcpy(elements.data(), bytes_.data(), sizeof(Element) * count);
+        bytes_.remove_prefix(sizeof(Element) * count);
+        return elements;
+    }
+
+    bool isUsedUp() const { return isWhole_ && bytes_.empty(); }
+
+private:
+    std::string_view bytes_;
+    bool isWhole_ = true;
+};
+
+/// Whether every index stays inside its array.
+bool isConsistent(const DistanceField& field)
+{
+    const DistanceNodes& nodes = field.nodes;
+    const bool isDense = nodes.storage == FieldStorage::dense;
+    if (!isDense && nodes.storage != FieldStorage::bricks) return false;
+    for (const int count : nodes.layout.count) {
+        if (count < 2) return false;
+    }
+    const DistanceNodes expected = emptyNodes(nodes.layout, nodes.storage);
+    if (nodes.blocks.size() != expected.blocks.size()) return false;
+    if (isDense && nodes.values.size() != nodes.layout.nodeCount()) return false;
+    constexpr std::size_t kBlockLists = kBlockCells * kBlockCells * kBlockCells;
+    for (const FieldBlock& block : nodes.blocks) {
+        const std::size_t own = block.isCoarse ? 8 : kBrickValues;
+        if (!isDense && block.first + own > nodes.values.size()) return false;
+        if (isDense && block.isCoarse) return false;
+        if (block.candidates != FieldBlock::kNone &&
+            block.candidates + kBlockLists >= field.nearest.start.size()) {
+            return false;
+        }
+    }
+    std::uint32_t last = 0;
+    for (const std::uint32_t start : field.nearest.start) {
+        if (start < last || start > field.nearest.faces.size()) return false;
+        last = start;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::string bytesOfField(std::uint64_t key, const DistanceField& field)
+{
+    const NodeLayout& layout = field.nodes.layout;
+    std::string bytes(kMark);
+    appendBytes(bytes, kFormat);
+    appendBytes(bytes, key);
+    for (int axis = 0; axis < 3; ++axis) appendBytes(bytes, layout.origin[axis]);
+    appendBytes(bytes, layout.spacing);
+    for (const int count : layout.count) appendBytes(bytes, count);
+    appendBytes(bytes, static_cast<std::int32_t>(field.nodes.storage));
+    appendArray(bytes, field.nodes.blocks);
+    appendArray(bytes, field.nodes.values);
+    appendArray(bytes, field.nearest.start);
+    appendArray(bytes, field.nearest.faces);
+    appendBytes(bytes, hashText(bytes));
+    return bytes;
+}
+
+std::optional<DistanceField> fieldOfBytes(std::uint64_t key, std::string_view bytes)
+{
+    if (!bytes.starts_with(kMark) || bytes.size() < kMark.size() + sizeof(std::uint64_t)) {
+        return std::nullopt;
+    }
+    const std::string_view hashed = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
+    if (readBytes<std::uint64_t>(bytes, hashed.size()) != hashText(hashed)) return std::nullopt;
+
+    Reader reader(hashed.substr(kMark.size()));
+    if (reader.take<std::uint32_t>() != kFormat) return std::nullopt;
+    if (reader.take<std::uint64_t>() != key) return std::nullopt;
+    NodeLayout layout;
+    for (int axis = 0; axis < 3; ++axis) layout.origin[axis] = reader.take<double>();
+    layout.spacing = reader.take<double>();
+    for (int& count : layout.count) count = reader.take<int>();
+    DistanceField field;
+    field.nodes.layout = layout;
+    field.nodes.storage = static_cast<FieldStorage>(reader.take<std::int32_t>());
+    field.nodes.blocks = reader.takeArray<FieldBlock>();
+    field.nodes.values = reader.takeArray<float>();
+    field.nearest.start = reader.takeArray<std::uint32_t>();
+    field.nearest.faces = reader.takeArray<std::uint32_t>();
+    if (!reader.isUsedUp() || !isConsistent(field)) return std::nullopt;
+    field.nodes.blockCount = emptyNodes(layout, field.nodes.storage).blockCount;
+    return field;
+}
+
+DistanceCache::DistanceCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+std::filesystem::path DistanceCache::fileOf(std::uint64_t key) const
+{
+    return folder_ / (toHex(key) + std::string(kEnding));
+}
+
+std::optional<DistanceField> DistanceCache::find(std::uint64_t key)
+{
+    std::error_code ignored;
+    if (folder_.empty() || !std::filesystem::exists(fileOf(key), ignored)) return std::nullopt;
+    try {
+        auto field = fieldOfBytes(key, readFileBytes(fileOf(key)));
+        if (field) {
+            ++found_;
+            return field;
+        }
+        problem_ = "\"" + fileOf(key).string() + "\" is damaged and is built anew";
+    } catch (const Error& error) {
+        problem_ = error.what();
+    }
+    return std::nullopt;
+}
+
+void DistanceCache::keep(std::uint64_t key, const DistanceField& field)
+{
+    if (folder_.empty()) return;
+    try {
+        std::error_code failure;
+        std::filesystem::create_directories(folder_, failure);
+        writeFileBytes(fileOf(key), bytesOfField(key, field));
+        ++kept_;
+    } catch (const Error& error) {
+        problem_ = error.what();
+    }
+}
+
+DistanceCache::Size DistanceCache::size() const
+{
+    Size size;
+    std::error_code failure;
+    for (std::filesystem::directory_iterator entry(folder_, failure), end; entry != end;
+         entry.increment(failure)) {
+        if (failure) break;
+        if (entry->path().extension() != kEnding) continue;
+        ++size.files;
+        size.bytes += entry->file_size(failure);
+    }
+    return size;
+}
+
+std::filesystem::path defaultCacheFolder()
+{
+    const auto named = [](const char* variable) {
+        const char* value = std::getenv(variable);
+        return std::filesystem::path(value ? value : "");
+    };
+    // A path that is not absolute is to be ignored, says the XDG specification.
+    if (const auto cache = named("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "scree";
+    if (const auto home = named("HOME"); home.is_absolute()) return home / ".cache" / "scree";
+    return {};
+}
+
+}  // namespace scree

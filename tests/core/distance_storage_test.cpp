@@ -1,0 +1,184 @@
+// E21: the two storages of a distance field, and what blocks know without being sampled.  [A4, A10,
+// A11]
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "core/collision/interference.h"
+#include "core/geometry/field_store.h"
+#include "core/geometry/level_set_build.h"
+#include "core/geometry/primitives.h"
+#include "core/geometry/shape.h"
+#include "core/math/rotation.h"
+
+namespace scree::test {
+namespace {
+
+Vec3 drawIn(const Aabb& box, std::uint64_t i, std::uint64_t what)
+{
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) {
+        p[k] = box.min[k] + box.size()[k] * randomUnit(what, i, static_cast<std::uint64_t>(k));
+    }
+    return p;
+}
+
+std::shared_ptr<const Shape> stored(const TriMesh& mesh, FieldStorage storage)
+{
+    ShapeSettings settings;
+    settings.resolution = 96;
+    settings.storage = storage;
+    return buildMeshShape("shape", mesh, settings);
+}
+
+int coarseBlocks(const Shape& shape)
+{
+    const auto& blocks = shape.distance.field().nodes.blocks;
+    return static_cast<int>(
+        std::count_if(blocks.begin(), blocks.end(), [](const auto& b) { return b.isCoarse; }));
+}
+
+/// A ring with much empty space, and a block with much of it inside.
+std::vector<TriMesh> someMeshes()
+{
+    return {makeTorus(1.0, 0.25, {24, 16}), makeBox({1.0, 0.9, 1.1}, {2, 2, 2})};
+}
+
+TEST(E21FieldStorage, BricksAndDenseGridHaveTheSameSignEverywhereAndTheSameBitsInTheBand)
+{
+    for (const TriMesh& mesh : someMeshes()) {
+        const auto dense = stored(mesh, FieldStorage::dense);
+        const auto bricks = stored(mesh, FieldStorage::bricks);
+        ASSERT_GT(coarseBlocks(*bricks), 10);
+        ASSERT_EQ(coarseBlocks(*dense), 0);
+        const double h = dense->distance.spacing();
+        int inBand = 0;
+        for (std::uint64_t i = 0; i < 100000; ++i) {
+            const Vec3 p = drawIn(dense->box.grown(6.0 * h), i, 31);
+            const double a = dense->distance.value(p), b = bricks->distance.value(p);
+            ASSERT_EQ(a < 0.0, b < 0.0) << p.transpose();
+            if (std::abs(dense->distance.gridValue(p)) < dense->distance.refinementBand()) {
+                ++inBand;
+                ASSERT_EQ(a, b) << p.transpose();
+                ASSERT_EQ(dense->distance.gridValue(p), bricks->distance.gridValue(p));
+            }
+        }
+        EXPECT_GT(inBand, 3000);
+    }
+}
+
+TEST(E21FieldStorage, BricksPromiseNoMoreDistanceThanThereIs)
+{
+    // A sphere's own formula is the judge; its mesh lies at most this much inside.
+    const double radius = 0.5, sag = 0.002;
+    const auto bricks = stored(makeSphere(radius, 4), FieldStorage::bricks);
+    ASSERT_GT(coarseBlocks(*bricks), 10);
+    for (std::uint64_t i = 0; i < 100000; ++i) {
+        const Vec3 p = drawIn(bricks->box.grown(0.05), i, 32);
+        const double exact = p.norm() - radius;
+        ASSERT_LE(bricks->distance.lowerBound(p), exact + sag) << p.transpose();
+        // What a block says unasked holds as well.
+        const double reach = 0.1 * randomUnit(33, i);
+        if (bricks->distance.isClearOf(p, reach)) {
+            ASSERT_GT(exact + sag, reach) << p.transpose();
+        }
+    }
+}
+
+TEST(E21FieldStorage, BricksHaveNoCracksBetweenFineAndCoarse)
+{
+    for (const TriMesh& mesh : someMeshes()) {
+        const auto bricks = stored(mesh, FieldStorage::bricks);
+        const DistanceNodes& nodes = bricks->distance.field().nodes;
+        const double h = nodes.layout.spacing;
+        for (std::uint64_t i = 0; i < 20000; ++i) {
+            // Two points astride a plane between blocks, a millionth of a cell apart.
+            Vec3 low = drawIn(bricks->box, i, 34);
+            const int axis = static_cast<int>(i % 3);
+            const double block = std::round((low[axis] - nodes.layout.origin[axis]) / (8.0 * h));
+            low[axis] = nodes.layout.origin[axis] + 8.0 * h * block - 5e-7 * h;
+            Vec3 high = low;
+            high[axis] += 1e-6 * h;
+            // Single precision of the values; a crack would be a good part of a cell.
+            ASSERT_NEAR(bricks->distance.gridValue(low), bricks->distance.gridValue(high),
+                        1e-4 * h);
+        }
+    }
+}
+
+TEST(E21FieldStorage, BlocksAndClustersLeaveTheSampleListsAsTheyAreInBothStorages)
+{
+    // The plain search asks every sample of both shapes and no block.
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    for (const TriMesh& mesh : {makeTorus(1.0, 0.25, {16, 10}), makeBox({1.0, 0.4, 1.1}, {1, 1, 1}),
+                                makeSphere(0.6, 2)}) {
+        shapes.push_back(stored(mesh, FieldStorage::dense));
+        shapes.push_back(stored(mesh, FieldStorage::bricks));
+    }
+    int touching = 0;
+    for (std::uint64_t i = 0; i < 10000; ++i) {
+        const Shape& a = *shapes[randomIndex(shapes.size(), 35, i)];
+        const Shape& b = *shapes[randomIndex(shapes.size(), 36, i)];
+        const Vec3 turnA = drawIn({Vec3::Constant(-2.0), Vec3::Constant(2.0)}, i, 37);
+        const Vec3 turnB = drawIn({Vec3::Constant(-2.0), Vec3::Constant(2.0)}, i, 38);
+        const Vec3 apart = drawIn({Vec3::Constant(-1.0), Vec3::Constant(1.0)}, i, 39);
+        const PlacedPair pair{&a, &b, Pose{apart, exponentialMap(turnA)},
+                              Pose{Vec3::Zero(), exponentialMap(turnB)}};
+        const double tau = contourValue(a, b);
+        std::vector<Touch> fast, plain;
+        Proximity proximity;
+        proximity.reset(0.01);
+        proximity.findTouches(pair, tau, fast);
+        findTouchesPlainly(pair, tau, plain);
+        std::sort(fast.begin(), fast.end(), isDeeper);
+        std::sort(plain.begin(), plain.end(), isDeeper);
+        ASSERT_EQ(fast.size(), plain.size()) << i;
+        for (std::size_t t = 0; t < fast.size(); ++t) {
+            ASSERT_EQ(fast[t].phi, plain[t].phi) << i;
+            ASSERT_EQ(fast[t].sample, plain[t].sample) << i;
+            ASSERT_EQ(fast[t].sampleOnA, plain[t].sampleOnA) << i;
+        }
+        touching += !fast.empty();
+    }
+    EXPECT_GT(touching, 1000);
+}
+
+TEST(E21FieldStorage, AutomaticTakesBricksWhereTheySaveMuchOfALargeField)
+{
+    const auto storageOf = [](const TriMesh& mesh, int resolution) {
+        ShapeSettings settings;
+        settings.resolution = resolution;
+        return buildMeshShape("shape", mesh, settings)->distance.field().nodes.storage;
+    };
+    EXPECT_EQ(storageOf(makeTorus(1.0, 0.25, {16, 10}), 48), FieldStorage::dense);
+    EXPECT_EQ(storageOf(makeSphere(1.0, 2), 120), FieldStorage::bricks);
+}
+
+TEST(E21FieldStorage, TheFieldHasTheSameBitsForAnyThreadCount)
+{
+    const TriMesh mesh = makeTorus(1.0, 0.25, {32, 20});
+    for (const FieldStorage storage : {FieldStorage::dense, FieldStorage::bricks}) {
+        std::vector<DistanceField> fields;
+        for (const int threads : {1, 2, 4}) {
+            setThreadCount(threads);
+            const SurfaceRays rays(mesh);
+            DistanceField field;
+            field.nodes =
+                buildDistanceNodes(mesh, rays, {{-1.5, -0.5, -1.5}, 0.05, {61, 21, 61}}, storage);
+            field.nearest = findNearestFaces(mesh, field.nodes);
+            fields.push_back(field);
+        }
+        setThreadCount(1);
+        for (const int other : {1, 2}) {
+            EXPECT_EQ(fields[0].nodes.values, fields[other].nodes.values);
+            EXPECT_EQ(fields[0].nearest.start, fields[other].nearest.start);
+            EXPECT_EQ(fields[0].nearest.faces, fields[other].nearest.faces);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace scree::test

@@ -1,0 +1,113 @@
+// Fields that come back from the disk, and files that must not.
+#include "io/distance_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/base/random.h"
+#include "core/geometry/primitives.h"
+#include "core/geometry/shape.h"
+#include "io/file_bytes.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+ShapeSettings bricks()
+{
+    ShapeSettings settings;
+    settings.storage = FieldStorage::bricks;
+    return settings;
+}
+
+std::filesystem::path onlyFileIn(const std::filesystem::path& folder)
+{
+    const std::filesystem::directory_iterator first(folder);
+    EXPECT_EQ(std::distance(begin(first), end(first)), 1);
+    return std::filesystem::directory_iterator(folder)->path();
+}
+
+TEST(DistanceCache, AFieldFromTheCacheHasTheBitsOfAFieldJustBuilt)
+{
+    const test::TemporaryFolder folder;
+    for (const ShapeSettings& settings : {ShapeSettings(), bricks()}) {
+        DistanceCache first(folder.path()), second(folder.path());
+        const TriMesh ring = makeTorus(1.0, 0.25, {16, 10});
+        const auto built = buildMeshShape("ring", ring, settings, &first);
+        const auto cached = buildMeshShape("ring", ring, settings, &second);
+        EXPECT_EQ(first.keptCount(), 1);
+        EXPECT_EQ(second.foundCount(), 1);
+        EXPECT_EQ(second.keptCount(), 0);
+        EXPECT_EQ(bytesOfField(1, built->distance.field()),
+                  bytesOfField(1, cached->distance.field()));
+        for (std::uint64_t i = 0; i < 1000; ++i) {
+            const Vec3 p =
+                built->box.min + built->box.size().cwiseProduct(
+                                     Vec3(randomUnit(1, i), randomUnit(2, i), randomUnit(3, i)));
+            ASSERT_EQ(built->distance.value(p), cached->distance.value(p));
+        }
+    }
+    EXPECT_EQ(DistanceCache(folder.path()).size().files, 2);
+}
+
+TEST(DistanceCache, AnythingThatChangesTheFieldChangesItsName)
+{
+    const NodeLayout layout{Vec3::Zero(), 0.1, {10, 10, 10}};
+    NodeLayout finer = layout, moved = layout;
+    finer.spacing = 0.05;
+    moved.origin.x() = 1e-9;
+    const TriMesh ring = makeTorus(1.0, 0.25, {16, 10}), other = makeTorus(1.0, 0.26, {16, 10});
+    const auto dense = FieldStorage::dense;
+    const std::uint64_t key = fieldKey(ring, layout, dense);
+    EXPECT_NE(key, fieldKey(other, layout, dense));
+    EXPECT_NE(key, fieldKey(ring, finer, dense));
+    EXPECT_NE(key, fieldKey(ring, moved, dense));
+    EXPECT_NE(key, fieldKey(ring, layout, FieldStorage::bricks));
+    EXPECT_EQ(key, fieldKey(ring, layout, dense));
+}
+
+TEST(DistanceCache, ADamagedFileIsNoticedAndWrittenAnew)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh ring = makeTorus(1.0, 0.25, {16, 10});
+    DistanceCache first(folder.path());
+    buildMeshShape("ring", ring, bricks(), &first);
+    const std::filesystem::path file = onlyFileIn(folder.path());
+    const std::string good = readFileBytes(file);
+
+    // Every header byte, and some of the rest: none may pass.
+    const std::uint64_t key = std::stoull(file.stem().string(), nullptr, 16);
+    ASSERT_TRUE(fieldOfBytes(key, good));
+    for (std::size_t i = 0; i < good.size(); i += i < 200 ? 1 : good.size() / 50) {
+        std::string bad = good;
+        bad[i] = static_cast<char>(bad[i] ^ 4);
+        ASSERT_FALSE(fieldOfBytes(key, bad)) << "byte " << i;
+        ASSERT_FALSE(fieldOfBytes(key, good.substr(0, i))) << "cut at " << i;
+    }
+    ASSERT_FALSE(fieldOfBytes(key + 1, good));
+
+    std::string bad = good;
+    bad[good.size() / 2] = static_cast<char>(bad[good.size() / 2] ^ 1);
+    writeFileBytes(file, bad);
+    DistanceCache second(folder.path());
+    buildMeshShape("ring", ring, bricks(), &second);
+    EXPECT_EQ(second.foundCount(), 0);
+    EXPECT_NE(second.problem().find("damaged"), std::string::npos);
+    EXPECT_EQ(readFileBytes(file), good);
+}
+
+TEST(DistanceCache, AFolderThatCannotBeMadeStopsNothing)
+{
+    const test::TemporaryFolder folder;
+    writeFileBytes(folder / "file", "not a folder");
+    DistanceCache cache(folder / "file");
+    EXPECT_NE(buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}), {}, &cache), nullptr);
+    EXPECT_FALSE(cache.problem().empty());
+    DistanceCache none{std::filesystem::path()};
+    EXPECT_NE(buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}), {}, &none), nullptr);
+    EXPECT_TRUE(none.problem().empty());
+}
+
+}  // namespace
+}  // namespace scree
