@@ -42,7 +42,7 @@ void appendKeys(const std::string& path, std::string& text)
 {
     for (const ShotKey* key : keysInside(path)) {
         text += entryOf(*key);
-        if (key->type == KeyType::table) appendKeys(key->path, text);
+        appendKeys(key->path, text);
     }
 }
 

@@ -87,7 +87,7 @@ const std::vector<ShotKey> kSolverKeys = {
     {.path = "solver.method",
      .type = word,
      .byDefault = "\"scree\"",
-     .choices = "scree paper",
+     .choices = "scree|paper",
      .help = "The way contacts are resolved. \"scree\" knows contacts before they touch and "
              "remembers what held them: heaps lie still, and it is many times faster. \"paper\" "
              "follows Guendelman, Bridson and Fedkiw to the letter; it is the reference."},

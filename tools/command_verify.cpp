@@ -82,7 +82,7 @@ Command addVerifyCommand(CLI::App& program)
     command->add_option("EXPERIMENT", options->ids, "Which ones, like E1 E5 [all]");
     command->add_option("-o,--output", options->report,
                         "Write a report.html with plots and pictures");
-    command->add_option("--method", options->method, "paper, scree or both [paper]");
+    command->add_option("--method", options->method, "paper, scree or both");
     command->add_flag("--full", options->full, "Every step length, seed and size: takes long");
     command->add_flag("--json", options->json, "The rows as JSON instead of a table");
     command->add_flag("--list", options->list, "Say what the experiments are, run none");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/geometry/mesh_defects.h"
 #include "io/frame_writer.h"
 #include "io/mesh_import.h"
 #include "tests/support/export_scene.h"

@@ -85,7 +85,7 @@ std::vector<BadShot> badShots()
          "max, safety)"},
         {"QuotedKeyWithDot", kHead + "[solver]\n\"substeps.max\" = 3\n",
          "bad.toml:5:1: unknown key 'substeps.max' in [solver]; did you mean 'substeps'? (valid: "
-         "method, "
+         "method, sleep, contact_sweeps, "
          "collision_iterations, collision_pair_impulses, contact_iterations, level_iterations, "
          "pair_impulses, shock_propagation, shock_pair_impulses, push_out, "
          "push_out_level_iterations, push_out_pair_impulses, orientation, substeps, maximum_spin, "
@@ -123,9 +123,11 @@ std::vector<BadShot> badShots()
         {"MisspeltWord", body("shape = \"block\"\nmotion = \"statik\"\n"),
          "bad.toml:11:10: 'motion' must be one of \"dynamic\", \"static\", \"keyed\", not "
          "\"statik\"; did you mean 'static'?"},
-        {"MethodOfALaterVersion", kHead + "[solver]\nmethod = \"scree\"\n",
-         "bad.toml:5:10: 'method' = \"scree\" is not supported yet; this version knows only "
-         "paper"},
+        {"MethodNobodyKnows", kHead + "[solver]\nmethod = \"scre\"\n",
+         "bad.toml:5:10: 'method' must be one of \"scree\", \"paper\", not \"scre\"; did you mean "
+         "'scree'?"},
+        {"StrictScree", kHead + "[solver]\nstrict = true\n",
+         "bad.toml:5:10: 'strict' is the paper without its repairs: it needs method = \"paper\""},
         {"KeyedWithoutKeys", body("shape = \"block\"\nmotion = \"keyed\"\n"),
          "bad.toml:7:1: a keyed body needs 'keys', for example keys = [{ frame = 1001, position = "
          "[0, 0, 0] }]"},
@@ -232,9 +234,7 @@ std::vector<BadShot> badShots()
         {"StartOverlap", kHead + "[start]\noverlap = \"wran\"\n",
          "bad.toml:5:11: 'overlap' must be one of \"error\", \"warn\", \"separate\", not \"wran\"; "
          "did you mean 'warn'?"},
-        {"Sleep", kHead + "[solver]\nsleep = true\n",
-         "bad.toml:5:1: 'sleep' in [solver] is not supported yet by this version"},
-        {"Contacts", kHead + "[output]\ncontacts = 1\n", "bad.toml:5:12: 'contacts' must be"},
+        {"Contacts", kHead + "[output]\ncontacts = 1\n", "bad.toml:5:12: 'contacts' must be true or false, not 1"},
         {"SubframesThatSpanAFrame", kHead + "[output]\nsubframes = [-0.5, 0.0, 0.5]\n",
          "bad.toml:5:13: 'subframes' must lie within one frame and at least 0.01 frames apart, "
          "like [-0.25, 0.0, 0.25], not [-0.5, 0.0, 0.5]"},
@@ -331,17 +331,19 @@ std::vector<BadShot> badShots()
         {"CameraKeysBackwards",
          kHead + "[[camera]]\nkeys = [{ frame = 5, eye = [1, 0, 0] }, { frame = 4, eye = [2, 0, 0] "
                  "}]\n",
-         "bad.toml:5:49: the frames of 'keys' must ascend, but 4.0 comes after 5.0"},
+         "bad.toml:5:51: the frames of 'keys' must ascend, but 4.0 comes after 5.0"},
         {"CameraWithoutKeys", kHead + "[[camera]]\nkeys = []\n",
          "bad.toml:5:8: 'keys' must hold at least one key"},
         {"CameraKeyWithoutEye", kHead + "[[camera]]\nkeys = [{ frame = 5, eyes = [1, 0, 0] }]\n",
-         "did you mean 'eye'?"},
+         "bad.toml:5:9: [[keys]] lacks 'eye': 3 numbers [x, y, z]\n"
+         "bad.toml:5:22: unknown key 'eyes' in [[keys]]; did you mean 'eye'? (valid: frame, eye, "
+         "target, fov)"},
         {"CameraKeyInItsTarget", kHead + "[[camera]]\nkeys = [{ frame = 5, eye = [0, 0, 0] }]\n",
          "bad.toml:5:28: 'eye' must not be where 'target' is"},
         {"OrbitWithoutRadius", kHead + "[[camera]]\norbit = { height = 3 }\n",
-         "lacks 'radius': a number above 0"},
+         "bad.toml:5:9: [[camera]] orbit lacks 'radius': a number above 0"},
         {"OrbitBackwards", kHead + "[[camera]]\norbit = { radius = 3, frames = \"9-4\" }\n",
-         "bad.toml:5:33: 'frames' must be \"FIRST-LAST\""},
+         "bad.toml:5:32: 'frames' must be \"FIRST-LAST\", for example \"1001-1240\", not \"9-4\""},
         {"PictureTooLarge", kHead + "[render]\nsize = [1280, 99999]\n",
          "bad.toml:5:15: 'size' must be 2 whole numbers, each from 16 to 16384, not 99999"},
     };

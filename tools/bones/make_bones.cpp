@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/level_set_surface.h"
+#include "core/geometry/mesh_defects.h"
 #include "io/byte_order.h"
 #include "io/file_bytes.h"
 #include "tools/bones/bone_forms.h"
