@@ -123,7 +123,7 @@ position = [0, 0.55, 0]
 name = "high"
 shape = "block"
 material = "wood"
-position = [0.3, 1.8, 0.1]
+position = [0.3, 1.9, 0.1]
 rotation = [15, 0, 35]
 )";
 
@@ -409,7 +409,7 @@ TEST_F(ProgramTest, ScriptReadsThePosesThatWereWritten)
                                 "' > '" + take("poses.txt") + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
     const std::string poses = readFileBytes(take("poses.txt"));
-    EXPECT_TRUE(std::regex_search(poses, std::regex("high +position \\[0\\.3 +1\\.8 +0\\.1 *\\]")))
+    EXPECT_TRUE(std::regex_search(poses, std::regex("high +position \\[0\\.3 +1\\.9 +0\\.1 *\\]")))
         << poses;
 }
 
