@@ -24,6 +24,9 @@ namespace {
 
 constexpr int kMostPairSweeps = 100;
 
+/// Places of a pair that are hit within this share of a step are hit together.
+constexpr double kTogether = 0.01;
+
 /// What the impacts of this step have done to a body so far.
 struct Impacts {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
@@ -108,6 +111,7 @@ private:
                 if (impactOf(scratch_.rows[r], impact)) hits_.push_back(impact);
             }
             if (hits_.empty()) return;
+            keepFirst();
             for (const Impact& hit : hits_) hit.row->wasHit = true;
             if (hits_.size() == 1) {
                 applyOne(hits_[0], counts);
@@ -115,6 +119,16 @@ private:
                 applyTogether(counts);
             }
         }
+    }
+
+    /// Of all places that would be hit, those that are hit first: what would follow may not, once
+    /// these are answered.
+    void keepFirst()
+    {
+        double earliest = dt_;
+        for (const Impact& hit : hits_) earliest = std::min(earliest, hit.time);
+        std::erase_if(hits_,
+                      [&](const Impact& hit) { return hit.time > earliest + kTogether * dt_; });
     }
 
     void applyOne(const Impact& impact, ImpulseCounts& counts)
