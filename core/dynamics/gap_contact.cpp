@@ -82,8 +82,8 @@ double sweep(GapScratch& scratch, const GapIsland& island)
     return residual;
 }
 
-/// Goes on along the conjugate direction: what a sweep has changed is a gradient (Silcowitz, Niebe
-/// and Erleben 2010). Answers the energy of that change.
+/// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].
+/// Answers the energy of that change.
 double goOn(GapScratch& scratch, const GapIsland& island, double energyBefore)
 {
     double energy = 0.0;

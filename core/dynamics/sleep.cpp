@@ -51,7 +51,7 @@ void wakeWith(World& world, std::vector<BodyId> roots)
 void fallAsleep(World& world, GapScratch& scratch)
 {
     std::vector<BodyRest>& rest = world.contactMemory.rest;
-    if (rest.empty()) rest.resize(world.bodyCount());
+    rest.resize(world.bodyCount());
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (!isStepped(world, body)) continue;

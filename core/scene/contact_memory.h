@@ -33,7 +33,8 @@ struct ContactMemory {
 
     bool isAsleep(BodyId body) const
     {
-        return !rest.empty() && rest[static_cast<std::size_t>(body)].isAsleep;
+        const auto i = static_cast<std::size_t>(body);
+        return i < rest.size() && rest[i].isAsleep;
     }
 };
 

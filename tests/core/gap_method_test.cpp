@@ -1,0 +1,231 @@
+// Method `scree`: rest, impacts, tall and heavy stacks, sleep, and the same bits for any threads
+// and after any cut.  [algorithm 14, E1d, E16, E27]
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "core/collision/near_features.h"
+#include "core/diagnostics/state_hash.h"
+#include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kFrame = 1.0 / 24.0;
+
+StepSettings screeSettings()
+{
+    StepSettings settings = experimentSettings();
+    settings.method = Method::scree;
+    return settings;
+}
+
+/// Cubes of 1 m, eight corners each, one on the other; the top one weighs `topMass`.
+World makeStack(int count, double topMass, double offset)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    addPlane(world, material);
+    for (int i = 0; i < count; ++i) {
+        const auto draw = [&](std::uint64_t k) {
+            return offset * (2.0 * randomUnit(40, static_cast<std::uint64_t>(i), k) - 1.0);
+        };
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                {Vec3(draw(0), 0.5 + i, draw(1)), Quat::Identity()},
+                i + 1 == count ? topMass : 1.0);
+    }
+    return world;
+}
+
+/// Largest way of any body from where it began [m].
+double largestShift(const World& before, const World& after)
+{
+    double largest = 0.0;
+    for (std::size_t b = 1; b < before.bodyCount(); ++b) {
+        largest = std::max(largest, (after.motion[b].position - before.motion[b].position).norm());
+    }
+    return largest;
+}
+
+double shiftAfter(World world, double seconds, double dt)
+{
+    const World before = world;
+    Stepper stepper(screeSettings());
+    for (int i = 0; i < std::lround(seconds / dt); ++i) stepper.step(world, dt);
+    return largestShift(before, world);
+}
+
+TEST(GapMethod, AnElasticBlockLiesStillOnASlopeAtOneStepAFrame)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.7, 1.0);
+    const Vec3 normal(-0.5, std::sqrt(0.75), 0.0);
+    addPlane(world, material, Vec3::Zero(), normal);
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+            {0.5 * normal, worldFromPlane(Vec3::Zero(), normal).orientation});
+    EXPECT_LE(shiftAfter(world, 10.0, kFrame), 1e-9);
+}
+
+TEST(GapMethod, FortyCubesOfEightCornersStandAtOneStepAFrame)
+{
+    // Sinks less than 1 mm and drifts less than 5 mm: seen 0.05 and 0.7.
+    EXPECT_LE(shiftAfter(makeStack(40, 1.0, 0.01), 5.0, kFrame), 5e-3);
+}
+
+TEST(GapMethod, ATopOfTenThousandTimesTheMassIsCarriedAtOneStepAFrame)
+{
+    EXPECT_LE(shiftAfter(makeStack(2, 10000.0, 0.01), 5.0, kFrame), 1e-3);
+}
+
+TEST(GapMethod, WithoutShockTheHeavyTopIsNotCarried)
+{
+    World world = makeStack(2, 10000.0, 0.0);
+    const World before = world;
+    StepSettings settings = screeSettings();
+    settings.shockPropagation = false;
+    settings.gapSweeps = 8;
+    Stepper stepper(settings);
+    double worst = 0.0;
+    // A body that lands: the weight is new, and the sweeps alone do not find it at once.
+    world.motion[2].position.y() += 0.2;
+    for (int i = 0; i < 48; ++i) stepper.step(world, kFrame);
+    for (std::size_t b = 1; b < 3; ++b) {
+        worst = std::max(worst, before.motion[b].position.y() - world.motion[b].position.y());
+    }
+    EXPECT_GE(worst, 1e-3);
+}
+
+TEST(GapMethod, ABallOfManyCornersBouncesToItsHeightAtAnyStep)
+{
+    for (double dt : {1.0 / 96.0, 1.0 / 240.0}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.0, 0.8);
+        addPlane(world, material);
+        const BodyId ball = addBody(world, buildMeshShape("ball", makeSphere(0.5, 2)), material,
+                                    {Vec3(0.0, 1.5, 0.0), Quat::Identity()});
+        Stepper stepper(screeSettings());
+        while (world.motion[ball].velocity.y() <= 0.0) stepper.step(world, dt);
+        const BodyMotion& motion = world.motion[ball];
+        const double apex =
+            motion.position.y() - 0.5 + 0.5 * motion.velocity.y() * motion.velocity.y() / 9.8;
+        EXPECT_NEAR(apex, 0.64, 0.0064) << dt;  // e² h within one per cent (E28)
+    }
+}
+
+TEST(GapMethod, AlignedCubesTouchAtFourPlacesWhateverTheirSegments)
+{
+    for (int segments : {1, 2, 3}) {
+        const auto shape = boxShape({1.0, 1.0, 1.0}, segments);
+        NearFeatures near;
+        std::vector<GapContact> contacts;
+        near.findContacts({shape.get(),
+                           shape.get(),
+                           {Vec3(0.0, 1.001, 0.0), Quat::Identity()},
+                           {Vec3::Zero(), Quat::Identity()}},
+                          0.01, contacts);
+        EXPECT_EQ(contacts.size(), 4u) << segments;
+        for (const GapContact& contact : contacts) {
+            EXPECT_NEAR(contact.gap, 0.001, 1e-12);
+            EXPECT_NEAR(contact.normal.y(), 1.0, 1e-12);
+        }
+    }
+}
+
+/// Beams crossed edge on edge: no corner of either is near the other.
+TEST(GapMethod, CrossedEdgesTouchWhereTheyCross)
+{
+    const auto shape = boxShape({1.0, 0.1, 0.1}, 1);
+    const Quat turned = fromEulerXyz({0.25 * kPi, 0.0, 0.0});
+    const Quat crossed = fromEulerXyz({0.0, 0.5 * kPi, 0.0}) * turned;
+    const double height = std::sqrt(0.02);
+    NearFeatures near;
+    std::vector<GapContact> contacts;
+    near.findContacts({shape.get(),
+                       shape.get(),
+                       {Vec3(0.0, height + 0.001, 0.0), crossed},
+                       {Vec3::Zero(), turned}},
+                      0.002, contacts);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_NEAR(contacts[0].gap, 0.001, 1e-9);
+    EXPECT_NEAR(contacts[0].normal.y(), 1.0, 1e-9);
+}
+
+World makeHeap()
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.2, 500.0);
+    addPlane(world, material);
+    const auto ring = buildMeshShape("ring", makeTorus(0.6, 0.2, {12, 8}));
+    for (std::uint64_t i = 0; i < 16; ++i) {
+        const auto u = [&](std::uint64_t k) { return 2.0 * randomUnit(41, i, k) - 1.0; };
+        addBody(world, i % 2 ? ring : boxShape({0.8, 0.5, 0.6}, 1), material,
+                {Vec3(0.8 * u(0), 1.0 + 1.1 * static_cast<double>(i), 0.8 * u(1)),
+                 exponentialMap({u(2), u(3), u(4)})},
+                10.0);
+    }
+    return world;
+}
+
+std::vector<std::uint64_t> hashes(World& world, int frames)
+{
+    Stepper stepper(screeSettings());
+    std::vector<std::uint64_t> result;
+    for (int f = 0; f < frames; ++f) {
+        result.push_back(stepper.advanceFrame(world, kFrame).stateHash);
+    }
+    return result;
+}
+
+TEST(GapMethod, AHeapComesToSleepToTheSameBitsOnAnyThreadsAndAcrossACut)
+{
+    constexpr int kFrames = 168;
+    World once = makeHeap();
+    const std::vector<std::uint64_t> expected = hashes(once, kFrames);
+
+    World threaded = makeHeap();
+    setThreadCount(3);
+    const std::vector<std::uint64_t> withThreads = hashes(threaded, kFrames);
+    setThreadCount(1);
+    EXPECT_EQ(withThreads, expected);
+
+    // Cut by another stepper, which knows nothing but the world.
+    World cut = makeHeap();
+    hashes(cut, kFrames / 2);
+    EXPECT_EQ(hashes(cut, kFrames - kFrames / 2).back(), expected.back());
+
+    // A ring that rolls away may still roll: nothing brakes it.
+    int asleep = 0;
+    for (BodyId b = 1; b < static_cast<BodyId>(once.bodyCount()); ++b) {
+        if (!once.contactMemory.isAsleep(b)) continue;
+        ++asleep;
+        EXPECT_TRUE(once.motion[b].velocity.isZero(0.0));
+    }
+    EXPECT_GE(asleep, 12);
+}
+
+TEST(GapMethod, SleepersWakeAndMoveWhenStruckAndOnlyThen)
+{
+    World world = makeStack(3, 1.0, 0.0);
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), 0, {Vec3(8.0, 0.5, 0.0), Quat::Identity()});
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    for (BodyId b = 1; b <= 4; ++b) ASSERT_TRUE(world.contactMemory.isAsleep(b)) << b;
+
+    const World before = world;
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), 0, {Vec3(-3.0, 1.5, 0.0), Quat::Identity()}, 5.0,
+            Vec3(6.0, 3.0, 0.0));
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_GE((world.motion[2].position - before.motion[2].position).norm(), 0.1);
+    // The cube that stands apart has not stirred by a bit.
+    EXPECT_TRUE(world.motion[4].position == before.motion[4].position);
+    EXPECT_TRUE(world.contactMemory.isAsleep(4));
+}
+
+}  // namespace
+}  // namespace scree::test
