@@ -19,9 +19,10 @@
 namespace scree {
 namespace {
 
-/// Visits of rows that a step may spend beyond its ordinary sweeps: a small problem is solved to
-/// the end, a large one gets the sweeps of the settings.
-constexpr std::size_t kSpareVisits = 30000;
+/// A small problem is solved to the end, a large one gets the sweeps of the settings. Between them
+/// sweeps fall with the square of the rows: a tower of forty cubes, 160 rows, gets 187, a heap of
+/// 800 rows no more than the settings say.
+constexpr std::size_t kSpareVisits = 30000, kSpareRows = 160;
 constexpr int kMostSweeps = 400;
 
 void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
@@ -135,7 +136,8 @@ void countImpulses(const GapScratch& scratch, ImpulseCounts& counts)
 
 int mostSweeps(const StepSettings& settings, const GapIsland& island)
 {
-    const auto spare = static_cast<int>(kSpareVisits / (island.rowCount + 1));
+    const std::size_t rows = island.rowCount + 1;
+    const auto spare = static_cast<int>(kSpareVisits * kSpareRows / (rows * rows));
     return std::max(settings.gapSweeps, std::min(spare, kMostSweeps));
 }
 
