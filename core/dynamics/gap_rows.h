@@ -41,8 +41,8 @@ struct GapRow {
     double slideMass;                ///< 1 / largest eigenvalue of that block
     double rollingArm, spinningArm;  ///< lever arms of the resistance to rolling and spinning [m]
     Vec3 couple;                     ///< of that resistance, on A, world [N m s]
-    bool movesA, movesB;  ///< whether its impulses act on the body: not on what cannot be moved,
-                          ///< nor on one that the other's group does not move
+    bool movesA, movesB;    ///< whether its impulses act on the body: not on what cannot be moved,
+                            ///< nor on one that the other's group does not move
     bool isHeldA, isHeldB;  ///< by its group
     bool wasHit;            ///< by an impact of this step
     bool isCarried;         ///< its pair had an impulse in the last step

@@ -24,8 +24,9 @@ std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRati
 /// are.
 bool separateAtStart(World& world, const StepSettings& settings, double leastRatio);
 
-/// Movable bodies that no static or keyed body lies under, seen along gravity: unless others hold them they
-/// fall for ever. Judged by boxes, so a body beside a hole counts as held. Empty without gravity.
+/// Movable bodies that no static or keyed body lies under, seen along gravity: unless others hold
+/// them they fall for ever. Judged by boxes, so a body beside a hole counts as held. Empty without
+/// gravity.
 std::vector<BodyId> findUnsupported(const World& world, const Vec3& gravity);
 
 struct FastBody {
