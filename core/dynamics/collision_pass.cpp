@@ -170,6 +170,8 @@ ImpulseCounts resolveCollisions(World& world, const StepSettings& settings, doub
     widenPairs(world, settings, dt, scratch);
     findInterference(world, settings, scratch);
     findLoneFalls(world, scratch);
+    // Switched off, collisions are still found: contact wants to know them.
+    if (settings.collisionIterations == 0) return counts;
     for (std::size_t i : scratch.pairOrder) {
         PairRecord& pair = scratch.pairs[i];
         if (pair.interferesNow) {

@@ -4,29 +4,12 @@
 #include "core/math/rotation.h"
 #include "tools/verify/experiments.h"
 #include "tools/verify/shot_run.h"
+#include "tools/verify/tilt.h"
 
 namespace scree::verify {
 namespace {
 
 using enum Weight;
-
-/// Tilt of the plank, heavy side down positive [degrees], over time.
-Curve tiltOver(ShotRun& run, double seconds)
-{
-    Curve curve;
-    const BodyId plank = run.body("plank");
-    run.advance(seconds, 240.0, [&](const StepReport&, double t) {
-        const Vec3 along = run.world.worldFromAsset(plank).orientation * Vec3::UnitX();
-        curve.x.push_back(t);
-        curve.y.push_back(-std::asin(along.y()) * 180.0 / kPi);
-    });
-    return curve;
-}
-
-double tiltAt(const Curve& curve, double seconds)
-{
-    return curve.y.at(static_cast<std::size_t>(std::lround(240.0 * seconds)) - 1);
-}
 
 /// Rigid, not yet sliding: α = 490/465 rad/s² about the pivot.
 Curve theory()

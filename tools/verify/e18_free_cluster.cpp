@@ -65,8 +65,11 @@ void runFreeCluster(const Context& context, Findings& findings)
                         "first order in dt: 1/16 if the same points are struck");
         if (gravity == 0.0) addPicture(context, coarse, "The cluster a second later", findings);
     }
-    findings.notRun(goal, "strict: the momentum that freezing everything creates",
-                    "this row is not written yet");
+    if (context.method != "paper") return;
+    ShotRun strict(context, "E18_cluster", {"solver.strict=true", "solver.push_out=false"});
+    findings.atLeast(control, "falling, strict: momentum that freezing everything creates",
+                     follow(strict, 240.0).linear, 1e-6, "kg m/s",
+                     "shock takes the lowest of a free cluster for ground");
 }
 
 }  // namespace scree::verify

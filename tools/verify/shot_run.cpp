@@ -21,10 +21,13 @@ constexpr int kPictureWidth = 640, kPictureHeight = 400;
 /// Half width of the quads that stand for planes; the rasteriser draws them without end [m].
 constexpr double kPlaneHalfWidth = 50.0;
 
-Shot readShot(const Context& context, const std::string& name, std::vector<std::string> overrides)
+Shot readShot(const Context& context, const std::string& name, std::vector<std::string> overrides,
+              const std::function<void(StepSettings&)>& change)
 {
     overrides.push_back("solver.method=" + context.method);
-    return parseShot((context.shots / (name + ".toml")).string(), overrides);
+    Shot shot = parseShot((context.shots / (name + ".toml")).string(), overrides);
+    if (change) change(shot.settings);
+    return shot;
 }
 
 std::vector<Look> looksOf(const Shot& shot, const SceneDescription& scene)
@@ -44,8 +47,9 @@ std::vector<Look> looksOf(const Shot& shot, const SceneDescription& scene)
 }  // namespace
 
 ShotRun::ShotRun(const Context& context, const std::string& name,
-                 const std::vector<std::string>& overrides)
-    : shot(readShot(context, name, overrides)),
+                 const std::vector<std::string>& overrides,
+                 const std::function<void(StepSettings&)>& change)
+    : shot(readShot(context, name, overrides, change)),
       world(buildWorld(shot)),
       start(world),
       stepper(shot.settings)

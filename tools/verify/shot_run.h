@@ -15,8 +15,10 @@ namespace scree::verify {
 class ShotRun {
 public:
     /// Reads shots/verify/NAME.toml with overrides as after --set, the method of the context last.
+    /// `change` reaches the settings that no key of a shot does: for controls.
     ShotRun(const Context& context, const std::string& name,
-            const std::vector<std::string>& overrides = {});
+            const std::vector<std::string>& overrides = {},
+            const std::function<void(StepSettings&)>& change = {});
 
     /// Advances by `seconds` in steps of 1/stepsPerSecond; `look` after each, with its report and
     /// the time since the start of this call [s].

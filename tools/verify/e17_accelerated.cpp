@@ -1,0 +1,92 @@
+// E17: keyed bodies carry and push as lifts, turntables and rams do. [A36, A54]
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/rotation.h"
+#include "tools/verify/experiments.h"
+#include "tools/verify/shot_run.h"
+
+namespace scree::verify {
+namespace {
+
+using enum Weight;
+
+void lift(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E17_lift");
+    const BodyId lift = run.body("lift"), top = run.body("cube_0004");
+    double drift = 0.0, lag = 0.0, fastest = 0.0;
+    int otherLevels = 0;
+    Curve ofLift{"lift", {}, {}, true}, ofTop{"uppermost cube", {}, {}, false};
+    run.advanceFrames(5 * 24, [&](const FrameReport& report) {
+        otherLevels += report.sum.levels != 6;
+        for (int i = 0; i < 5; ++i) {
+            const Vec3 x = run.motion("cube_000" + std::to_string(i)).position -
+                           run.world.motion[lift].position;
+            drift = std::max(drift, std::hypot(x.x(), x.z()));
+            lag = std::max(lag, std::abs(x.y() - 0.2 * (i + 1)));
+        }
+        fastest = std::max(fastest, run.world.motion[top].velocity.y());
+        ofLift.x.push_back(static_cast<double>(ofLift.x.size() + 1) / 24.0);
+        ofTop.x.push_back(ofLift.x.back());
+        ofLift.y.push_back(run.world.motion[lift].velocity.y());
+        ofTop.y.push_back(run.world.motion[top].velocity.y());
+    });
+    findings.equal(must, "five cubes on a lift, +-2 m/s^2, 5 s: frames with other levels than 6",
+                   otherLevels, 0);
+    findings.atMost(must, "on the lift: drift", drift, 0.01, "m");
+    findings.atMost(must, "on the lift: lag behind it", lag, 0.01, "m");
+    findings.atLeast(must, "on the lift: its speed is felt at the top", fastest, 0.8, "m/s",
+                     "the lift reaches 1 m/s");
+    findings.plots.push_back({"Velocity on a lift", "time [s]", "velocity [m/s]", {ofTop, ofLift}});
+}
+
+/// Keys of a table that turns steadily, half a second apart.
+std::string turningKeys(double spin)
+{
+    std::string keys = "body.table.keys=[";
+    for (int k = 0; k <= 12; ++k) {
+        keys += "{ frame = " + std::to_string(1001 + 12 * k) + ", position = [0, -0.1, 0], " +
+                "rotation = [0, " + std::to_string(0.5 * k * spin * 180.0 / kPi) + ", 0] }, ";
+    }
+    return keys + "]";
+}
+
+/// How far from the axis the box gets in five seconds, watched until it has left its place.
+double largestRadius(const Context& context, double spin)
+{
+    const Vec3 start(1.0, 0.1, 0.0);
+    ShotRun run(
+        context, "E17_turntable",
+        {turningKeys(spin), setVector("body.box.velocity", Vec3(0.0, spin, 0.0).cross(start)),
+         setVector("body.box.spin", {0.0, spin * 180.0 / kPi, 0.0})});
+    double radius = 0.0;
+    for (int frame = 0; frame < 5 * 24 && radius <= 1.05; ++frame) {
+        run.advanceFrames(1);
+        const Vec3& x = run.motion("box").position;
+        radius = std::max(radius, std::hypot(x.x(), x.z()));
+    }
+    return radius;
+}
+
+void pusher(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E17_pusher");
+    run.advanceFrames(24);
+    findings.near(must, "box before a ram of 1 m/s: speed", run.motion("box").velocity.x(), 1.0,
+                  1e-6, "m/s");
+}
+
+}  // namespace
+
+void runAcceleratedFrames(const Context& context, Findings& findings)
+{
+    lift(context, findings);
+    findings.atMost(must, "box at 1 m on a turntable of 2.1 rad/s: gets as far as",
+                    largestRadius(context, 2.1), 1.05, "m", "critical: 2.2136 rad/s");
+    findings.atLeast(must, "the same at 2.3 rad/s: leaves, gets as far as",
+                     largestRadius(context, 2.3), 1.05, "m");
+    pusher(context, findings);
+}
+
+}  // namespace scree::verify

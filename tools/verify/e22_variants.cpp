@@ -1,0 +1,145 @@
+// E22: variants of the method: lagged collisions, and the paper without the repairs documented
+// beside it. [A25, A60]
+#include <algorithm>
+#include <cmath>
+
+#include "tools/verify/experiments.h"
+#include "tools/verify/incline.h"
+#include "tools/verify/shot_run.h"
+#include "tools/verify/tilt.h"
+
+namespace scree::verify {
+namespace {
+
+using enum Weight;
+
+const std::string kStrict = "solver.strict=true";
+
+struct HeapResult {
+    double energyLost = 0.0, height = 0.0;  // [J], mean over the bodies [m]
+};
+
+HeapResult dropHeap(const Context& context, int bodies, int seed, const std::string& collision)
+{
+    ShotRun run(
+        context, "E22_drop",
+        {"shot.seed=" + std::to_string(seed), "emitter.drop.count=" + std::to_string(bodies),
+         "solver.collision=\"" + collision + "\""});
+    run.advance(context.isFull() ? 5.0 : 2.0, 120.0);
+    HeapResult result;
+    const Vec3& gravity = run.shot.settings.gravity;
+    result.energyLost = totalEnergy(run.start, gravity) - totalEnergy(run.world, gravity);
+    for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
+        if (run.world.mass[b].isMovable()) result.height += run.world.motion[b].position.y();
+    }
+    result.height /= bodies;
+    return result;
+}
+
+void laggedAgainstReevolve(const Context& context, Findings& findings)
+{
+    const int bodies = context.isFull() ? 100 : 18, seeds = context.isFull() ? 10 : 2;
+    double worstEnergy = 0.0, lagged = 0.0, reevolved = 0.0;
+    int same = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const HeapResult a = dropHeap(context, bodies, seed, "lagged");
+        const HeapResult b = dropHeap(context, bodies, seed, "reevolve");
+        worstEnergy = std::max(worstEnergy, std::abs(a.energyLost / b.energyLost - 1.0));
+        same += a.energyLost == b.energyLost;
+        lagged += a.height / seeds;
+        reevolved += b.height / seeds;
+    }
+    const std::string name =
+        "lagged, " + std::to_string(bodies) + " bodies, " + std::to_string(seeds) + " seeds: ";
+    findings.atMost(must, name + "energy lost, unlike reevolve's", worstEnergy, 0.2, "of it");
+    findings.atMost(must, name + "height of the heap, unlike reevolve's",
+                    std::abs(lagged / reevolved - 1.0), 0.1, "of it");
+    findings.equal(control, name + "runs that are the same bits", same, 0,
+                   "both would have run the same variant");
+}
+
+void strictAtRest(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E01_block_at_rest", {kStrict});
+    run.advance(context.isFull() ? 10.0 : 2.0, 240.0);
+    findings.atMost(must, "strict, E1: largest shift of a vertex",
+                    largestVertexShift(run.start, run.world, run.body("block")), 1e-6, "m",
+                    "a gridded field");
+}
+
+void strictSliding(const Context& context, Findings& findings)
+{
+    const SlideTheory theory{30.0, 0.3, 0.0};
+    ShotRun run(context, "E02_accelerating", {kStrict});
+    const SlideErrors errors = slide(run, theory, 240.0);
+    findings.atMost(must, "strict, E2 accelerating: error of the distance",
+                    errors.position / errors.distance, 0.005, "of it");
+}
+
+void strictBilliards(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E03_billiards", {kStrict, "shape.ball.collide=\"exact\""});
+    run.advance(2.0, 240.0);
+    findings.near(must, "strict, E3 frictionless: last ball", run.motion("ball_4").velocity.x(),
+                  20.0, 1e-9, "m/s");
+}
+
+void strictStack(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E04_stack_10", {kStrict});
+    int levels = 0;
+    run.advance(context.isFull() ? 5.0 : 2.0, 240.0,
+                [&](const StepReport& report, double) { levels = report.levels; });
+    double sink = 0.0, drift = 0.0;
+    for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
+        const Vec3 moved = run.world.motion[b].position - run.start.motion[b].position;
+        sink = std::max(sink, std::abs(moved.y()));
+        drift = std::max(drift, std::hypot(moved.x(), moved.z()));
+    }
+    findings.atMost(must, "strict, E4 stack of ten: sinks", sink, 2e-3, "m",
+                    "fields have nodes on the cubes' faces");
+    findings.atMost(must, "strict, E4 stack of ten: drift", drift, 5e-3, "m");
+    findings.equal(must, "strict, E6: levels of the stack", levels, 11);
+}
+
+void strictSeeSaw(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E05_seesaw", {kStrict});
+    const Curve tilt = tiltOver(run, context.isFull() ? 2.0 : 0.5);
+    findings.near(must, "strict, E5: tilt at 0.25 s", tiltAt(tilt, 0.25), 1.887, 0.05 * 1.887,
+                  "degrees");
+    findings.near(must, "strict, E5: tilt at 0.5 s", tiltAt(tilt, 0.5), 7.547, 0.05 * 7.547,
+                  "degrees");
+    if (context.isFull()) {
+        findings.near(must, "strict, E5: on the floor at 2 s", tiltAt(tilt, 2.0), 11.54, 0.2,
+                      "degrees");
+    }
+}
+
+void strictDominoes(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "../dominoes", {kStrict});
+    int levels = 0;
+    run.advance(1.0 / 240.0, 240.0,
+                [&](const StepReport& report, double) { levels = report.levels; });
+    findings.equal(must, "strict, E6: levels of the ring of dominoes", levels, 2);
+}
+
+}  // namespace
+
+void runVariants(const Context& context, Findings& findings)
+{
+    if (context.method != "paper") {
+        findings.notRun(goal, "lagged and strict", "they are variants of method paper");
+        return;
+    }
+    laggedAgainstReevolve(context, findings);
+    strictAtRest(context, findings);
+    strictSliding(context, findings);
+    strictBilliards(context, findings);
+    strictStack(context, findings);
+    strictSeeSaw(context, findings);
+    strictDominoes(context, findings);
+}
+
+}  // namespace scree::verify
