@@ -20,6 +20,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/progress.h"
+#include "tools/simulation.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
@@ -27,13 +28,6 @@
 
 namespace scree {
 namespace {
-
-struct SimOptions {
-    std::string shot, take, frames, from, progress = "auto";
-    std::optional<int> threads;
-    bool resume = false, overwrite = false, noCache = false;
-    std::vector<std::string> overrides;
-};
 
 /// Worst frames named when a limit was broken.
 constexpr std::size_t kNamedFrames = 5;
@@ -99,7 +93,7 @@ public:
         }
         if (simulated == 0) console_.info("nothing to simulate: " + folder + " is complete");
         writeExports(simulated > 0);
-        std::printf("%s\n", folder.c_str());
+        if (options_.printsTake) std::printf("%s\n", folder.c_str());
         return judgeOverlap() ? kExitDone : kExitQuality;
     }
 
@@ -335,6 +329,11 @@ private:
 
 }  // namespace
 
+int simulate(const SimOptions& options, Console& console)
+{
+    return SimRun(options, console).run();
+}
+
 Command addSimCommand(CLI::App& program)
 {
     auto options = std::make_shared<SimOptions>();
@@ -365,7 +364,7 @@ Command addSimCommand(CLI::App& program)
     command->footer(
         "Stops cleanly on SIGINT and SIGTERM (exit code 75); SIGUSR1 saves and goes on.\n"
         "Example:\n  scree sim shots/rings_100.toml --set material.steel.friction=0.3 -o takes/b");
-    return {command, [options](Console& console) { return SimRun(*options, console).run(); }};
+    return {command, [options](Console& console) { return simulate(*options, console); }};
 }
 
 }  // namespace scree

@@ -8,6 +8,8 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/simulation.h"
+#include "tools/stop_signals.h"
 #include "tools/verify/report.h"
 
 namespace scree {
@@ -15,8 +17,8 @@ namespace {
 
 struct VerifyOptions {
     std::vector<std::string> ids;
-    std::string method = "paper", report, shots;
-    bool full = false, json = false, list = false;
+    std::string method = "paper", report, shots, takes = "takes";
+    bool full = false, judgeOnly = false, json = false, list = false;
     std::optional<int> threads;
 };
 
@@ -34,6 +36,22 @@ int listExperiments()
     return kExitDone;
 }
 
+/// Goes on with the take to its end. Overlap beyond the shot's limit is for the experiment to
+/// judge.
+void simulateLargeShot(const std::filesystem::path& shot, const std::string& method,
+                       const std::filesystem::path& take, const VerifyOptions& options,
+                       Console& console)
+{
+    SimOptions sim;
+    sim.shot = shot.string();
+    sim.take = take.string();
+    sim.threads = options.threads;
+    sim.resume = true;
+    sim.overrides = {"solver.method=" + method};
+    sim.printsTake = false;
+    simulate(sim, console);
+}
+
 int runVerify(const VerifyOptions& options, Console& console)
 {
     if (options.list) return listExperiments();
@@ -42,6 +60,12 @@ int runVerify(const VerifyOptions& options, Console& console)
         options.shots.empty() ? verify::findShots() : std::filesystem::path(options.shots);
     context.form = options.full ? verify::Form::full : verify::Form::brief;
     context.wantsPictures = !options.report.empty();
+    context.takes = options.takes;
+    if (options.full && !options.judgeOnly) {
+        context.simulate = [&](const auto& shot, const std::string& method, const auto& take) {
+            simulateLargeShot(shot, method, take, options, console);
+        };
+    }
     setThreadCount(threadsToUse(options.threads));
 
     const auto chosen = verify::chooseExperiments(options.ids);
@@ -53,6 +77,7 @@ int runVerify(const VerifyOptions& options, Console& console)
             verify::Result result{experiment, method, {}, 0.0};
             const double before = cpuSeconds();
             experiment->run(context, result.findings);
+            if (stopRequested()) return kExitStopped;  // a large shot was; its take is kept
             result.cpuSeconds = cpuSeconds() - before;
             if (!options.json) std::printf("%s\n", verify::toText(result).c_str());
             std::fflush(stdout);
@@ -88,6 +113,11 @@ Command addVerifyCommand(CLI::App& program)
     command->add_flag("--list", options->list, "Say what the experiments are, run none");
     command->add_option("--shots", options->shots,
                         "Folder of the experiments' shots [shots/verify]");
+    command->add_option("--takes", options->takes,
+                        "Folder of the large shots' takes, NAME_METHOD each: --full goes on with "
+                        "what is there, hours if nothing is [takes]");
+    command->add_flag("--judge-only", options->judgeOnly,
+                      "Judge the large takes that are there, simulate none");
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->footer(
         "Exit code 0 when all musts pass, 79 when one fails or could not be run.\n"

@@ -39,6 +39,17 @@ const std::vector<Experiment>& experiments()
          "Bodies that rest on each other in a circle are one level. Inputs are built in code.",
          "The section on the contact graph: dominoes in a circle, each leaning on the next.",
          runContactGraph},
+        {"E7", "Rings on poles", true,
+         "Five hundred and a thousand rings rain on twenty-five poles and come to rest.",
+         "Figure 1: five hundred rings of nonconvex shape, thrown on poles, some threaded, the "
+         "others in a heap. A frame took three minutes, with a thousand rings seven.",
+         runRings},
+        {"E8", "Bones through a funnel", true,
+         "Five hundred bones, 2.77 million triangles, fall through a funnel into a pit.",
+         "Figure 2: the three bones; figure 8: five hundred of them in a funnel; figure 9: the "
+         "same "
+         "as wireframe, 2.8 million triangles. A frame took about seven minutes.",
+         runBones},
         {"E9", "Rolling and spinning friction", true,
          "Balls stop rolling and spinning when and where theory says, and never turn back.", "",
          runRolling},

@@ -25,6 +25,14 @@ struct Context {
     std::string method = "paper";  ///< the solver.method of every shot
     bool wantsPictures = false;    ///< drawing them takes longer than some experiments
 
+    /// Folder of the takes of large shots, each in NAME_METHOD, that full forms judge.
+    std::filesystem::path takes = "takes";
+    /// Simulates a shot file with this method into a take, going on with one that is there; empty:
+    /// only takes that are there are judged.
+    std::function<void(const std::filesystem::path& shot, const std::string& method,
+                       const std::filesystem::path& take)>
+        simulate = {};
+
     bool isFull() const { return form == Form::full; }
 };
 

@@ -11,6 +11,8 @@ void runBilliards(const Context& context, Findings& findings);          // e03
 void runStackAndPlank(const Context& context, Findings& findings);      // e04
 void runSeeSaw(const Context& context, Findings& findings);             // e05
 void runContactGraph(const Context& context, Findings& findings);       // e06
+void runRings(const Context& context, Findings& findings);              // e07
+void runBones(const Context& context, Findings& findings);              // e08
 void runRolling(const Context& context, Findings& findings);            // e09
 void runFastAndThin(const Context& context, Findings& findings);        // e12
 void runAcceleratedFrames(const Context& context, Findings& findings);  // e17

@@ -1,0 +1,202 @@
+// E7: rings rain on poles. [GBF03 figure 1]  The heap is judged by its poses alone.
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/rotation.h"
+#include "tools/verify/experiments.h"
+#include "tools/verify/heap_record.h"
+#include "tools/verify/pose_judge.h"
+
+namespace scree::verify {
+namespace {
+
+using enum Weight;
+
+constexpr double kTube = 0.5, kRing = 1.5, kPoleHeight = 20.0;  // of the shots [m]
+
+bool isNamed(const HeapRecord& record, std::size_t body, const char* name)
+{
+    return record.scene.bodies[body].name.starts_with(name);
+}
+
+std::vector<std::size_t> bodiesNamed(const HeapRecord& record, const char* name)
+{
+    std::vector<std::size_t> bodies;
+    for (std::size_t b = 0; b < record.scene.bodies.size(); ++b) {
+        if (isNamed(record, b, name)) bodies.push_back(b);
+    }
+    return bodies;
+}
+
+/// Where the pole's axis meets the plane of the ring, if it does so within the pole's height and
+/// the ring's hole.
+bool isThreaded(const Pose& ring, const Pose& pole)
+{
+    const Vec3 normal = ring.orientation * Vec3::UnitY();
+    const Vec3 axis = pole.orientation * Vec3::UnitY();
+    if (std::abs(normal.dot(axis)) < 1e-9) return false;
+    const double along = normal.dot(ring.position - pole.position) / normal.dot(axis);
+    const Vec3 meeting = pole.position + along * axis;
+    return std::abs(along) < 0.5 * kPoleHeight && (meeting - ring.position).norm() < kRing;
+}
+
+int threadedRings(const HeapRecord& record)
+{
+    int count = 0;
+    for (std::size_t ring : bodiesNamed(record, "ring")) {
+        for (std::size_t pole : bodiesNamed(record, "pole")) {
+            count += isThreaded(record.frames.back().worldFromAsset[ring],
+                                record.frames.back().worldFromAsset[pole]);
+        }
+    }
+    return count;
+}
+
+/// Whether a point of the pole's axis is inside the ring's material.
+bool axisCrosses(const PoseJudge& judge, const SceneFrame& frame, std::size_t ring,
+                 std::size_t pole)
+{
+    const Pose& poleNow = frame.worldFromAsset[pole];
+    const Vec3 toRing = frame.worldFromAsset[ring].position - poleNow.position;
+    const Vec3 axis = poleNow.orientation * Vec3::UnitY();
+    const double middle = toRing.dot(axis), reach = kRing + kTube;
+    if ((toRing - middle * axis).norm() > reach) return false;
+    for (double s = -reach; s <= reach; s += 0.1 * kTube) {
+        if (std::abs(middle + s) > 0.5 * kPoleHeight) continue;
+        if (judge.depthIn(frame, ring, poleNow.position + (middle + s) * axis) > 0.0) return true;
+    }
+    return false;
+}
+
+struct Depths {
+    double rings = 0.0, poles = 0.0, floor = 0.0;  // deepest in any frame [m]
+    int crossed = 0;                               // frames in which an axis crosses a ring
+    Curve perFrame;
+};
+
+Depths judgeFrames(const HeapRecord& record)
+{
+    const PoseJudge judge(record.scene);
+    const std::vector<std::size_t> rings = bodiesNamed(record, "ring");
+    const std::vector<std::size_t> poles = bodiesNamed(record, "pole");
+    Depths depths;
+    for (std::size_t f = 0; f < record.frames.size(); ++f) {
+        const SceneFrame& frame = record.frames[f];
+        double deepest = 0.0;
+        for (const Overlap& pair : judge.overlaps(frame)) {
+            const bool hasPole = isNamed(record, pair.a, "pole") || isNamed(record, pair.b, "pole");
+            const bool hasRings =
+                isNamed(record, pair.a, "ring") && isNamed(record, pair.b, "ring");
+            double& kind = hasRings ? depths.rings : hasPole ? depths.poles : depths.floor;
+            kind = std::max(kind, pair.depth);
+            deepest = std::max(deepest, pair.depth);
+        }
+        bool isCrossed = false;
+        for (std::size_t ring : rings) {
+            for (std::size_t pole : poles) {
+                isCrossed = isCrossed || axisCrosses(judge, frame, ring, pole);
+            }
+        }
+        depths.crossed += isCrossed;
+        depths.perFrame.x.push_back(static_cast<double>(f) / record.scene.framesPerSecond);
+        depths.perFrame.y.push_back(1000.0 * deepest);
+    }
+    return depths;
+}
+
+double heapHeight(const HeapRecord& record, std::size_t frame)
+{
+    std::vector<double> heights;
+    for (std::size_t ring : bodiesNamed(record, "ring")) {
+        heights.push_back(record.frames[frame].worldFromAsset[ring].position.y());
+    }
+    std::sort(heights.begin(), heights.end());
+    return quantile(heights, 0.9);
+}
+
+void addDepthRows(const Context& context, const HeapRecord& record, const std::string& name,
+                  Findings& findings)
+{
+    Depths depths = judgeFrames(record);
+    findings.atMost(must, name + ": below the floor, any frame", depths.floor, 0.02, "m");
+    findings.equal(must, name + ": frames in which a pole's axis crosses a ring", depths.crossed,
+                   0);
+    const Weight weight = context.method == "scree" ? must : goal;
+    findings.atMost(weight, name + ": ring in ring, any frame", depths.rings, 0.1 * kTube, "m",
+                    "dense samples; a tenth of the tube");
+    findings.atMost(weight, name + ": ring in pole, any frame", depths.poles, 0.1 * kTube, "m");
+    depths.perFrame.name = name;
+    findings.plots.push_back({"Deepest overlap in a frame, by dense samples, " + name,
+                              "time [s]",
+                              "depth [mm]",
+                              {depths.perFrame}});
+}
+
+/// Rest: of the rings that are still in the heap. Those that roll away on the level floor are
+/// counted apart; nothing brakes them.
+void addRestRows(const HeapRecord& record, const std::string& name, Findings& findings)
+{
+    const std::size_t first = record.lastPart(2.0), last = record.frames.size() - 1;
+    double sum = 0.0, high = 0.0;
+    for (std::size_t f = first; f <= last; ++f) {
+        const std::vector<double> speeds = speedsAt(record, f);
+        for (double speed : speeds) sum += speed / static_cast<double>(speeds.size());
+        high = std::max(high, quantile(speeds, 0.95));
+    }
+    findings.atMost(must, name + ": mean speed in the last 2 s",
+                    sum / static_cast<double>(last - first + 1), 0.1, "m/s");
+    findings.atMost(must, name + ": 95th percentile of the speed, last 2 s", high, 0.5, "m/s");
+    findings.atMost(must, name + ": height of the heap's 90th percentile changes, last 2 s",
+                    std::abs(heapHeight(record, last) / heapHeight(record, first) - 1.0), 0.01,
+                    "of it");
+    findings.atLeast(must, name + ": rings threaded on poles at the end", threadedRings(record), 10,
+                     "");
+}
+
+void largeShot(const Context& context, const std::string& name, Findings& findings)
+{
+    const std::optional<HeapRecord> record = largeTake(context, name, findings);
+    if (!record) return;
+    addCommonRows(*record, name, must, findings);
+    addDepthRows(context, *record, name, findings);
+    addRestRows(*record, name, findings);
+    addTakePictures(context, name, {0.15, 0.3, 0.5, 1.0}, false, name, findings);
+}
+
+/// Twelve rings and a pole; and the judge on a frame that has been spoilt.
+void smallShot(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E07_rings");
+    HeapRecord record = recordRun(run, 60);
+    addCommonRows(record, "twelve rings", must, findings);
+    addDepthRows(context, record, "twelve rings", findings);
+    findings.atLeast(must, "twelve rings: threaded on the pole", threadedRings(record), 4, "");
+    addPicture(context, run, "Twelve rings after 2.5 s", findings);
+
+    SceneFrame& spoilt = record.frames.back();
+    const std::vector<std::size_t> rings = bodiesNamed(record, "ring");
+    spoilt.worldFromAsset[rings[0]] = spoilt.worldFromAsset[rings[1]];
+    spoilt.worldFromAsset[rings[0]].position.y() += 2.0 * kTube - 0.1;
+    const Vec3 tube(kRing, 0.0, 0.0);
+    Pose& pierced = spoilt.worldFromAsset[rings[2]];
+    pierced.orientation = Quat::Identity();
+    pierced.position = Vec3(0.0, 12.0, 0.0) - tube;
+    record.frames = {spoilt};
+    const Depths seen = judgeFrames(record);
+    findings.atLeast(control, "a frame spoilt by hand: the judge sees rings 10 cm in each other",
+                     seen.rings, 0.05, "m");
+    findings.equal(control, "a frame spoilt by hand: the judge sees a ring on the pole's axis",
+                   seen.crossed, 1);
+}
+
+}  // namespace
+
+void runRings(const Context& context, Findings& findings)
+{
+    smallShot(context, findings);
+    if (!context.isFull()) return;
+    largeShot(context, "rings_paper_500", findings);
+    largeShot(context, "rings_paper_1000", findings);
+}
+
+}  // namespace scree::verify
