@@ -24,20 +24,4 @@ void textbookStep(World& world, const StepSettings& settings, double dt)
     resolveContacts(world, graph, here, dt, scratch, capped);
 }
 
-void stepWithoutCollisions(World& world, const StepSettings& settings, double dt)
-{
-    StepScratch scratch;
-    std::int64_t capped = 0;
-    findPairs(world, settings, dt, scratch);
-    beginStep(world, settings, dt, scratch);
-    const std::vector<BodyMotion> before = world.motion;
-    resolveCollisions(world, settings, dt, scratch, capped);
-    world.motion = before;
-    const ContactGraph graph = buildContactGraph(world, settings, dt, scratch);
-    addGravity(world, settings, dt);
-    resolveContacts(world, graph, settings, dt, scratch, capped);
-    if (settings.shockPropagation) propagateShock(world, graph, settings, dt, scratch, capped);
-    advancePositions(world, settings, dt);
-}
-
 }  // namespace scree::verify

@@ -12,9 +12,4 @@ namespace scree::verify {
 /// just landed.  [E1, E2]
 void textbookStep(World& world, const StepSettings& settings, double dt);
 
-/// The method's step whose collision phase finds pairs as usual but whose impulses are taken back.
-/// (The setting collision_iterations = 0 still runs the last pass, which is the one that finds
-/// them.)  [E4]
-void stepWithoutCollisions(World& world, const StepSettings& settings, double dt);
-
 }  // namespace scree::verify

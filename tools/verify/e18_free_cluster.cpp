@@ -66,7 +66,8 @@ void runFreeCluster(const Context& context, Findings& findings)
         if (gravity == 0.0) addPicture(context, coarse, "The cluster a second later", findings);
     }
     if (context.method != "paper") return;
-    ShotRun strict(context, "E18_cluster", {"solver.strict=true", "solver.push_out=false"});
+    ShotRun strict(context, "E18_cluster",
+                   {"shot.gravity=[0, -9.8, 0]", "solver.strict=true", "solver.push_out=false"});
     findings.atLeast(control, "falling, strict: momentum that freezing everything creates",
                      follow(strict, 240.0).linear, 1e-6, "kg m/s",
                      "shock takes the lowest of a free cluster for ground");
