@@ -1,5 +1,5 @@
 // Fast against obvious: broad phase against all pairs, remembered samples against all samples.
-// [A7, A8, A13–A15]
+// [A7, A8, A12–A15]
 #include <gtest/gtest.h>
 
 #include <algorithm>

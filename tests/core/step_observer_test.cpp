@@ -41,6 +41,7 @@ World makeLanding()
 
 class BothMethods : public testing::TestWithParam<Method> {};
 
+// One sign rule: A receives +j and B −j.  [A0]
 TEST_P(BothMethods, TheImpulsesShownAreAllThatChangedTheVelocities)
 {
     World world = makeLanding();

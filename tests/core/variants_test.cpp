@@ -191,6 +191,7 @@ TEST(E26ShockPropagation, SparesAtLeastFourFifthsOfTheSweepsOfAStackOfTwenty)
     }
 }
 
+// [A59]
 TEST(StepReport, NamesTheBodyAndThePhaseWhereNumbersEnd)
 {
     World world;

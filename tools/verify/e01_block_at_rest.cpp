@@ -63,6 +63,21 @@ void onTheSlab(const Context& context, Findings& findings)
                     largestVertexShift(run.start, run.world, run.body("block")), 1e-6, "m");
 }
 
+void exactAndDefaults(const Context& context, Findings& findings)
+{
+    for (double rate : {24.0, 240.0}) {
+        ShotRun exact(context, "E01_block_at_rest", asExactSolids({"block"}));
+        exact.advance(context.isFull() ? 10.0 : 2.0, rate);
+        findings.atMost(must, "exact box" + atRate(rate) + ": largest shift of a vertex",
+                        largestVertexShift(exact.start, exact.world, exact.body("block")), 1e-9,
+                        "m");
+    }
+    ShotRun usual(context, "E01_block_at_rest", withDefaultSteps());
+    usual.advanceFrames(context.isFull() ? 240 : 48);
+    findings.atMost(must, "steps as by default: largest shift of a vertex",
+                    largestVertexShift(usual.start, usual.world, usual.body("block")), 1e-9, "m");
+}
+
 void textbookOrder(const Context& context, Findings& findings, Plot& plot)
 {
     ShotRun run(context, "E01_block_at_rest");
@@ -127,6 +142,7 @@ void runBlockAtRest(const Context& context, Findings& findings)
     Plot plot{"Distance of the block from where it was put, 60 Hz", "time [s]", "distance [m]", {}};
     onThePlane(context, findings, plot);
     onTheSlab(context, findings);
+    exactAndDefaults(context, findings);
     textbookOrder(context, findings, plot);
     belowTheFrictionAngle(context, findings);
     onEveryFace(context, findings);

@@ -55,6 +55,24 @@ void againstTheory(const Context& context, Findings& findings)
     }
 }
 
+void exactAndDefaults(const Context& context, Findings& findings)
+{
+    for (const Slope& slope : kSlopes) {
+        ShotRun exact(context, slope.shot, asExactSolids({"block"}));
+        addRows(std::string(slope.name) + ", exact box, 240 Hz", slide(exact, slope.theory, 240.0),
+                0.005, findings);
+        ShotRun usual(context, slope.shot, withDefaultSteps());
+        const SlideErrors errors = slideInFrames(usual, slope.theory);
+        const std::string name = std::string(slope.name) + ", steps as by default: ";
+        findings.atMost(must, name + "error of the distance", errors.position,
+                        0.005 * errors.distance, "m");
+        findings.atMost(must, name + "rotation", errors.rotation, 1e-3, "rad");
+        if (slope.theory.startSpeed > 0.0) {
+            findings.atMost(must, name + "speed after it stopped", errors.restSpeed, 1e-8, "m/s");
+        }
+    }
+}
+
 void orderOfTheError(const Context& context, Findings& findings)
 {
     const Slope& slope = kSlopes[0];
@@ -87,6 +105,7 @@ void textbookOrder(const Context& context, Findings& findings)
 void runSliding(const Context& context, Findings& findings)
 {
     againstTheory(context, findings);
+    exactAndDefaults(context, findings);
     orderOfTheError(context, findings);
     textbookOrder(context, findings);
 }

@@ -1,5 +1,6 @@
 // E5: weight is felt through a plank on a pivot. [GBF03 figure 7], [A43, A46]
 #include <cmath>
+#include <tuple>
 
 #include "core/math/rotation.h"
 #include "tools/verify/experiments.h"
@@ -21,6 +22,27 @@ Curve theory()
         curve.y.push_back(0.5 * 490.0 / 465.0 * t * t * 180.0 / kPi);
     }
     return curve;
+}
+
+void exactAndDefaults(const Context& context, Findings& findings)
+{
+    ShotRun exact(context, "E05_seesaw", asExactSolids({"pivot", "plank", "heavy", "light"}));
+    const Curve tilt = tiltOver(exact, context.isFull() ? 2.0 : 0.5);
+    findings.near(must, "exact solids: tilt at 0.25 s", tiltAt(tilt, 0.25), 1.887, 0.05 * 1.887,
+                  "degrees");
+    findings.near(must, "exact solids: tilt at 0.5 s", tiltAt(tilt, 0.5), 7.547, 0.05 * 7.547,
+                  "degrees");
+    if (!context.isFull()) return;
+    findings.near(must, "exact solids: on the floor at 2 s", tiltAt(tilt, 2.0), 11.54, 0.2,
+                  "degrees");
+    ShotRun usual(context, "E05_seesaw", withDefaultSteps());
+    for (const auto& [frames, seconds, angle, tolerance] :
+         {std::tuple{12, 0.5, 7.547, 0.05 * 7.547}, std::tuple{36, 2.0, 11.54, 0.2},
+          std::tuple{96, 6.0, -11.54, 0.2}}) {
+        usual.advanceFrames(frames);
+        findings.near(must, "steps as by default: tilt at " + shortNumber(seconds) + " s",
+                      tiltNow(usual), angle, tolerance, "degrees");
+    }
 }
 
 }  // namespace
@@ -45,6 +67,8 @@ void runSeeSaw(const Context& context, Findings& findings)
     if (context.isFull()) {
         findings.near(must, "still so at 12 s", tiltAt(rest, 10.0), -11.54, 0.2, "degrees");
     }
+
+    exactAndDefaults(context, findings);
 
     ShotRun weightless(context, "E05_seesaw", {"solver.contact_iterations=0"});
     Curve still = tiltOver(weightless, 1.0);

@@ -123,6 +123,11 @@ void dominoes(const Context& context, Findings& findings)
             findings.equal(must, name + " 1 mm farther out: pairs", apart.pairs.size(), count);
         }
     }
+    const auto exact = buildExactShape("domino", ExactSolid::box({0.4, 1.0, 0.1}),
+                                       makeBox({0.4, 1.0, 0.1}, {8, 20, 2}));
+    const SceneGraph ring = graphOf(dominoRing(exact, 24, touchingRadius(exact, 24)));
+    findings.equal(must, "24 dominoes, exact boxes: levels", ring.graph.contact.size(), 2);
+    findings.equal(must, "24 dominoes, exact boxes: pairs", ring.pairs.size(), 48);
     ShotRun shot(context, "../dominoes");
     const SceneGraph graph = graphOf(shot.world);
     findings.equal(must, "shots/dominoes.toml: levels", graph.graph.contact.size(), 2);

@@ -7,6 +7,41 @@
 
 namespace scree::verify {
 
+namespace {
+
+/// Holds the block against theory at one moment. Within `blur` of the moment at which it stops its
+/// speed belongs to neither side.
+void look(const ShotRun& run, const SlideTheory& theory, double t, double blur, SlideErrors& errors)
+{
+    const BodyId block = run.body("block");
+    const BodyMotion &start = run.start.motion[block], &motion = run.world.motion[block];
+    const double v = theory.speed(t), s = theory.distance(t), stop = theory.stopTime();
+    const Vec3 moved = motion.position - start.position;
+    const double along = moved.dot(theory.downhill());
+    const double speedError = std::abs(motion.velocity.dot(theory.downhill()) - v);
+    errors.position = std::max(errors.position, std::abs(along - s));
+    if (t < stop - blur) errors.slidingSpeed = std::max(errors.slidingSpeed, speedError);
+    if (t > stop + blur) errors.restSpeed = std::max(errors.restSpeed, speedError);
+    const Quat turn = start.orientation.conjugate() * motion.orientation;
+    errors.rotation = std::max(errors.rotation, 2.0 * turn.vec().norm());
+    errors.drift = std::max(errors.drift, std::abs(moved.z()));
+    errors.distance = s;
+    errors.measured.x.push_back(t);
+    errors.measured.y.push_back(along);
+    errors.theory.x.push_back(t);
+    errors.theory.y.push_back(s);
+}
+
+SlideErrors nothingSeen()
+{
+    SlideErrors errors;
+    errors.measured.name = "measured";
+    errors.theory = {"theory", {}, {}, true};
+    return errors;
+}
+
+}  // namespace
+
 double SlideTheory::acceleration() const
 {
     const double angle = degrees * kPi / 180.0;
@@ -37,35 +72,27 @@ Vec3 SlideTheory::downhill() const
 
 SlideErrors slide(ShotRun& run, const SlideTheory& theory, double stepsPerSecond)
 {
-    const BodyId block = run.body("block");
-    const BodyMotion start = run.world.motion[block];
-    const double dt = 1.0 / stepsPerSecond, stop = theory.stopTime();
-    SlideErrors errors;
-    errors.measured.name = "measured";
-    errors.theory = {"theory", {}, {}, true};
+    const double dt = 1.0 / stepsPerSecond;
+    SlideErrors errors = nothingSeen();
     double discrete = 0.0;
     run.advance(2.0, stepsPerSecond, [&](const StepReport&, double t) {
-        const double v = theory.speed(t), s = theory.distance(t);
+        look(run, theory, t, dt, errors);
         // Positions use the new velocities: the method's own sum, first order in dt.  [A18]
-        discrete += dt * v;
-        const BodyMotion& motion = run.world.motion[block];
-        const Vec3 moved = motion.position - start.position;
-        const double along = moved.dot(theory.downhill());
-        const double speedError = std::abs(motion.velocity.dot(theory.downhill()) - v);
-        errors.position = std::max(errors.position, std::abs(along - s));
-        errors.discretePosition = std::max(errors.discretePosition, std::abs(along - discrete));
-        // The step in which the block stops belongs to neither side.
-        if (t < stop - dt) errors.slidingSpeed = std::max(errors.slidingSpeed, speedError);
-        if (t > stop + dt) errors.restSpeed = std::max(errors.restSpeed, speedError);
-        const Quat turn = start.orientation.conjugate() * motion.orientation;
-        errors.rotation = std::max(errors.rotation, 2.0 * turn.vec().norm());
-        errors.drift = std::max(errors.drift, std::abs(moved.z()));
-        errors.distance = s;
-        errors.measured.x.push_back(t);
-        errors.measured.y.push_back(along);
-        errors.theory.x.push_back(t);
-        errors.theory.y.push_back(s);
+        discrete += dt * theory.speed(t);
+        errors.discretePosition =
+            std::max(errors.discretePosition, std::abs(errors.measured.y.back() - discrete));
     });
+    return errors;
+}
+
+SlideErrors slideInFrames(ShotRun& run, const SlideTheory& theory)
+{
+    const double frame = 1.0 / run.shot.framesPerSecond;
+    SlideErrors errors = nothingSeen();
+    for (int k = 1; k <= 2.0 / frame; ++k) {
+        run.advanceFrames(1);
+        look(run, theory, k * frame, frame, errors);
+    }
     return errors;
 }
 

@@ -26,4 +26,7 @@ struct SlideErrors {
 /// Slides the body "block" of the run for two seconds.
 SlideErrors slide(ShotRun& run, const SlideTheory& theory, double stepsPerSecond);
 
+/// The same in frames whose steps the shot's settings choose; the method's own sum is not formed.
+SlideErrors slideInFrames(ShotRun& run, const SlideTheory& theory);
+
 }  // namespace scree::verify

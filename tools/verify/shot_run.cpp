@@ -83,6 +83,22 @@ BodyId ShotRun::body(const std::string& name) const
     throw Error(ErrorKind::internal, "shot " + shot.name + " has no body " + name);
 }
 
+const std::vector<std::string>& withDefaultSteps()
+{
+    static const std::vector<std::string> overrides = {"solver.substeps.min=1",
+                                                       "solver.substeps.max=256"};
+    return overrides;
+}
+
+std::vector<std::string> asExactSolids(const std::vector<std::string>& shapes)
+{
+    std::vector<std::string> overrides;
+    for (const std::string& shape : shapes) {
+        overrides.push_back("shape." + shape + ".collide=\"exact\"");
+    }
+    return overrides;
+}
+
 std::string setVector(const std::string& key, const Vec3& value)
 {
     return key + "=[" + toTomlText(value.x()) + ", " + toTomlText(value.y()) + ", " +

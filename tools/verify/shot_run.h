@@ -38,6 +38,12 @@ public:
     Stepper stepper;
 };
 
+/// Overrides that let a shot of fixed steps choose its own, as shots do by default.
+const std::vector<std::string>& withDefaultSteps();
+
+/// Overrides that let these shapes of a shot collide as their exact solids.  [A9]
+std::vector<std::string> asExactSolids(const std::vector<std::string>& shapes);
+
 /// "key=[x, y, z]" with all digits: an override that moves things.
 std::string setVector(const std::string& key, const Vec3& value);
 std::string setNumber(const std::string& key, double value);

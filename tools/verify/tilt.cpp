@@ -11,14 +11,18 @@ constexpr double kRate = 240.0;  // steps a second
 
 }  // namespace
 
+double tiltNow(const ShotRun& run)
+{
+    const Vec3 along = run.world.worldFromAsset(run.body("plank")).orientation * Vec3::UnitX();
+    return -std::asin(along.y()) * 180.0 / kPi;
+}
+
 Curve tiltOver(ShotRun& run, double seconds)
 {
     Curve curve;
-    const BodyId plank = run.body("plank");
     run.advance(seconds, kRate, [&](const StepReport&, double t) {
-        const Vec3 along = run.world.worldFromAsset(plank).orientation * Vec3::UnitX();
         curve.x.push_back(t);
-        curve.y.push_back(-std::asin(along.y()) * 180.0 / kPi);
+        curve.y.push_back(tiltNow(run));
     });
     return curve;
 }

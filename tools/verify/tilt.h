@@ -5,8 +5,10 @@
 
 namespace scree::verify {
 
-/// Tilt of the body "plank" of the run, its +x end down positive [degrees], over time; 240 steps a
-/// second.
+/// Tilt of the body "plank" of the run, its +x end down positive [degrees].
+double tiltNow(const ShotRun& run);
+
+/// The same over time; 240 steps a second.
 Curve tiltOver(ShotRun& run, double seconds);
 
 /// The curve's tilt so long after its beginning.
