@@ -68,6 +68,10 @@ TEST(E9Rolling, BallsStopWhenAndWhereTheorySaysAndNeverTurnBack)
 {
     expectNothingBroken("E9");
 }
+TEST(E10MassProperties, AreThoseOfClosedForms)
+{
+    expectNothingBroken("E10");
+}
 TEST(E11PushOut, WhatOverlapsComesApartAndNoVelocityChanges)
 {
     expectNothingBroken("E11");
@@ -103,6 +107,14 @@ TEST(E18FreeCluster, ShockPropagationCreatesNoMomentum)
 TEST(E19Determinism, ThreadsAndCheckpointsLeaveNoTrace)
 {
     expectNothingBroken("E19");
+}
+TEST(E20HeapQuality, RunsAndTellsWhatTheHeapIsLike)
+{
+    expectNothingBroken("E20");
+}
+TEST(E21DistanceField, IsExactWhereItDecidesInBothStorages)
+{
+    expectNothingBroken("E21");
 }
 TEST(E22Variants, LaggedHeapsAreLikeOthersAndStrictPassesWhatItShould)
 {

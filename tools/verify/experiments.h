@@ -13,6 +13,9 @@ void runSeeSaw(const Context& context, Findings& findings);             // e05
 void runContactGraph(const Context& context, Findings& findings);       // e06
 void runRings(const Context& context, Findings& findings);              // e07
 void runBones(const Context& context, Findings& findings);              // e08
+void runMassProperties(const Context& context, Findings& findings);     // e10
+void runHeapQuality(const Context& context, Findings& findings);        // e20
+void runDistanceField(const Context& context, Findings& findings);      // e21
 void runRolling(const Context& context, Findings& findings);            // e09
 void runFastAndThin(const Context& context, Findings& findings);        // e12
 void runAcceleratedFrames(const Context& context, Findings& findings);  // e17
