@@ -111,7 +111,8 @@ void smallShot(const Context& context, Findings& findings)
     if (context.isFull()) {
         findings.atLeast(must, "six bones: passed the funnel", passed(record), 0.9, "of them");
     }
-    addPicture(context, run, "Six bones under the funnel", findings);
+    addPicture(context, run, "Figure 8 in short: six bones under the funnel", findings);
+    addPicture(context, run, "Figure 9 in short: the same as wireframe", findings, true);
     // The judge must see a bone that was put a fifth of itself into another.
     SceneFrame spoilt = record.frames.back();
     std::vector<std::size_t> bones;

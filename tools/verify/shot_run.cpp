@@ -164,14 +164,16 @@ Momenta momenta(const World& world)
 }
 
 void addPicture(const Context& context, const ShotRun& run, const std::string& caption,
-                Findings& findings)
+                Findings& findings, bool isWireframe)
 {
     if (!context.wantsPictures) return;
     const SceneDescription scene = describeScene(run.shot, run.world, kPlaneHalfWidth);
     const SceneCamera& from = run.shot.cameras.at(0);
     const Vec3 up = run.shot.zUp ? Vec3::UnitZ() : Vec3::UnitY();
     const Camera camera{from.eye, from.target, up, from.fovDegrees};
-    Rasterizer rasterizer(scene, looksOf(run.shot, scene));
+    RasterSettings settings;
+    settings.wireframe = isWireframe;
+    Rasterizer rasterizer(scene, looksOf(run.shot, scene), settings);
     const Image image =
         rasterizer.draw(captureFrame(run.shot, run.world), camera, kPictureWidth, kPictureHeight);
     findings.pictures.push_back({caption, encodePng(image)});

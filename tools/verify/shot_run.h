@@ -68,6 +68,6 @@ Momenta momenta(const World& world);
 /// A picture of the run as it stands, through the shot's first camera; none unless the context
 /// wants pictures.
 void addPicture(const Context& context, const ShotRun& run, const std::string& caption,
-                Findings& findings);
+                Findings& findings, bool isWireframe = false);
 
 }  // namespace scree::verify
