@@ -94,7 +94,10 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         outlooks.push_back(outlookOf(world, static_cast<BodyId>(b), remaining));
     }
-    StepLength limit{remaining, StepLimit::frame, -1, false};
+    // What is left of the frame is no wish of the motion: steps that had to fit into it would halve,
+    // and halve again.
+    const double longest = frameDuration / std::max(settings.substeps.min, 1);
+    StepLength limit{longest, StepLimit::frame, -1, false};
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         const auto [a, b] = scratch.pairs[i].bodies;
         const double thinner = std::min(thickness(world, a), thickness(world, b));
@@ -116,8 +119,6 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
         }
     }
 
-    const double longest = frameDuration / std::max(settings.substeps.min, 1);
-    if (limit.dt > longest) limit = {longest, StepLimit::frame, -1, false};
     const double shortest = frameDuration / settings.substeps.max;
     if (limit.dt < shortest) {
         limit.dt = shortest;
