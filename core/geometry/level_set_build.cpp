@@ -11,7 +11,9 @@
 #include <optional>
 
 #include "core/base/parallel.h"
+#include "core/geometry/mesh_defects.h"
 #include "core/geometry/triangle_distance.h"
+#include "core/geometry/winding_number.h"
 
 namespace scree {
 namespace {
@@ -48,12 +50,33 @@ openvdb::FloatGrid::Ptr narrowBand(const TriMesh& mesh, const NodeLayout& layout
                                                             kBandVoxels);
 }
 
+/// What tells the cavities of a solid from the solid; nothing when there can be none. OpenVDB
+/// floods from outside, takes all that it does not reach for solid and forgets the walls inside:
+/// the sand would be inside the glass of an hourglass.
+std::optional<WindingNumber> sidesOf(const TriMesh& mesh)
+{
+    const std::vector<int> partOf = findParts(mesh);
+    if (*std::max_element(partOf.begin(), partOf.end()) == 0) return std::nullopt;
+    return WindingNumber(mesh);
+}
+
+/// All that a node is read from.
+struct NodeSource {
+    const TriMesh& mesh;
+    const SurfaceRays& rays;
+    openvdb::FloatGrid::Ptr band;
+    std::optional<WindingNumber> sides;
+};
+
 /// Reads OpenVDB's band, and asks the mesh beyond it. One for each thread.
 class NodeReader {
 public:
-    NodeReader(const TriMesh& mesh, const SurfaceRays& rays, const NodeLayout& layout,
-               const openvdb::FloatGrid& band)
-        : mesh_(mesh), rays_(rays), layout_(layout), accessor_(band.getConstAccessor())
+    NodeReader(const NodeSource& source, const NodeLayout& layout)
+        : mesh_(source.mesh),
+          rays_(source.rays),
+          layout_(layout),
+          accessor_(source.band->getConstAccessor()),
+          sides_(source.sides ? &*source.sides : nullptr)
     {
     }
 
@@ -61,10 +84,11 @@ public:
     /// answer bounds the next search.
     float read(const Index3& node)
     {
-        const float voxels = accessor_.getValue(openvdb::Coord(node[0], node[1], node[2]));
+        float voxels = accessor_.getValue(openvdb::Coord(node[0], node[1], node[2]));
         const double h = layout_.spacing;
-        if (std::abs(voxels) < kBandVoxels) return static_cast<float>(h * voxels);
         const Vec3 p = layout_.node(node[0], node[1], node[2]);
+        if (sides_ && voxels < 0.0f && sides_->at(p) < 0.5) voxels = -voxels;
+        if (std::abs(voxels) < kBandVoxels) return static_cast<float>(h * voxels);
         const double reach = lastDistance_ + (p - lastPoint_).norm();
         const int t = rays_.closestTriangle(p, reach);
         const Vec3 closest = closestOnTriangle(p, mesh_.points.col(mesh_.triangles(0, t)),
@@ -81,6 +105,7 @@ private:
     const SurfaceRays& rays_;
     const NodeLayout& layout_;
     openvdb::FloatGrid::ConstAccessor accessor_;
+    const WindingNumber* sides_;
     Vec3 lastPoint_ = Vec3::Zero();
     double lastDistance_ = std::numeric_limits<double>::infinity();
 };
@@ -146,13 +171,12 @@ void noteRange(FieldBlock& block, float value)
     block.high = std::max(block.high, value);
 }
 
-void fillDense(DistanceNodes& nodes, const TriMesh& mesh, const SurfaceRays& rays,
-               const openvdb::FloatGrid& band)
+void fillDense(DistanceNodes& nodes, const NodeSource& source)
 {
     const auto [nx, ny, nz] = nodes.layout.count;
     nodes.values.resize(nodes.layout.nodeCount());
     parallelFor(nz, 1, [&](std::size_t begin, std::size_t end) {
-        NodeReader reader(mesh, rays, nodes.layout, band);
+        NodeReader reader(source, nodes.layout);
         for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
             for (int j = 0; j < ny; ++j) {
                 for (int i = 0; i < nx; ++i) {
@@ -163,12 +187,32 @@ void fillDense(DistanceNodes& nodes, const TriMesh& mesh, const SurfaceRays& ray
     });
 }
 
+/// Whether the surface comes as near to the block as the band is wide. OpenVDB has no band around
+/// the walls of a cavity, where it sees nothing but inside.
+bool isNearSurface(const NodeSource& source, const NodeLayout& layout, const Index3& block)
+{
+    const double h = layout.spacing;
+    const Vec3 centre =
+        layout.node(kBlockCells * block[0], kBlockCells * block[1], kBlockCells * block[2]) +
+        Vec3::Constant(0.5 * kBlockCells * h);
+    const int t = source.rays.closestTriangle(centre);
+    const Vec3 closest =
+        closestOnTriangle(centre, source.mesh.points.col(source.mesh.triangles(0, t)),
+                          source.mesh.points.col(source.mesh.triangles(1, t)),
+                          source.mesh.points.col(source.mesh.triangles(2, t)))
+            .point;
+    return (closest - centre).norm() < (kBlockCells * kHalfDiagonal + kBandVoxels) * h;
+}
+
 /// Gives every block its place among the values; returns how many there are.
-std::size_t layOutBricks(DistanceNodes& nodes, const openvdb::FloatGrid& band)
+std::size_t layOutBricks(DistanceNodes& nodes, const NodeSource& source)
 {
     parallelFor(nodes.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
-            nodes.blocks[b].isCoarse = isInBand(band, nodes.blockAt(b)) ? 0 : 1;
+            const Index3 block = nodes.blockAt(b);
+            const bool isFine = isInBand(*source.band, block) ||
+                                (source.sides && isNearSurface(source, nodes.layout, block));
+            nodes.blocks[b].isCoarse = isFine ? 0 : 1;
         }
     });
     std::size_t count = 0;
@@ -198,12 +242,11 @@ std::optional<float> coarseValue(const DistanceNodes& nodes, const Index3& node)
     return std::nullopt;
 }
 
-void fillBricks(DistanceNodes& nodes, const TriMesh& mesh, const SurfaceRays& rays,
-                const openvdb::FloatGrid& band)
+void fillBricks(DistanceNodes& nodes, const NodeSource& source)
 {
     const auto forEachBlock = [&](bool coarse, const auto& fill) {
         parallelFor(nodes.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
-            NodeReader reader(mesh, rays, nodes.layout, band);
+            NodeReader reader(source, nodes.layout);
             for (std::size_t b = begin; b < end; ++b) {
                 if ((nodes.blocks[b].isCoarse != 0) == coarse) fill(reader, b);
             }
@@ -254,23 +297,23 @@ void noteRanges(DistanceNodes& nodes)
 DistanceNodes buildDistanceNodes(const TriMesh& mesh, const SurfaceRays& rays,
                                  const NodeLayout& layout, FieldStorage storage)
 {
-    const openvdb::FloatGrid::Ptr band = narrowBand(mesh, layout);
+    const NodeSource source{mesh, rays, narrowBand(mesh, layout), sidesOf(mesh)};
     const std::size_t denseBytes = layout.nodeCount() * sizeof(float);
     if (storage == FieldStorage::automatic && denseBytes <= kSmallLattice) {
         storage = FieldStorage::dense;
     }
     if (storage != FieldStorage::dense) {
         DistanceNodes nodes = emptyNodes(layout, FieldStorage::bricks);
-        const std::size_t count = layOutBricks(nodes, *band);
+        const std::size_t count = layOutBricks(nodes, source);
         if (storage == FieldStorage::bricks || 4 * count * sizeof(float) <= 3 * denseBytes) {
             nodes.values.resize(count);
-            fillBricks(nodes, mesh, rays, *band);
+            fillBricks(nodes, source);
             noteRanges(nodes);
             return nodes;
         }
     }
     DistanceNodes nodes = emptyNodes(layout, FieldStorage::dense);
-    fillDense(nodes, mesh, rays, *band);
+    fillDense(nodes, source);
     noteRanges(nodes);
     return nodes;
 }

@@ -135,22 +135,6 @@ void requireAffordable(const TriMesh& mesh, const RemeshSettings& settings, cons
     throw Error(ErrorKind::badInput, text);
 }
 
-double farthestFrom(const TriMesh& points, const TriMesh& surface)
-{
-    const SurfaceRays rays(surface);
-    double farthest = 0.0;
-    for (Eigen::Index v = 0; v < points.points.cols(); ++v) {
-        const Vec3 p = points.points.col(v);
-        const auto corners = surface.triangles.col(rays.closestTriangle(p));
-        const Vec3 closest =
-            closestOnTriangle(p, surface.points.col(corners[0]), surface.points.col(corners[1]),
-                              surface.points.col(corners[2]))
-                .point;
-        farthest = std::max(farthest, (p - closest).norm());
-    }
-    return farthest;
-}
-
 }  // namespace
 
 TriMesh remeshSolid(const TriMesh& mesh, const RemeshSettings& settings, const std::string& name)
@@ -172,11 +156,6 @@ TriMesh remeshSolid(const TriMesh& mesh, const RemeshSettings& settings, const s
     }
     requireSolid(solid, name, DefectSearch::topology);
     return solid;
-}
-
-double farthestApart(const TriMesh& a, const TriMesh& b)
-{
-    return std::max(farthestFrom(a, b), farthestFrom(b, a));
 }
 
 }  // namespace scree

@@ -26,7 +26,4 @@ struct RemeshSettings {
 /// when the lattice would be finer than 256 voxels along the longest edge.
 TriMesh remeshSolid(const TriMesh& mesh, const RemeshSettings& settings, const std::string& name);
 
-/// How far the two surfaces are apart at the points of either [m].
-double farthestApart(const TriMesh& a, const TriMesh& b);
-
 }  // namespace scree

@@ -57,13 +57,20 @@ double measureThickness(const TriMesh& mesh, const SurfaceRays& rays, const Aabb
 }
 
 /// Node spacing from the settings, or from the thickness.  [A4]
+double wantedSpacing(const ShapeSettings& settings, const Aabb& box, double thickness)
+{
+    const double longest = box.longestEdge();
+    if (settings.voxel) return *settings.voxel;
+    if (settings.resolution) return longest / *settings.resolution;
+    return std::min(thickness / kVoxelsPerThickness, longest / kLeastResolution);
+}
+
+/// The same, refused where the field would be too large.  [A4]
 double chooseSpacing(const std::string& name, const ShapeSettings& settings, const Aabb& box,
                      double thickness)
 {
     const double longest = box.longestEdge();
-    double spacing = std::min(thickness / kVoxelsPerThickness, longest / kLeastResolution);
-    if (settings.resolution) spacing = longest / *settings.resolution;
-    if (settings.voxel) spacing = *settings.voxel;
+    const double spacing = wantedSpacing(settings, box, thickness);
     const double resolution = longest / spacing;
     if (resolution > kMostResolution + 0.5) {
         char text[320];
@@ -104,7 +111,7 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
     repairs.voxel = repairVoxel(solid, settings);
     const TriMesh remeshed =
         remeshSolid(solid, {settings.repair, settings.shellThickness, repairs.voxel}, name);
-    repairs.farthest = farthestApart(solid, remeshed);
+    repairs.drawnToColliding = farthestApart(solid, remeshed);
     return remeshed;
 }
 
@@ -137,6 +144,41 @@ DistanceField fieldOf(const Shape& shape, const NodeLayout& layout, const ShapeS
     return field;
 }
 
+/// All that follows from the solid: mass, field, samples, rays, features.
+void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSettings& settings,
+                   FieldStore* store, Shape& shape)
+{
+    try {
+        shape.unitMass = massProperties(solid);
+    } catch (const Error& error) {
+        throw Error(error.kind(), "shape '" + name + "': " + error.what());
+    }
+
+    shape.bodyFromAsset = inverse(Pose{shape.unitMass.centre, shape.unitMass.meshFromPrincipal});
+    shape.mesh = transformed(solid, shape.bodyFromAsset);
+    for (Eigen::Index v = 0; v < shape.mesh.points.cols(); ++v) {
+        const Vec3 p = shape.mesh.points.col(v);
+        shape.box.include(p);
+        shape.boundingRadius = std::max(shape.boundingRadius, p.norm());
+    }
+
+    shape.rays = SurfaceRays(shape.mesh);
+    shape.innerThickness = measureThickness(shape.mesh, shape.rays, shape.box);
+    shape.usesTrueNormals =
+        settings.normals == NormalMode::trueNormals ||
+        (settings.normals == NormalMode::automatic && sharpestEdge(shape.mesh) > kSharpEdge);
+    const bool withEdges =
+        settings.edgeSamples.value_or(longestEdge(shape.mesh) > 0.5 * shape.innerThickness);
+    shape.samples = makeSurfaceSamples(shape.mesh, withEdges);
+    shape.features = ContactFeatures(shape.mesh);
+    if (!shape.usesTrueNormals) shape.smooth = SmoothSurface(shape.mesh);
+
+    const double spacing = chooseSpacing(name, settings, shape.box, shape.innerThickness);
+    shape.distance =
+        SignedDistance(shape.mesh, fieldOf(shape, layOutNodes(shape.box, spacing), settings, store),
+                       settings.field == FieldMode::refined);
+}
+
 }  // namespace
 
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
@@ -146,35 +188,22 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
     shape->name = name;
     shape->assetMesh = assetMesh;
     const TriMesh solid = makeSolid(name, assetMesh, settings, shape->repairs);
-    try {
-        shape->unitMass = massProperties(solid);
-    } catch (const Error& error) {
-        throw Error(error.kind(), "shape '" + name + "': " + error.what());
-    }
+    describeSolid(name, solid, settings, store, *shape);
+    return shape;
+}
 
-    shape->bodyFromAsset = inverse(Pose{shape->unitMass.centre, shape->unitMass.meshFromPrincipal});
-    shape->mesh = transformed(solid, shape->bodyFromAsset);
-    for (Eigen::Index v = 0; v < shape->mesh.points.cols(); ++v) {
-        const Vec3 p = shape->mesh.points.col(v);
-        shape->box.include(p);
-        shape->boundingRadius = std::max(shape->boundingRadius, p.norm());
-    }
-
-    shape->rays = SurfaceRays(shape->mesh);
-    shape->innerThickness = measureThickness(shape->mesh, shape->rays, shape->box);
-    shape->usesTrueNormals =
-        settings.normals == NormalMode::trueNormals ||
-        (settings.normals == NormalMode::automatic && sharpestEdge(shape->mesh) > kSharpEdge);
-    const bool withEdges =
-        settings.edgeSamples.value_or(longestEdge(shape->mesh) > 0.5 * shape->innerThickness);
-    shape->samples = makeSurfaceSamples(shape->mesh, withEdges);
-    shape->features = ContactFeatures(shape->mesh);
-    if (!shape->usesTrueNormals) shape->smooth = SmoothSurface(shape->mesh);
-
-    const double spacing = chooseSpacing(name, settings, shape->box, shape->innerThickness);
-    shape->distance = SignedDistance(
-        shape->mesh, fieldOf(*shape, layOutNodes(shape->box, spacing), settings, store),
-        settings.field == FieldMode::refined);
+std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& drawn,
+                                            const TriMesh& colliding, const ShapeSettings& settings,
+                                            FieldStore* store)
+{
+    requireSurface(drawn, name);
+    auto shape = std::make_shared<Shape>();
+    shape->name = name;
+    shape->assetMesh = drawn;
+    const TriMesh solid = makeSolid(name, colliding, settings, shape->repairs);
+    shape->repairs.hasCollisionMesh = true;
+    shape->repairs.drawnToColliding = farthestApart(drawn, solid);
+    describeSolid(name, solid, settings, store, *shape);
     return shape;
 }
 
@@ -190,8 +219,8 @@ std::shared_ptr<const Shape> buildExactShape(const std::string& name, const Exac
     shape->box = solid.box();
     shape->boundingRadius = solid.boundingRadius();
     shape->innerThickness = shape->box.shortestEdge();
-    shape->distance =
-        SignedDistance(solid, chooseSpacing(name, {}, shape->box, shape->innerThickness));
+    // No field is sampled, so none can be too large: a playing card may be exact.
+    shape->distance = SignedDistance(solid, wantedSpacing({}, shape->box, shape->innerThickness));
     shape->samplesMove = solid.form() != ExactSolid::Form::box;
     if (solid.form() != ExactSolid::Form::sphere) shape->features = ContactFeatures(shape->mesh);
     if (!shape->samplesMove) {

@@ -13,6 +13,7 @@
 #include "core/geometry/contact_features.h"
 #include "core/geometry/level_set_remesh.h"
 #include "core/geometry/mass_properties.h"
+#include "core/geometry/mesh_deviation.h"
 #include "core/geometry/mesh_repair.h"
 #include "core/geometry/signed_distance.h"
 #include "core/geometry/smooth_surface.h"
@@ -52,8 +53,9 @@ struct ShapeSettings {
 struct ShapeRepairs {
     HarmlessRepairs harmless;
     MeshRepair remeshed = MeshRepair::none;
-    double voxel = 0.0;     ///< of the remeshing [m]
-    double farthest = 0.0;  ///< between what is drawn and what collides [m]
+    double voxel = 0.0;              ///< of the remeshing [m]
+    bool hasCollisionMesh = false;   ///< what collides was made from another mesh than is drawn
+    MeshDeviation drawnToColliding;  ///< of the two, in the artist's frame; 0 where they are one
 };
 
 struct Shape {
@@ -62,7 +64,8 @@ struct Shape {
     bool samplesMove =
         false;  ///< exact sphere or cylinder: its samples are no material points  [A9]
 
-    TriMesh assetMesh;        ///< as the artist made it, scale baked in [m]; empty for a plane
+    TriMesh assetMesh;        ///< what is drawn, as the artist made it, scale baked in [m]; empty
+                              ///< for a plane
     ShapeRepairs repairs;     ///< between assetMesh and mesh
     Pose bodyFromAsset;       ///< object frame from the artist's frame
     MassProperties unitMass;  ///< for density 1 kg/m³, in the object frame
@@ -88,6 +91,12 @@ struct Shape {
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
                                             const ShapeSettings& settings = {},
                                             FieldStore* store = nullptr);
+
+/// The same from a mesh that is only drawn and one that collides in its stead, both in the artist's
+/// frame. What is drawn need be no solid, but a surface.
+std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& drawn,
+                                            const TriMesh& colliding, const ShapeSettings& settings,
+                                            FieldStore* store);
 
 /// A sphere, box or cylinder that collides as the formula says, not as a mesh: field, normals and
 /// mass are exact. `mesh`, in the solid's own frame, is what is drawn; of a box it also supplies

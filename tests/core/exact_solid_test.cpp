@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/collision/interference.h"
 #include "core/dynamics/stepper.h"
@@ -305,6 +306,15 @@ TEST(ExactCylinder, DroppedAcrossAnotherItComesToRestOnIt)
     for (int k = 0; k < 240; ++k) stepper.step(world, 1.0 / 240.0);
     EXPECT_NEAR(world.motion[upper].position.y(), 0.8, 1e-3);
     EXPECT_LE(world.motion[upper].velocity.norm(), 1e-3);
+}
+
+TEST(ExactSolid, APlayingCardMayBeExactAlthoughNoFieldCouldResolveIt)
+{
+    const Vec3 card(0.0003, 0.088, 0.063);
+    const TriMesh mesh = makeBox(card, {1, 4, 3});
+    EXPECT_THROW(buildMeshShape("card", mesh), Error);  // 3520 voxels along it
+    const auto shape = buildExactShape("card", ExactSolid::box(card), mesh);
+    EXPECT_NEAR(shape->unitMass.volume, card.prod(), 1e-18);
 }
 
 }  // namespace

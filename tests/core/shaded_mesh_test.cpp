@@ -59,7 +59,8 @@ TEST(ShadedMesh, KnowsWhetherItsInsideCanBeSeen)
 
 TEST(ShadedMesh, ItsBallHoldsAllPoints)
 {
-    const TriMesh bar = transformed(makeBox({1, 5, 2}, {1, 1, 1}), {Vec3(7, -2, 3), Quat::Identity()});
+    const TriMesh bar =
+        transformed(makeBox({1, 5, 2}, {1, 1, 1}), {Vec3(7, -2, 3), Quat::Identity()});
     const ShadedMesh mesh = shadeMesh(sceneMesh(bar));
     EXPECT_NEAR(mesh.radius, 0.5 * std::sqrt(1.0 + 25.0 + 4.0), 1e-12);
     EXPECT_NEAR((mesh.centre - Vec3(7, -2, 3)).norm(), 0.0, 1e-12);

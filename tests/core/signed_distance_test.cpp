@@ -48,6 +48,40 @@ double plainDistance(const TriMesh& mesh, const Vec3& p)
     return angle > 2.0 * std::numbers::pi ? -nearest : nearest;
 }
 
+TEST(E21SignedDistance, ACavityIsOutsideAndWhatLiesInItIsInside)
+{
+    // A ball of radius 1 with a cavity of 0.7, in which a ball of 0.3 lies.
+    const TriMesh outer = makeSphere(1.0, 4), inner = makeSphere(0.3, 3);
+    TriMesh hollow = makeSphere(0.7, 4);
+    hollow.triangles.row(1).swap(hollow.triangles.row(2));
+    TriMesh nested = outer;
+    for (const TriMesh* part : std::initializer_list<const TriMesh*>{&hollow, &inner}) {
+        const Eigen::Index points = nested.points.cols(), faces = nested.triangles.cols();
+        nested.points.conservativeResize(3, points + part->points.cols());
+        nested.points.rightCols(part->points.cols()) = part->points;
+        nested.triangles.conservativeResize(3, faces + part->triangles.cols());
+        nested.triangles.rightCols(part->triangles.cols()) =
+            part->triangles.array() + static_cast<int>(points);
+    }
+    for (const FieldStorage storage : {FieldStorage::dense, FieldStorage::bricks}) {
+        ShapeSettings settings;
+        settings.storage = storage;
+        settings.resolution = 64;
+        const auto shape = buildMeshShape("nested", nested, settings);
+        for (std::uint64_t i = 0; i < 20000; ++i) {
+            const Vec3 p = randomPoint(i, shape->box);
+            const double r = p.norm();
+            const double exact = r < 0.5 ? r - 0.3 : r < 0.85 ? 0.7 - r : r - 1.0;
+            // The spheres are polyhedra: 0.003 of a unit one lies inside; coarse blocks of bricks
+            // interpolate over 8 voxels, but far from the surface.
+            const double slack = storage == FieldStorage::dense ? 0.02 : 0.1;
+            ASSERT_NEAR(shape->distance.value(p), exact, slack) << r;
+            if (std::abs(exact) < 0.01) continue;
+            ASSERT_EQ(shape->distance.value(p) < 0.0, exact < 0.0) << r;
+        }
+    }
+}
+
 TEST(E21SignedDistance, ABoxIsExactNearItsSurfaceAndWithinHalfAVoxelEverywhere)
 {
     const Vec3 half(0.5, 0.35, 0.6);

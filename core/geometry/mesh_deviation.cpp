@@ -1,0 +1,63 @@
+#include "core/geometry/mesh_deviation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/surface_rays.h"
+#include "core/geometry/triangle_distance.h"
+
+namespace scree {
+namespace {
+
+constexpr double kLooksAlongTheBox = 64.0;
+
+/// Calls visit(p) for the corners of a triangle and for points within it, at most `spacing` apart.
+template <class Visit>
+void visitPoints(const TriMesh& mesh, Eigen::Index triangle, double spacing, const Visit& visit)
+{
+    const auto corner = [&](int k) -> Vec3 {
+        return mesh.points.col(mesh.triangles(k % 3, triangle));
+    };
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, (corner(k + 1) - corner(k)).norm());
+    const int steps = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
+    const Vec3 u = (corner(1) - corner(0)) / steps, v = (corner(2) - corner(0)) / steps;
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; i + j <= steps; ++j) visit((corner(0) + i * u + j * v).eval());
+    }
+}
+
+double longestEdgeOfBox(const TriMesh& mesh)
+{
+    return (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
+}
+
+/// Takes over what lies farther from `surface` than what is known.
+void look(const TriMesh& from, const TriMesh& surface, bool isFirst, MeshDeviation& farthest)
+{
+    const SurfaceRays rays(surface);
+    const double spacing = longestEdgeOfBox(from) / kLooksAlongTheBox;
+    for (Eigen::Index t = 0; t < from.triangles.cols(); ++t) {
+        visitPoints(from, t, spacing, [&](const Vec3& p) {
+            const auto corners = surface.triangles.col(rays.closestTriangle(p));
+            const Vec3 closest =
+                closestOnTriangle(p, surface.points.col(corners[0]), surface.points.col(corners[1]),
+                                  surface.points.col(corners[2]))
+                    .point;
+            const double distance = (p - closest).norm();
+            if (distance > farthest.distance) farthest = {distance, p, isFirst};
+        });
+    }
+}
+
+}  // namespace
+
+MeshDeviation farthestApart(const TriMesh& a, const TriMesh& b)
+{
+    MeshDeviation farthest;
+    look(a, b, true, farthest);
+    look(b, a, false, farthest);
+    return farthest;
+}
+
+}  // namespace scree
