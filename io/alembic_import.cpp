@@ -3,6 +3,7 @@
 #include "io/alembic_import.h"
 
 #include <Eigen/SVD>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -17,7 +18,6 @@ namespace {
 
 using Mat4 = Eigen::Matrix4d;
 
-constexpr int kDeepest = 256;
 constexpr std::uint32_t kMostObjects = 100'000, kMostSamples = 1'000'000;
 constexpr double kMostMatrices = 2e7;  // of all transforms of a file; 2.5 GB
 
@@ -81,7 +81,10 @@ Mat3 rotationOf(const Mat3& L)
 
 class AlembicImport {
 public:
-    explicit AlembicImport(const std::string& path) : reader_(path) {}
+    AlembicImport(const std::string& path, std::uint32_t mostDepth)
+        : reader_(path), mostDepth_(mostDepth)
+    {
+    }
 
     ImportedFile import()
     {
@@ -93,9 +96,12 @@ public:
 
 private:
     void visit(const StoredObject& object, const MatrixTrack& fileFromParent,
-               const std::string& parentName, int depth)
+               const std::string& parentName, std::uint32_t depth)
     {
-        if (depth > kDeepest) reader_.refuse("has objects that are nested too deeply");
+        if (depth > mostDepth_) {
+            reader_.refuse("has objects that are nested deeper than " + std::to_string(mostDepth_) +
+                           " (--import-depth)");
+        }
         if (++objectCount_ > kMostObjects) {
             reader_.refuse("has more than " + std::to_string(kMostObjects) + " objects");
         }
@@ -111,6 +117,9 @@ private:
         }
         if (title.starts_with("AbcGeom_PolyMesh_")) {
             addNode(object, fileFromParent, parentName.empty() ? object.name : parentName);
+        }
+        if (title.starts_with("AbcGeom_Camera_")) {
+            addCamera(object, fileFromParent, parentName.empty() ? object.name : parentName);
         }
         const bool isTransform = title.starts_with("AbcGeom_Xform_");
         const MatrixTrack track = isTransform ? placed(object, fileFromParent) : fileFromParent;
@@ -243,6 +252,32 @@ private:
         file_.nodes.push_back(std::move(node));
     }
 
+    /// Alembic's cameras look along -z, as ours do. A zoom keeps the angle it begins with.
+    void addCamera(const StoredObject& object, const MatrixTrack& fileFromCamera,
+                   const std::string& name)
+    {
+        const auto geom = find(reader_.properties(object), ".geom");
+        const auto core = geom ? find(reader_.properties(*geom), ".core") : std::nullopt;
+        if (!core || core->sampleCount == 0 || core->layout.type != AlembicType::f64) {
+            reader_.refuse("is damaged: the camera '" + object.name + "' has no lens");
+        }
+        // Focal length [mm], film width and its shift, film height [cm], ….
+        std::array<double, 4> lens{};
+        const std::string_view bytes = reader_.sample(*core, 0);
+        if (bytes.size() < sizeof lens) {
+            reader_.refuse("is damaged: the camera '" + object.name + "' lacks numbers");
+        }
+        std::memcpy(lens.data(), bytes.data(), sizeof lens);
+        ImportedCamera camera;
+        camera.name = name;
+        camera.fovDegrees = 2.0 * std::atan(5.0 * lens[3] / lens[0]) * 180.0 / kPi;
+        camera.fileFromCamera = poseOf(fileFromCamera.matrices.front());
+        for (std::size_t i = 0; i < fileFromCamera.seconds.size(); ++i) {
+            camera.keys.push_back({fileFromCamera.seconds[i], poseOf(fileFromCamera.matrices[i])});
+        }
+        file_.cameras.push_back(std::move(camera));
+    }
+
     static void readKeys(const MatrixTrack& fileFromMesh, const Mat3& S, ImportedNode& node)
     {
         for (std::size_t i = 0; i < fileFromMesh.seconds.size(); ++i) {
@@ -265,6 +300,7 @@ private:
     }
 
     AlembicReader reader_;
+    std::uint32_t mostDepth_;
     ImportedFile file_;
     std::uint32_t objectCount_ = 0;
     double matrixCount_ = 0.0;
@@ -272,9 +308,9 @@ private:
 
 }  // namespace
 
-ImportedFile importAlembic(const std::string& path)
+ImportedFile importAlembic(const std::string& path, std::uint32_t mostDepth)
 {
-    return AlembicImport(path).import();
+    return AlembicImport(path, mostDepth).import();
 }
 
 }  // namespace scree

@@ -2,10 +2,12 @@
 //
 // Read are PolyMesh objects (points, faces, texture coordinates) and Xform objects over time, also
 // where instances repeat them. Refused, because it would be seen: meshes whose points move, scale
-// that changes, subdivision surfaces, polygons no fan of triangles fills. Passed over: curves,
-// points, cameras, lights, visibility, and everything in properties of the user's own.
+// that changes, subdivision surfaces, polygons no fan of triangles fills. Cameras are read without
+// their zoom. Passed over: curves, points, lights, visibility, and everything in properties of the
+// user's own.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "io/mesh_import.h"
@@ -15,7 +17,7 @@ namespace scree {
 /// Nodes are called after the transform above their mesh. Times are those of the file, where frame
 /// n stands at n / rate seconds by custom. For the process that
 /// mesh_import.h confines; throws Error{badInput} with a reason that "… cannot be read: " may stand
-/// before.
-ImportedFile importAlembic(const std::string& path);
+/// before, also for objects in more than `mostDepth` others.
+ImportedFile importAlembic(const std::string& path, std::uint32_t mostDepth);
 
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "core/dynamics/births.h"
+#include "core/dynamics/sleep.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
 #include "io/mesh_import.h"
@@ -13,9 +14,10 @@
 namespace scree {
 namespace {
 
-/// The mesh of a shape in the artist's frame [m], without its scale.
+/// The mesh of a shape in the artist's frame [m], without its scale; assets within their limits.
 struct MeshMaker {
     double metresPerUnit = 1.0;
+    ImportLimits limits;
 
     TriMesh operator()(const TorusSpec& s) const { return makeTorus(s.major, s.minor, s.segments); }
     TriMesh operator()(const BoxSpec& s) const { return makeBox(s.size, s.segments); }
@@ -30,7 +32,7 @@ struct MeshMaker {
     }
     TriMesh operator()(const FileSpec& s) const
     {
-        const ImportedFile file = importFile(s.path);
+        const ImportedFile file = importFile(s.path, limits);
         const double metres = file.metresPerUnit.value_or(metresPerUnit);
         return transformed(joinedMesh(file), Pose(), Vec3::Constant(metres));
     }
@@ -84,6 +86,7 @@ public:
         problems_.throwIfAny();
         bearTheFirst();
         problems_.throwIfAny();
+        sleepFromTheStart(world_, shot_.settings, sleepers_);
         return std::move(world_);
     }
 
@@ -119,7 +122,8 @@ private:
             definition.birth = {body.birth->frame - shot_.firstFrame, body.birth->clearance};
         }
         try {
-            world_.addBody(definition);
+            const BodyId added = world_.addBody(definition);
+            if (body.startsAsleep) sleepers_.push_back(added);
         } catch (const Error& error) {
             problems_.add(body.location, error.what(), error.kind());
         }
@@ -167,8 +171,12 @@ private:
 
     std::shared_ptr<const Shape> buildShape(const ShotShape& shape) const
     {
-        const TriMesh unscaled = std::visit(MeshMaker{shot_.metresPerUnit}, shape.source);
-        const TriMesh mesh = transformed(unscaled, Pose(), shape.scale);
+        const MeshMaker maker{shot_.metresPerUnit, shot_.importLimits};
+        const TriMesh mesh = transformed(std::visit(maker, shape.source), Pose(), shape.scale);
+        if (shape.collision) {
+            const TriMesh colliding = transformed(maker(*shape.collision), Pose(), shape.scale);
+            return buildMeshShape(shape.name, mesh, colliding, shape.settings, fields_);
+        }
         if (shape.isExact) {
             if (const auto solid = std::visit(SolidMaker{shape.scale}, shape.source)) {
                 return buildExactShape(shape.name, *solid, mesh, shape.settings);
@@ -181,6 +189,7 @@ private:
     FieldStore* fields_;
     ProblemList problems_;
     World world_;
+    std::vector<BodyId> sleepers_;
     // Asked by name, never walked.
     std::unordered_map<std::string, const ShotShape*> shapeNamed_;
     std::unordered_map<std::string, std::optional<ShapeId>> shapeOfName_;

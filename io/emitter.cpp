@@ -7,20 +7,15 @@
 #include "core/base/random.h"
 #include "core/math/rotation.h"
 #include "io/pose_file.h"
+#include "io/shot_values.h"
 
 namespace scree {
 namespace {
 
-constexpr double kRadiansPerDegree = kPi / 180.0;
 constexpr double kMostPlaces = 1'000'000.0;
 
 /// What a draw is for; rejected draws go on from here, so the last ones stand alone.
 enum Purpose : std::uint64_t { kShape = 0, kPlace = 1, kTilt = 4, kDirection = 1000 };
-
-Vec3 toVec3(const ShotNode& node)
-{
-    return {node.items[0].number, node.items[1].number, node.items[2].number};
-}
 
 /// The dice of one body.
 struct Dice {

@@ -42,14 +42,16 @@ void requireReadable(const std::string& path)
 
 }  // namespace
 
-ImportedFile importFile(const std::string& path, const ConfinedLimits& limits)
+ImportedFile importFile(const std::string& path, const ImportLimits& limits)
 {
     requireReadable(path);
     const std::string ending = endingOf(path);
     const auto read = [&] {
-        return encodeImport(ending == "abc" ? importAlembic(path) : importWithAssimp(path, ending));
+        return encodeImport(ending == "abc" ? importAlembic(path, limits.depth)
+                                            : importWithAssimp(path, ending, limits.depth));
     };
-    return decodeImport(runConfined("mesh file '" + path + "' cannot be read", read, limits), path);
+    return decodeImport(
+        runConfined("mesh file '" + path + "' cannot be read", read, limits.process), path, limits);
 }
 
 TriMesh joinedMesh(const ImportedFile& file)

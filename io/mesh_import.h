@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/geometry/tri_mesh.h"
-#include "io/confined_process.h"
+#include "io/import_limits.h"
 
 namespace scree {
 
@@ -29,8 +29,17 @@ struct ImportedNode {
     std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
 };
 
+/// A camera of a file: x to the right, y upwards, it looks along -z.
+struct ImportedCamera {
+    std::string name;               ///< of its node
+    Pose fileFromCamera;            ///< of a moving one the first
+    std::vector<ImportedKey> keys;  ///< in order of time; empty for one that never moves
+    double fovDegrees = 35.0;       ///< vertical, at the beginning: zooms are not read
+};
+
 struct ImportedFile {
-    std::vector<ImportedNode> nodes;      ///< in the order of the file's tree; at least one
+    std::vector<ImportedNode> nodes;      ///< in the order of the file's tree
+    std::vector<ImportedCamera> cameras;  ///< likewise; at least one of both
     bool isYUp = false;                   ///< the format says so
     bool countsFramesFromZero = false;    ///< its time 0 is frame 0, not where its motion begins
     std::optional<double> metresPerUnit;  ///< length of one unit of the file [m], if it says so
@@ -43,7 +52,7 @@ struct ImportedFile {
 /// Error{badInput} for an unsupported file ending, a file that cannot be read within the limits,
 /// one that refers to files outside its folder, one without faces and one with coordinates that are
 /// not finite.
-ImportedFile importFile(const std::string& path, const ConfinedLimits& limits = {});
+ImportedFile importFile(const std::string& path, const ImportLimits& limits = {});
 
 /// All nodes of a file as one mesh, where they stand.
 TriMesh joinedMesh(const ImportedFile& file);

@@ -15,13 +15,13 @@
 #include <assimp/Importer.hpp>
 
 #include "core/base/error.h"
+#include "core/math/rotation.h"
 
 namespace scree {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDeepest = 256;
 constexpr std::size_t kMostKeys = 10'000'000;  // of all nodes
 constexpr float kScaleMoves = 1e-3f;           // relative; of sampled rotations times scale
 
@@ -138,7 +138,8 @@ Pose poseOf(const aiQuaternion& q, const aiVector3D& p)
 /// What a node shows, in the node's axes with its scale baked.
 class NodeReader {
 public:
-    explicit NodeReader(const aiScene& scene) : scene_(scene)
+    NodeReader(const aiScene& scene, const std::string& ending, std::uint32_t mostDepth)
+        : scene_(scene), mostDepth_(mostDepth), isGltf_(ending == "glb" || ending == "gltf")
     {
         for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
             const aiAnimation& animation = *scene.mAnimations[a];
@@ -148,20 +149,27 @@ public:
                 channels_.try_emplace(keys.mNodeName.C_Str(), keys, rate);
             }
         }
+        for (unsigned c = 0; c < scene.mNumCameras; ++c) {
+            cameraOfNode_.try_emplace(scene.mCameras[c]->mName.C_Str(), scene.mCameras[c]);
+        }
     }
 
     void visit(const aiNode& node)
     {
-        if (chain_.size() > kDeepest) {
-            throw Error(ErrorKind::badInput, "its nodes are nested too deeply");
+        if (chain_.size() > mostDepth_) {
+            throw Error(ErrorKind::badInput, "its nodes are nested deeper than " +
+                                                 std::to_string(mostDepth_) + " (--import-depth)");
         }
         chain_.push_back(&node);
         if (node.mNumMeshes > 0) read(node);
+        const auto camera = cameraOfNode_.find(node.mName.C_Str());
+        if (camera != cameraOfNode_.end()) read(*camera->second);
         for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i]);
         chain_.pop_back();
     }
 
     std::vector<ImportedNode> takeNodes() { return std::move(nodes_); }
+    std::vector<ImportedCamera> takeCameras() { return std::move(cameras_); }
 
 private:
     void read(const aiNode& node)
@@ -186,8 +194,55 @@ private:
         nodes_.push_back(std::move(result));
     }
 
-    /// Keys wherever the node or one above it has some.
-    void readKeys(const aiVector3D& scale, ImportedNode& result)
+    void read(const aiCamera& camera)
+    {
+        ImportedCamera result;
+        result.name = camera.mName.C_Str();
+        result.fovDegrees = verticalDegrees(camera);
+        const Pose nodeFromCamera = poseInNode(camera);
+        const auto fileFromCamera = [&](const aiMatrix4x4& fileFromNode) {
+            aiVector3D scale, position;
+            aiQuaternion rotation;
+            fileFromNode.Decompose(scale, rotation, position);
+            return poseOf(rotation, position) * nodeFromCamera;
+        };
+        aiMatrix4x4 fileFromNode;
+        for (const aiNode* link : chain_) fileFromNode = fileFromNode * link->mTransformation;
+        result.fileFromCamera = fileFromCamera(fileFromNode);
+        for (const double time : keyTimes()) {
+            result.keys.push_back({time, fileFromCamera(chainAt(time))});
+        }
+        cameras_.push_back(std::move(result));
+    }
+
+    /// How a camera looks in the axes of its node, where it stands at the origin. (mPosition
+    /// repeats the translation of a glTF's node.)
+    static Pose poseInNode(const aiCamera& camera)
+    {
+        const auto toVec3 = [](const aiVector3D& v) { return Vec3(v.x, v.y, v.z); };
+        const Vec3 back = -toVec3(camera.mLookAt).normalized();
+        const Vec3 right = toVec3(camera.mUp).cross(back).normalized();
+        if (!back.allFinite() || !right.allFinite()) {
+            throw Error(ErrorKind::badInput, "a camera of it looks nowhere");
+        }
+        Mat3 axes;
+        axes << right, back.cross(right), back;
+        return {Vec3::Zero(), Quat(axes).normalized()};
+    }
+
+    /// assimp keeps a horizontal angle: of FBX the file's own, of glTF the vertical one times the
+    /// aspect, which is 1 where the file names none.
+    double verticalDegrees(const aiCamera& camera) const
+    {
+        const double aspect = camera.mAspect > 0.0f ? camera.mAspect : 1.0;
+        const double angle = isGltf_
+                                 ? camera.mHorizontalFOV / aspect
+                                 : 2.0 * std::atan(std::tan(0.5 * camera.mHorizontalFOV) / aspect);
+        return angle * 180.0 / kPi;
+    }
+
+    /// When the node or one above it has a key.
+    std::set<double> keyTimes()
     {
         std::set<double> seconds;
         for (const aiNode* link : chain_) {
@@ -196,7 +251,12 @@ private:
         }
         keyCount_ += seconds.size();
         if (keyCount_ > kMostKeys) throw Error(ErrorKind::badInput, "it has too many keys");
-        for (const double time : seconds) {
+        return seconds;
+    }
+
+    void readKeys(const aiVector3D& scale, ImportedNode& result)
+    {
+        for (const double time : keyTimes()) {
             aiVector3D scaleNow, position;
             aiQuaternion rotation;
             chainAt(time).Decompose(scaleNow, rotation, position);
@@ -269,9 +329,13 @@ private:
     }
 
     const aiScene& scene_;
+    std::uint32_t mostDepth_;
+    bool isGltf_;
     std::map<std::string, Channel> channels_;  // by the name of their node
     std::vector<const aiNode*> chain_;         // from the root to the node that is visited
+    std::map<std::string, const aiCamera*> cameraOfNode_;
     std::vector<ImportedNode> nodes_;
+    std::vector<ImportedCamera> cameras_;
     std::size_t keyCount_ = 0;
 };
 
@@ -302,7 +366,8 @@ std::optional<double> metresPerUnitOf(const aiScene& scene, const std::string& e
 
 }  // namespace
 
-ImportedFile importWithAssimp(const std::string& path, const std::string& ending)
+ImportedFile importWithAssimp(const std::string& path, const std::string& ending,
+                              std::uint32_t mostDepth)
 {
     Assimp::Importer importer;
     keepLoadersOf(ending, importer);
@@ -314,10 +379,11 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
                     "it refers to '" + files->refused() + "', outside its own folder");
     }
     if (!scene || !scene->mRootNode) throw Error(ErrorKind::badInput, importer.GetErrorString());
-    NodeReader reader(*scene);
+    NodeReader reader(*scene, ending, mostDepth);
     reader.visit(*scene->mRootNode);
     ImportedFile file;
     file.nodes = reader.takeNodes();
+    file.cameras = reader.takeCameras();
     if (ending == "ply" && hasUvsOfFaces(path)) {
         for (ImportedNode& node : file.nodes) node.mesh.cornerUvs.resize(2, 0);
     }

@@ -1,9 +1,11 @@
 #include "io/mesh_import_bytes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "core/base/error.h"
 #include "io/byte_order.h"
@@ -11,9 +13,9 @@
 namespace scree {
 namespace {
 
-// What a file may hold at most; far above what a shot can use.
-constexpr std::uint32_t kMostNodes = 100'000, kMostPoints = 50'000'000, kMostKeys = 10'000'000;
-constexpr std::uint32_t kLongestText = 1024;
+constexpr std::uint32_t kMostKeys = 10'000'000;  // of a node
+constexpr std::uint32_t kLongestSentence = 1024;
+constexpr std::uint32_t kMostCorners = std::numeric_limits<std::uint32_t>::max();
 
 void appendText(std::string& bytes, const std::string& text)
 {
@@ -27,6 +29,15 @@ void appendPose(std::string& bytes, const Pose& pose)
     bytes += bytesOf(pose.orientation.coeffs());
 }
 
+void appendKeys(std::string& bytes, const std::vector<ImportedKey>& keys)
+{
+    appendBytes(bytes, static_cast<std::uint32_t>(keys.size()));
+    for (const ImportedKey& key : keys) {
+        appendBytes(bytes, key.seconds);
+        appendPose(bytes, key.fileFromNode);
+    }
+}
+
 /// Count of columns, then the numbers.
 template <class Matrix>
 void appendColumns(std::string& bytes, const Matrix& matrix)
@@ -38,7 +49,10 @@ void appendColumns(std::string& bytes, const Matrix& matrix)
 /// Reads what the child wrote, believing none of it.
 class Decoder {
 public:
-    Decoder(const std::string& bytes, const std::string& path) : bytes_(bytes), path_(path) {}
+    Decoder(const std::string& bytes, const std::string& path, const ImportLimits& limits)
+        : bytes_(bytes), path_(path), limits_(limits)
+    {
+    }
 
     ImportedFile decode()
     {
@@ -47,9 +61,11 @@ public:
         if (std::isfinite(metres) && metres > 0.0) file.metresPerUnit = metres;
         file.isYUp = take<std::uint8_t>() != 0;
         file.countsFramesFromZero = take<std::uint8_t>() != 0;
-        const std::uint32_t count = takeCount(kMostNodes, "nodes");
+        const std::uint32_t count = takeCount(limits_.nodes, "nodes (--import-nodes)");
         for (std::uint32_t i = 0; i < count; ++i) file.nodes.push_back(takeNode());
-        if (file.nodes.empty()) refuse("has no faces");
+        const std::uint32_t cameras = takeCount(limits_.nodes, "cameras (--import-nodes)");
+        for (std::uint32_t i = 0; i < cameras; ++i) file.cameras.push_back(takeCamera());
+        if (file.nodes.empty() && file.cameras.empty()) refuse("has no faces");
         return file;
     }
 
@@ -78,9 +94,9 @@ private:
         return count;
     }
 
-    std::string takeText(const char* what)
+    std::string takeText(std::uint32_t most, const char* what)
     {
-        std::string text(takeCount(kLongestText, what), ' ');
+        std::string text(takeCount(most, what), ' ');
         takeBytes(text.data(), text.size());
         return text;
     }
@@ -112,15 +128,17 @@ private:
     ImportedNode takeNode()
     {
         ImportedNode node;
-        node.name = takeText("letters in a name");
+        node.name = takeText(limits_.nameLength, "letters in a name (--import-name)");
         node.fileFromNode = takePose();
-        node.obstacle = takeText("letters in a sentence");
-        takeKeys(node);
+        node.obstacle = takeText(kLongestSentence, "letters in a sentence");
+        takeKeys(node.keys);
 
         TriMesh mesh;
-        takeColumns(mesh.points, kMostPoints, "points");
-        takeColumns(mesh.triangles, kMostPoints, "triangles");
-        takeColumns(mesh.cornerUvs, 3 * kMostPoints, "texture coordinates");
+        takeColumns(mesh.points, limits_.points, "points (--import-points)");
+        takeColumns(mesh.triangles, limits_.points, "triangles (--import-points)");
+        // Not beyond what the caps of points allow, and never beyond what 32 bits can count.
+        takeColumns(mesh.cornerUvs, 3 * std::min(limits_.points, kMostCorners / 3),
+                    "texture coordinates");
         if (!mesh.points.allFinite()) refuse("has coordinates that are not finite");
         if (!mesh.cornerUvs.allFinite()) refuse("has texture coordinates that are not finite");
         if (mesh.cornerUvs.cols() > 0 && mesh.cornerUvs.cols() != mesh.triangles.size()) {
@@ -135,14 +153,27 @@ private:
         return node;
     }
 
-    void takeKeys(ImportedNode& node)
+    ImportedCamera takeCamera()
+    {
+        ImportedCamera camera;
+        camera.name = takeText(limits_.nameLength, "letters in a name (--import-name)");
+        camera.fileFromCamera = takePose();
+        camera.fovDegrees = take<double>();
+        if (!(camera.fovDegrees > 0.0 && camera.fovDegrees < 180.0)) {
+            refuse("has a camera '" + camera.name + "' without an angle of view");
+        }
+        takeKeys(camera.keys);
+        return camera;
+    }
+
+    void takeKeys(std::vector<ImportedKey>& keys)
     {
         const std::uint32_t count = takeCount(kMostKeys, "keys");
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto seconds = take<double>();
-            const bool isLater = node.keys.empty() || seconds > node.keys.back().seconds;
+            const bool isLater = keys.empty() || seconds > keys.back().seconds;
             if (!std::isfinite(seconds) || !isLater) refuse("has keys that are not in order");
-            node.keys.push_back({seconds, takePose()});
+            keys.push_back({seconds, takePose()});
         }
     }
 
@@ -153,6 +184,7 @@ private:
 
     const std::string& bytes_;
     const std::string& path_;
+    const ImportLimits& limits_;
     std::size_t next_ = 0;
 };
 
@@ -169,21 +201,25 @@ std::string encodeImport(const ImportedFile& file)
         appendText(bytes, node.name);
         appendPose(bytes, node.fileFromNode);
         appendText(bytes, node.obstacle);
-        appendBytes(bytes, static_cast<std::uint32_t>(node.keys.size()));
-        for (const ImportedKey& key : node.keys) {
-            appendBytes(bytes, key.seconds);
-            appendPose(bytes, key.fileFromNode);
-        }
+        appendKeys(bytes, node.keys);
         appendColumns(bytes, node.mesh.points);
         appendColumns(bytes, node.mesh.triangles);
         appendColumns(bytes, node.mesh.cornerUvs);
     }
+    appendBytes(bytes, static_cast<std::uint32_t>(file.cameras.size()));
+    for (const ImportedCamera& camera : file.cameras) {
+        appendText(bytes, camera.name);
+        appendPose(bytes, camera.fileFromCamera);
+        appendBytes(bytes, camera.fovDegrees);
+        appendKeys(bytes, camera.keys);
+    }
     return bytes;
 }
 
-ImportedFile decodeImport(const std::string& bytes, const std::string& path)
+ImportedFile decodeImport(const std::string& bytes, const std::string& path,
+                          const ImportLimits& limits)
 {
-    return Decoder(bytes, path).decode();
+    return Decoder(bytes, path, limits).decode();
 }
 
 }  // namespace scree

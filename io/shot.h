@@ -19,6 +19,7 @@
 #include "core/scene/force_field.h"
 #include "core/scene/motion_script.h"
 #include "core/scene/scene_description.h"
+#include "io/import_limits.h"
 
 namespace scree {
 
@@ -63,6 +64,7 @@ struct ShotShape {
     Vec3 scale = Vec3::Ones();  ///< baked into the mesh
     ShapeSettings settings;     ///< of its field, normals and samples; voxel [m]
     bool isExact = false;       ///< collides as the formula; of spheres, boxes and cylinders only
+    std::optional<FileSpec> collision;  ///< collides as this mesh; `source` is only drawn
     SourceLocation location;
 };
 
@@ -100,6 +102,7 @@ struct ShotBody {
     Vec3 force = Vec3::Zero();            ///< [N]
     Vec3 torque = Vec3::Zero();           ///< [N m]
     CollisionGroups groups;
+    bool startsAsleep = false;    ///< rests until something touches it
     std::vector<MotionKey> keys;  ///< of a keyed body; times since the first frame [s], poses [m]
     KeyInterpolation interpolation = KeyInterpolation::smooth;
     std::optional<int> releaseFrame;  ///< at which a keyed body becomes dynamic
@@ -152,7 +155,8 @@ struct Shot {
     std::vector<SceneCamera> cameras;  ///< lengths [m]
     ShotRender render;
     ShotOutput output;
-    std::string resolvedText;  ///< canonical TOML of everything, defaults included, --set applied
+    ImportLimits importLimits;  ///< of the assets it names; the caller's, no file may raise them
+    std::string resolvedText;   ///< canonical TOML of everything, defaults included, --set applied
 };
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include "core/scene/camera_motion.h"
 #include "io/emitter.h"
+#include "io/shot_import.h"
 
 namespace scree {
 namespace {
@@ -23,8 +24,9 @@ public:
         if (const ShotNode* keys = node.find("keys")) readKeys(*keys);
         if (const ShotNode* orbit = node.find("orbit")) readOrbit(*orbit);
         if (!node.mentions("eye") && !node.mentions("keys") && !node.mentions("orbit"))
-            problems_.add(node.where, "camera '" + camera_.name +
-                                          "' needs 'eye', 'keys' or 'orbit' to stand somewhere");
+            problems_.add(node.where,
+                          "camera '" + camera_.name +
+                              "' needs 'eye', 'keys', 'orbit' or 'file' to stand somewhere");
         const SceneCamera begin = cameraAt(camera_, shot_.firstFrame, shot_.zUp);
         camera_.eye = begin.eye;
         camera_.target = begin.target;
@@ -94,8 +96,18 @@ private:
 
 }  // namespace
 
-SceneCamera interpretCamera(const ShotNode& node, const Shot& shot, ProblemList& problems)
+SceneCamera interpretCamera(const ShotNode& node, const std::filesystem::path& folder,
+                            const Shot& shot, ProblemList& problems)
 {
+    if (const ShotNode* file = node.find("file")) {
+        const std::string path = (folder / file->text).lexically_normal().string();
+        SceneCamera camera = readImportedCamera(node, path, shot, problems).value_or(SceneCamera());
+        camera.name = node.find("name")->text;
+        return camera;
+    }
+    if (const ShotNode* nodeOfFile = node.find("node")) {
+        problems.add(nodeOfFile->where, "'node' chooses a camera of a 'file', and there is none");
+    }
     return CameraInterpreter(shot, problems).interpret(node);
 }
 

@@ -63,15 +63,10 @@ private:
         const ShotKey* key = findShotKey(joinPath(path, entry.key));
         // A dot inside a quoted key must not reach into another table of the schema.
         if (!key || entry.key.find('.') != std::string::npos) {
-            const std::vector<std::string> names = supportedNamesInside(path);
+            const std::vector<std::string> names = namesInside(path);
             problems_.add(entry.where, "unknown key '" + entry.key + "' in " + label +
                                            didYouMean(entry.key, names) +
                                            " (valid: " + joined(names) + ")");
-            return false;
-        }
-        if (key->isPlanned) {
-            problems_.add(entry.where, "'" + entry.key + "' in " + label +
-                                           " is not supported yet by this version");
             return false;
         }
         switch (key->type) {
@@ -205,12 +200,6 @@ private:
         const std::vector<std::string> choices = splitWords(key.choices);
         if (node.kind != Kind::text) return refuse(node, key);
         if (choices.empty() || contains(choices, node.text)) return true;
-        if (contains(splitWords(key.plannedChoices), node.text)) {
-            problems_.add(node.where, "'" + std::string(nameOf(key)) + "' = " + quoted(node) +
-                                          " is not supported yet; this version knows only " +
-                                          joined(choices));
-            return false;
-        }
         problems_.add(node.where, "'" + std::string(nameOf(key)) + "' must be " +
                                       expectationOf(key) + ", not " + quoted(node) +
                                       didYouMean(node.text, choices));

@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// Reports unknown and unsupported keys, wrong types and ranges, missing and contradicting keys.
+/// Reports unknown keys, wrong types and ranges, missing and contradicting keys.
 /// Entries reported as wrong lose `isValid`; whole numbers where numbers are asked become numbers.
 void checkShotTree(ShotNode& tree, ProblemList& problems);
 

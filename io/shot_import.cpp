@@ -99,14 +99,15 @@ public:
         return pose;
     }
 
-    /// The node's animation; where it has none it stays where it is.
-    std::vector<MotionKey> keysOf(const ImportedNode& node) const
+    /// The animation of what stands at `still` if it has none.
+    std::vector<MotionKey> keysOf(const std::vector<ImportedKey>& animation,
+                                  const Pose& still) const
     {
         std::vector<MotionKey> keys;
-        for (const ImportedKey& key : node.keys) {
+        for (const ImportedKey& key : animation) {
             keys.push_back({key.seconds - startSeconds_, worldFrom(key.fileFromNode)});
         }
-        if (keys.empty()) keys.push_back({0.0, worldFrom(node.fileFromNode)});
+        if (keys.empty()) keys.push_back({0.0, worldFrom(still)});
         return keys;
     }
 
@@ -115,6 +116,34 @@ private:
     Pose worldFromFile_;
     double startSeconds_;  // of the shot's first frame, by the clock of the file
 };
+
+/// The first camera that the pattern fits, or the first; null, and a report, when there is none.
+const ImportedCamera* chooseCamera(const ShotNode* pattern, const ShotNode& fileKey,
+                                   const ImportedFile& file, const std::string& path,
+                                   ProblemList& problems)
+{
+    if (!pattern) {
+        if (!file.cameras.empty()) return &file.cameras.front();
+        problems.add(fileKey.where, "'" + path + "' has no camera");
+        return nullptr;
+    }
+    std::vector<std::string> names;
+    for (const ImportedCamera& camera : file.cameras) {
+        if (::fnmatch(pattern->text.c_str(), camera.name.c_str(), 0) == 0) return &camera;
+        names.push_back(camera.name);
+    }
+    problems.add(pattern->where,
+                 "no camera of '" + path + "' is called " + toTomlText(*pattern) +
+                     didYouMean(pattern->text, names) +
+                     (names.empty() ? "; it has none" : " (it has: " + joined(names) + ")"));
+    return nullptr;
+}
+
+/// What a camera at a pose looks at: a metre away, since files do not say how far.
+CameraKey keyAt(const Pose& worldFromCamera, double frame, double fovDegrees)
+{
+    return {frame, worldFromCamera.position, worldFromCamera * Vec3(0.0, 0.0, -1.0), fovDegrees};
+}
 
 /// Reports what cannot be played of the chosen nodes.
 void requireMotion(const ShotNode& motion, const ImportedFile& file,
@@ -143,7 +172,7 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     std::vector<PlacedNode> result;
     ImportedFile file;
     try {
-        file = importFile(path);
+        file = importFile(path, shot.importLimits);
     } catch (const Error& error) {
         problems.add(node.find("file")->where, error.what(), error.kind());
         return result;
@@ -167,13 +196,45 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
             transformed(imported.mesh, Pose(), Vec3::Constant(placement.metresPerUnit()));
         placed.shape = {path, pool.share(std::move(mesh))};
         placed.worldFromNode = placement.worldFrom(imported.fileFromNode);
-        if (isKeyed) placed.keys = placement.keysOf(imported);
+        if (isKeyed) placed.keys = placement.keysOf(imported.keys, imported.fileFromNode);
         if (interpolate && interpolate->text == "smooth") {
             placed.interpolation = KeyInterpolation::smooth;
         }
         result.push_back(std::move(placed));
     }
     return result;
+}
+
+std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::string& path,
+                                              const Shot& shot, ProblemList& problems)
+{
+    ImportedFile file;
+    try {
+        file = importFile(path, shot.importLimits);
+    } catch (const Error& error) {
+        problems.add(node.find("file")->where, error.what(), error.kind());
+        return std::nullopt;
+    }
+    const ImportedCamera* imported =
+        chooseCamera(node.find("node"), *node.find("file"), file, path, problems);
+    if (!imported) return std::nullopt;
+    const Placement placement(shot, file);
+    // Between samples it turns steadily, as elsewhere; a key a frame keeps it from cutting corners.
+    const MotionScript script(placement.keysOf(imported->keys, imported->fileFromCamera),
+                              KeyInterpolation::linear);
+    SceneCamera camera;
+    camera.isSmooth = false;
+    for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
+        const double seconds = (frame - shot.firstFrame) / shot.framesPerSecond;
+        camera.keys.push_back(keyAt(script.at(seconds), frame, imported->fovDegrees));
+        if (imported->keys.empty()) break;
+    }
+    const CameraKey& first = camera.keys.front();
+    camera.eye = first.eye;
+    camera.target = first.target;
+    camera.fovDegrees = first.fovDegrees;
+    if (imported->keys.empty()) camera.keys.clear();
+    return camera;
 }
 
 }  // namespace scree

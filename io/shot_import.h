@@ -1,6 +1,7 @@
 // [[import]]: the nodes of a file that a shot asks for, placed in its world.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,11 @@ struct PlacedNode {
 /// nothing moves or cannot move so.
 std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::string& path,
                                           const Shot& shot, ProblemList& problems);
+
+/// The camera of a checked [[camera]] with a `file`: the first of the file's that its `node` fits,
+/// lengths in metres, with a key for every frame of the shot where it moves. Reports what hinders
+/// it, and then gives nothing.
+std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::string& path,
+                                              const Shot& shot, ProblemList& problems);
 
 }  // namespace scree

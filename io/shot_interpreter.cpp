@@ -13,26 +13,15 @@
 #include "io/shot_check.h"
 #include "io/shot_import.h"
 #include "io/shot_motion.h"
+#include "io/shot_shapes.h"
+#include "io/shot_solver.h"
+#include "io/shot_values.h"
 #include "io/subframes.h"
 
 namespace scree {
 namespace {
 
-constexpr double kRadiansPerDegree = kPi / 180.0;
 constexpr std::size_t kMostBodies = 1'000'000;
-
-Vec3 toVec3(const ShotNode& node)
-{
-    return {node.items[0].number, node.items[1].number, node.items[2].number};
-}
-
-template <std::size_t N>
-std::array<int, N> toInts(const ShotNode& node)
-{
-    std::array<int, N> result{};
-    for (std::size_t i = 0; i < N; ++i) result[i] = static_cast<int>(node.items[i].integer);
-    return result;
-}
 
 double metresPerUnit(const std::string& unit)
 {
@@ -49,33 +38,28 @@ BodyKind kindOf(const std::string& word)
     return word == "keyed" ? BodyKind::keyed : BodyKind::dynamic;
 }
 
-CombineRule combineRuleOf(const std::string& word)
-{
-    if (word == "min") return CombineRule::minimum;
-    if (word == "mean") return CombineRule::mean;
-    if (word == "geometric") return CombineRule::geometric;
-    if (word == "multiply") return CombineRule::multiply;
-    return CombineRule::maximum;
-}
-
 class Interpreter {
 public:
-    Interpreter(const ShotNode& tree, const std::string& shotPath, ProblemList& problems)
+    Interpreter(const ShotNode& tree, const std::string& shotPath, const ImportLimits& limits,
+                ProblemList& problems)
         : tree_(tree),
           folder_(std::filesystem::path(shotPath).parent_path()),
           problems_(problems),
           groups_(tree, problems)
     {
+        shot_.importLimits = limits;
     }
 
     Shot interpret()
     {
         readShotTable();
-        if (const ShotNode* solver = tree_.find("solver")) readSolver(*solver);
-        if (const ShotNode* start = tree_.find("start")) readStart(*start);
+        if (const ShotNode* solver = tree_.find("solver")) {
+            isStrict_ = readSolver(*solver, shot_, problems_);
+        }
+        if (const ShotNode* start = tree_.find("start")) readStart(*start, shot_);
         readMaterials();
         readMaterialPairs(tree_, shot_, problems_);
-        readShapes();
+        shapeNames_ = readShapes(tree_, folder_, isStrict_, shot_, problems_);
         readForceFields(tree_, shot_, problems_);
         if (const ShotNode* bodies = tree_.find("body")) {
             for (const ShotNode& body : bodies->items) readBody(body);
@@ -116,69 +100,6 @@ private:
         shot_.settings.seed = static_cast<std::uint64_t>(table->find("seed")->integer);
     }
 
-    void readSolver(const ShotNode& table)
-    {
-        const auto whole = [&](const char* key) {
-            return static_cast<int>(table.find(key)->integer);
-        };
-        StepSettings& settings = shot_.settings;
-        settings.method = table.find("method")->text == "paper" ? Method::paper : Method::scree;
-        settings.sleep = table.find("sleep")->boolean;
-        settings.gapSweeps = whole("contact_sweeps");
-        settings.collisionIterations = whole("collision_iterations");
-        settings.collisionPairImpulses = whole("collision_pair_impulses");
-        settings.contactIterations = whole("contact_iterations");
-        settings.levelIterations = whole("level_iterations");
-        settings.pairImpulses = whole("pair_impulses");
-        settings.shockPropagation = table.find("shock_propagation")->boolean;
-        settings.shockPairImpulses = whole("shock_pair_impulses");
-        settings.pushOut = table.find("push_out")->boolean;
-        settings.pushOutLevelIterations = whole("push_out_level_iterations");
-        settings.pushOutPairImpulses = whole("push_out_pair_impulses");
-        settings.orientation = table.find("orientation")->text == "euler"
-                                   ? OrientationUpdate::euler
-                                   : OrientationUpdate::secondOrder;
-        settings.collision = table.find("collision")->text == "lagged" ? CollisionVariant::lagged
-                                                                       : CollisionVariant::reevolve;
-        const ShotNode& combine = *table.find("combine");
-        settings.frictionRule = combineRuleOf(combine.find("friction")->text);
-        settings.restitutionRule = combineRuleOf(combine.find("restitution")->text);
-        if (table.find("strict")->boolean) {
-            if (settings.method != Method::paper) {
-                report(*table.find("strict"),
-                       "'strict' is the paper without its repairs: it needs method = \"paper\"");
-            }
-            makeStrict(settings);
-            isStrict_ = true;
-        }
-        settings.maximumSpinPerStep = table.find("maximum_spin")->number * kRadiansPerDegree;
-        settings.hoverLimit = table.find("hover")->number;
-
-        const ShotNode& substeps = *table.find("substeps");
-        settings.substeps.min = static_cast<int>(substeps.find("min")->integer);
-        settings.substeps.max = static_cast<int>(substeps.find("max")->integer);
-        settings.substeps.safety = substeps.find("safety")->number;
-        if (settings.substeps.min > settings.substeps.max) {
-            report(*substeps.find("min"), "'min' sub-steps must not exceed 'max', " +
-                                              std::to_string(settings.substeps.max));
-        }
-        const ShotNode& penetration = *table.find("penetration");
-        shot_.penetrationWarn = penetration.find("warn")->number;
-        shot_.penetrationFail = penetration.find("fail")->number;
-        if (shot_.penetrationWarn > shot_.penetrationFail) {
-            report(*penetration.find("warn"),
-                   "'warn' must not exceed 'fail', " + toTomlText(shot_.penetrationFail));
-        }
-    }
-
-    void readStart(const ShotNode& table)
-    {
-        const std::string& overlap = table.find("overlap")->text;
-        shot_.startOverlap = overlap == "warn"       ? StartOverlapRule::warn
-                             : overlap == "separate" ? StartOverlapRule::separate
-                                                     : StartOverlapRule::error;
-    }
-
     void readMaterials()
     {
         const ShotNode* table = tree_.find("material");
@@ -212,141 +133,6 @@ private:
         rolling.rawSpinning = number("spinning_friction_raw", 1.0);
     }
 
-    void readShapes()
-    {
-        const ShotNode* table = tree_.find("shape");
-        if (!table) return;
-        for (const ShotEntry& entry : table->entries) {
-            shapeNames_.push_back(entry.key);
-            if (!entry.isValid) continue;
-            ShotShape shape;
-            shape.name = entry.key;
-            shape.location = entry.where;
-            readShapeSource(entry, shape);
-            const ShotNode& scale = *entry.node.find("scale");
-            shape.scale =
-                scale.kind == ShotNode::Kind::list ? toVec3(scale) : Vec3::Constant(scale.number);
-            readShapeSettings(entry.node, shape.settings);
-            readCollide(entry.node, shape);
-            shot_.shapes.push_back(shape);
-        }
-    }
-
-    void readShapeSource(const ShotEntry& entry, ShotShape& shape)
-    {
-        const ShotNode& node = entry.node;
-        const auto length = [&](const ShotNode& table, const char* key) {
-            return table.find(key)->number * shot_.metresPerUnit;
-        };
-        const auto whole = [](const ShotNode& table, const char* key) {
-            return static_cast<int>(table.find(key)->integer);
-        };
-        if (const ShotNode* torus = node.find("torus")) {
-            const TorusSpec spec{length(*torus, "major"), length(*torus, "minor"),
-                                 toInts<2>(*torus->find("segments"))};
-            if (spec.minor >= spec.major) {
-                report(*torus->find("minor"),
-                       "'minor' must be less than 'major', or the ring has "
-                       "no hole");
-            }
-            shape.source = spec;
-        } else if (const ShotNode* box = node.find("box")) {
-            shape.source = BoxSpec{toVec3(*box->find("size")) * shot_.metresPerUnit,
-                                   toInts<3>(*box->find("segments"))};
-        } else if (const ShotNode* sphere = node.find("sphere")) {
-            shape.source = SphereSpec{length(*sphere, "radius"), whole(*sphere, "subdivisions")};
-        } else if (const ShotNode* cylinder = node.find("cylinder")) {
-            shape.source = CylinderSpec{length(*cylinder, "radius"), length(*cylinder, "height"),
-                                        whole(*cylinder, "sectors"), whole(*cylinder, "bands")};
-        } else if (const ShotNode* capsule = node.find("capsule")) {
-            shape.source = CapsuleSpec{length(*capsule, "radius"), length(*capsule, "height"),
-                                       whole(*capsule, "sectors"), whole(*capsule, "rings")};
-        } else if (const ShotNode* file = node.find("file")) {
-            shape.source = FileSpec{besideShot(file->text)};
-        } else if (!mentionsAny(node, {"torus", "box", "sphere", "cylinder", "capsule", "file"})) {
-            problems_.add(entry.where, "[shape." + entry.key +
-                                           "] says nothing of its form; give it "
-                                           "torus, box, sphere, cylinder, capsule or file");
-        }
-    }
-
-    void readShapeSettings(const ShotNode& node, ShapeSettings& settings)
-    {
-        if (const ShotNode* sdf = node.find("sdf")) {
-            if (const ShotNode* resolution = sdf->find("resolution")) {
-                settings.resolution = static_cast<int>(resolution->integer);
-            }
-            if (const ShotNode* voxel = sdf->find("voxel")) {
-                settings.voxel = voxel->number * shot_.metresPerUnit;
-            }
-            const std::string& storage = sdf->find("storage")->text;
-            settings.storage = storage == "dense"    ? FieldStorage::dense
-                               : storage == "bricks" ? FieldStorage::bricks
-                                                     : FieldStorage::automatic;
-        }
-        const bool isGrid = isStrict_ || node.find("field")->text == "grid";
-        settings.field = isGrid ? FieldMode::grid : FieldMode::refined;
-        const std::string& normals = node.find("normals")->text;
-        settings.normals = normals == "true"     ? NormalMode::trueNormals
-                           : normals == "smooth" ? NormalMode::smooth
-                                                 : NormalMode::automatic;
-        if (const ShotNode* samples = node.find("edge_samples")) {
-            settings.edgeSamples = samples->boolean;
-        }
-        if (const ShotNode* mesh = node.find("mesh")) readRepair(*mesh, settings);
-    }
-
-    void readRepair(const ShotNode& mesh, ShapeSettings& settings)
-    {
-        const ShotNode& repair = *mesh.find("repair");
-        const ShotNode* thickness = mesh.find("thickness");
-        const bool isShell = repair.text == "shell";
-        settings.repair = isShell                 ? MeshRepair::shell
-                          : repair.text == "wrap" ? MeshRepair::wrap
-                                                  : MeshRepair::none;
-        if (isShell && !mesh.mentions("thickness")) {
-            report(repair, "a \"shell\" needs a 'thickness'");
-        }
-        if (!isShell && thickness) report(*thickness, "only a \"shell\" has a 'thickness'");
-        if (thickness) settings.shellThickness = thickness->number * shot_.metresPerUnit;
-    }
-
-    /// A formula stands for few solids, and has neither field nor normals to choose.
-    void readCollide(const ShotNode& node, ShotShape& shape)
-    {
-        const ShotNode& collide = *node.find("collide");
-        shape.isExact = collide.text == "exact";
-        if (!shape.isExact) return;
-        if (mentionsAny(node, {"torus", "capsule", "file"})) {
-            report(collide,
-                   "collide = \"exact\" is for a sphere, box or cylinder; anything else "
-                   "collides as its mesh");
-        }
-        const Vec3& scale = shape.scale;
-        const bool isRound = node.mentions("sphere") || node.mentions("cylinder");
-        const bool isUneven =
-            scale.x() != scale.z() || (node.mentions("sphere") && scale.x() != scale.y());
-        if (isRound && isUneven) {
-            report(*node.find("scale"), "'scale' must keep the circles of an exact shape round");
-        }
-        const ShotNode* sdf = node.find("sdf");
-        if (sdf || node.find("field")->text == "grid") {
-            report(sdf ? *sdf : *node.find("field"),
-                   "a shape that collides as \"exact\" has no sampled field");
-        }
-        if (node.find("normals")->text != "auto") {
-            report(*node.find("normals"), "a shape that collides as \"exact\" has exact normals");
-        }
-        const ShotNode* mesh = node.find("mesh");
-        if (mesh && mesh->find("repair")->text != "none") {
-            report(*mesh, "a shape that collides as \"exact\" needs no repair of its mesh");
-        }
-        const ShotNode* edges = node.find("edge_samples");
-        if (isRound && edges) {
-            report(*edges, "an exact sphere or cylinder is not sampled by the edges of its mesh");
-        }
-    }
-
     void readBody(const ShotNode& node)
     {
         ShotBody body;
@@ -355,6 +141,7 @@ private:
         readReferences(node, body);
         if (const ShotNode* plane = node.find("plane")) readPlane(node, *plane, body);
         readMotion(node, body);
+        readSleep(node, body);
         readBodyForces(node, body, problems_);
         body.groups = groups_.read(node);
 
@@ -396,6 +183,7 @@ private:
             body.worldFromAsset = placed.worldFromNode;
             body.keys = std::move(placed.keys);
             body.interpolation = placed.interpolation;
+            readSleep(node, body);
             shot_.bodies.push_back(std::move(body));
         }
     }
@@ -546,6 +334,20 @@ private:
         }
     }
 
+    void readSleep(const ShotNode& node, ShotBody& body)
+    {
+        const ShotNode* start = node.find("start");
+        if (!start || start->text != "asleep") return;
+        body.startsAsleep = true;
+        if (body.kind != BodyKind::dynamic) {
+            report(*start, "only a dynamic body can be asleep; nothing moves this one anyway");
+        } else if (shot_.settings.method != Method::scree || !shot_.settings.sleep) {
+            report(*start, "start = \"asleep\" needs method = \"scree\" with sleep = true");
+        } else if (!body.velocity.isZero(0.0) || !body.angularVelocity.isZero(0.0)) {
+            report(*start, "a body that starts asleep has no 'velocity' or 'spin'");
+        }
+    }
+
     /// Where the copies of a body stand [shot units]; one for a plain body.
     std::vector<Pose> readCopies(const ShotNode& node)
     {
@@ -607,6 +409,7 @@ private:
                 shot_.render.burnIn = burnIn->boolean;
             if (const ShotNode* moments = render->find("motion_blur"))
                 shot_.render.motionBlur = static_cast<int>(moments->integer);
+            if (const ShotNode* still = render->find("still")) readStill(*still);
         }
         if (const ShotNode* output = tree_.find("output")) {
             for (const ShotNode& word : output->find("export")->items) {
@@ -615,6 +418,14 @@ private:
             readSubframes(*output->find("subframes"));
             shot_.output.contacts = output->find("contacts")->boolean;
         }
+    }
+
+    void readStill(const ShotNode& still)
+    {
+        if (still.integer >= shot_.firstFrame && still.integer <= shot_.lastFrame) return;
+        report(still, "'still' must be one of the shot's frames, " +
+                          std::to_string(shot_.firstFrame) + " to " +
+                          std::to_string(shot_.lastFrame));
     }
 
     void readSubframes(const ShotNode& list)
@@ -635,15 +446,7 @@ private:
             if (other.name != name.text) continue;
             report(name, "camera name '" + name.text + "' is taken by another camera");
         }
-        shot_.cameras.push_back(interpretCamera(node, shot_, problems_));
-    }
-
-    static bool mentionsAny(const ShotNode& node, std::initializer_list<const char*> keys)
-    {
-        for (const char* key : keys) {
-            if (node.mentions(key)) return true;
-        }
-        return false;
+        shot_.cameras.push_back(interpretCamera(node, folder_, shot_, problems_));
     }
 
     static std::string quotedName(const ShotBody& body)
@@ -674,9 +477,10 @@ private:
 
 }  // namespace
 
-Shot interpretShot(const ShotNode& tree, const std::string& shotPath, ProblemList& problems)
+Shot interpretShot(const ShotNode& tree, const std::string& shotPath, const ImportLimits& limits,
+                   ProblemList& problems)
 {
-    return Interpreter(tree, shotPath, problems).interpret();
+    return Interpreter(tree, shotPath, limits, problems).interpret();
 }
 
 }  // namespace scree

@@ -12,7 +12,8 @@ namespace scree {
 
 /// `tree` has been checked and completed (shot_check.h). Problems that need more than one key are
 /// reported; where a value was already found wrong, nothing more is said of it. Files are found
-/// beside `shotPath`.
-Shot interpretShot(const ShotNode& tree, const std::string& shotPath, ProblemList& problems);
+/// beside `shotPath`; imports are read within `limits`.
+Shot interpretShot(const ShotNode& tree, const std::string& shotPath, const ImportLimits& limits,
+                   ProblemList& problems);
 
 }  // namespace scree

@@ -5,17 +5,12 @@
 #include "core/math/rotation.h"
 #include "io/nearest_word.h"
 #include "io/pose_file.h"
+#include "io/shot_values.h"
 
 namespace scree {
 namespace {
 
-constexpr double kRadiansPerDegree = kPi / 180.0;
 constexpr std::size_t kMostGroups = 64;
-
-Vec3 toVec3(const ShotNode& node)
-{
-    return {node.items[0].number, node.items[1].number, node.items[2].number};
-}
 
 /// Frames are seconds since time zero to core.
 double secondsOf(const Shot& shot, double frame)

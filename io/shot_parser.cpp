@@ -181,7 +181,7 @@ private:
         const std::string wanted = takeWord();
         if (words_.empty()) {
             report("'" + wanted + "' is a whole [" + key.path +
-                   "]; name one of its keys: " + joined(supportedNamesInside(key.path)));
+                   "]; name one of its keys: " + joined(namesInside(key.path)));
             return nullptr;
         }
         std::vector<std::string> names;
@@ -209,12 +209,8 @@ private:
     const ShotKey* findKey(const std::string& path, const std::string& word)
     {
         const ShotKey* key = findShotKey(joinPath(path, word));
-        if (key && !key->isPlanned) return key;
-        if (key) {
-            report("'" + word + "' is not supported yet by this version");
-            return nullptr;
-        }
-        const std::vector<std::string> names = supportedNamesInside(path);
+        if (key) return key;
+        const std::vector<std::string> names = namesInside(path);
         report("unknown key '" + word + "'" + (path.empty() ? "" : " in '" + path + "'") +
                didYouMean(word, names) + " (valid: " + joined(names) + ")");
         return nullptr;
@@ -296,13 +292,14 @@ ShotNode withBase(ShotNode tree, const std::string& path, std::vector<std::strin
 
 }  // namespace
 
-Shot parseShot(const std::string& path, const std::vector<std::string>& overrides)
+Shot parseShot(const std::string& path, const std::vector<std::string>& overrides,
+               const ImportLimits& limits)
 {
-    return parseShotText(readWholeFile(path), path, overrides);
+    return parseShotText(readWholeFile(path), path, overrides, limits);
 }
 
 Shot parseShotText(const std::string& text, const std::string& path,
-                   const std::vector<std::string>& overrides)
+                   const std::vector<std::string>& overrides, const ImportLimits& limits)
 {
     ShotNode tree = withBase(readTree(text, path), path, {});
 
@@ -310,7 +307,7 @@ Shot parseShotText(const std::string& text, const std::string& path,
     for (const std::string& setting : overrides) Override(setting, problems).apply(tree);
     checkShotTree(tree, problems);
     completeShotTree(tree, &readTomlValue);
-    Shot shot = interpretShot(tree, path, problems);
+    Shot shot = interpretShot(tree, path, limits, problems);
     problems.throwIfAny();
     shot.resolvedText = printShotTree(tree);
     return shot;

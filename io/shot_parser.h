@@ -15,12 +15,13 @@ namespace scree {
 /// "material.wood.friction", "body.ground.motion", "solver.substeps.max"; values as in TOML, text
 /// also without quotes. Throws Error{missingInput} when the file is not there, and one
 /// Error{badInput} with a line for each problem: "file:line:column: message", or "--set key=value:
-/// message".
-Shot parseShot(const std::string& path, const std::vector<std::string>& overrides = {});
+/// message". Assets that hold more than `limits` are refused, now or when the world is built.
+Shot parseShot(const std::string& path, const std::vector<std::string>& overrides = {},
+               const ImportLimits& limits = {});
 
 /// The same from text; `path` stands in messages, and files the shot names are found beside it. The
 /// resolved text of a shot, parsed with the shot's own path, gives the shot again.
 Shot parseShotText(const std::string& text, const std::string& path,
-                   const std::vector<std::string>& overrides = {});
+                   const std::vector<std::string>& overrides = {}, const ImportLimits& limits = {});
 
 }  // namespace scree

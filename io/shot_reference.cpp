@@ -26,7 +26,6 @@ std::string entryOf(const ShotKey& key)
 {
     std::string text = "- **`" + std::string(key.path) + "`**: " + expectationOf(key);
     if (*key.unit && std::string_view(key.unit) != "-") text += " [" + std::string(key.unit) + "]";
-    if (key.isPlanned) text += "; not supported yet";
     if (key.isRequired) text += "; required";
     const bool isTable = key.type == KeyType::table;
     if (*key.byDefault && !isTable) text += "; default `" + std::string(key.byDefault) + "`";

@@ -69,9 +69,7 @@ std::string explanationOf(const ShotKey& key)
 {
     std::string text = std::string(key.path) + "\n    must be " + expectationOf(key);
     if (*key.unit && std::string_view(key.unit) != "-") text += " [" + std::string(key.unit) + "]";
-    if (key.isPlanned) {
-        text += "; not supported yet\n";
-    } else if (key.isRequired) {
+    if (key.isRequired) {
         text += "; required\n";
     } else if (*key.byDefault && key.type != KeyType::table) {
         text += "; default " + std::string(key.byDefault) + "\n";
@@ -82,7 +80,7 @@ std::string explanationOf(const ShotKey& key)
     if (*key.excludes) {
         text += wrapped("Not together with " + joined(splitWords(key.excludes)) + ".");
     }
-    const std::vector<std::string> inside = supportedNamesInside(key.path);
+    const std::vector<std::string> inside = namesInside(key.path);
     if (!inside.empty()) text += wrapped("Keys: " + joined(inside) + ".");
     return text;
 }
@@ -123,11 +121,11 @@ std::vector<const ShotKey*> keysInside(std::string_view path)
     return result;
 }
 
-std::vector<std::string> supportedNamesInside(std::string_view path)
+std::vector<std::string> namesInside(std::string_view path)
 {
     std::vector<std::string> names;
     for (const ShotKey* key : keysInside(path)) {
-        if (!key->isPlanned) names.emplace_back(nameOf(*key));
+        names.emplace_back(nameOf(*key));
     }
     return names;
 }
@@ -211,7 +209,7 @@ std::string explainKey(const std::string& path)
 
     std::string hint = didYouMean(withoutGivenName(path), paths);
     if (hint.empty()) hint = didYouMean(path.substr(path.rfind('.') + 1), names);
-    if (hint.empty()) hint = "; the file's tables are: " + joined(supportedNamesInside(""));
+    if (hint.empty()) hint = "; the file's tables are: " + joined(namesInside(""));
     throw Error(ErrorKind::usage, "no key '" + path + "' in shot files" + hint);
 }
 

@@ -39,11 +39,9 @@ struct ShotKey {
     double max = std::numeric_limits<double>::infinity();
     bool isOpen = false;              ///< the limits themselves are not allowed
     const char* choices = "";         ///< of words, "a|b|c"
-    const char* plannedChoices = "";  ///< known to the format, refused by this version
     bool isFile = false;              ///< text that names a file relative to the shot
     bool isRequired = false;
     const char* excludes = "";  ///< keys of the same table that cannot stand beside it, "a|b|c"
-    bool isPlanned = false;     ///< known to the format, refused by this version
     const char* help = "";      ///< what it means, what goes wrong at the extremes
 };
 
@@ -56,8 +54,8 @@ const ShotKey* findShotKey(std::string_view path);
 /// The keys directly inside a table, in order; "" for the file itself.
 std::vector<const ShotKey*> keysInside(std::string_view path);
 
-/// Names, without their table, of the keys inside that this version supports.
-std::vector<std::string> supportedNamesInside(std::string_view path);
+/// Names, without their table, of the keys inside.
+std::vector<std::string> namesInside(std::string_view path);
 
 /// The last word of a path.
 std::string_view nameOf(const ShotKey& key);

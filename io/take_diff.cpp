@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/math/rotation.h"
@@ -53,6 +56,59 @@ std::optional<double> firstOffset(const FrameState& a, const FrameState& b)
     return std::nullopt;
 }
 
+bool isSame(const BodyRest& a, const BodyRest& b)
+{
+    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
+           a.pull == b.pull && a.stillFrames == b.stillFrames && a.isAsleep == b.isAsleep;
+}
+
+bool isSame(const RememberedContact& a, const RememberedContact& b)
+{
+    return a.a == b.a && a.b == b.b && a.feature == b.feature && a.place == b.place &&
+           a.force == b.force;
+}
+
+using ContactsOfPairs = std::map<std::pair<BodyId, BodyId>, std::vector<RememberedContact>>;
+
+ContactsOfPairs byPair(const ContactMemory& memory)
+{
+    ContactsOfPairs pairs;
+    for (const RememberedContact& contact : memory.contacts) {
+        pairs[{contact.a, contact.b}].push_back(contact);
+    }
+    return pairs;
+}
+
+/// Notes the bodies of every pair of `a` that `b` has not, or remembers otherwise.
+void noteOtherPairs(const ContactsOfPairs& a, const ContactsOfPairs& b, std::set<BodyId>& bodies)
+{
+    for (const auto& [pair, contacts] : a) {
+        const auto other = b.find(pair);
+        const bool isKnown =
+            other != b.end() &&
+            std::equal(contacts.begin(), contacts.end(), other->second.begin(), other->second.end(),
+                       [](const auto& p, const auto& q) { return isSame(p, q); });
+        if (!isKnown) bodies.insert({pair.first, pair.second});
+    }
+}
+
+/// Bodies whose rest or contacts are remembered otherwise.
+std::set<BodyId> remembersOtherwise(const ContactMemory& a, const ContactMemory& b)
+{
+    std::set<BodyId> bodies;
+    const std::size_t count = std::max(a.rest.size(), b.rest.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const BodyRest none;
+        const BodyRest& p = i < a.rest.size() ? a.rest[i] : none;
+        const BodyRest& q = i < b.rest.size() ? b.rest[i] : none;
+        if (!isSame(p, q)) bodies.insert(static_cast<BodyId>(i));
+    }
+    const ContactsOfPairs pairsA = byPair(a), pairsB = byPair(b);
+    noteOtherPairs(pairsA, pairsB, bodies);
+    noteOtherPairs(pairsB, pairsA, bodies);
+    return bodies;
+}
+
 std::optional<TakeDifference> compareFrames(const FrameState& a, const FrameState& b,
                                             const TakeInfo& info)
 {
@@ -70,7 +126,15 @@ std::optional<TakeDifference> compareFrames(const FrameState& a, const FrameStat
         difference.farthestBody = info.bodies[i].name;
         difference.largestTurn = a.motion[i].orientation.angularDistance(b.motion[i].orientation);
     }
-    if (difference.bodies.empty() && a.order == b.order) return std::nullopt;
+    if (difference.bodies.empty()) {
+        for (const BodyId body : remembersOtherwise(a.contactMemory, b.contactMemory)) {
+            difference.bodies.push_back(info.bodies.at(static_cast<std::size_t>(body)).name);
+        }
+        difference.isMemoryOnly =
+            !difference.bodies.empty() || a.contactMemory.dt != b.contactMemory.dt;
+    }
+    const bool isSame = difference.bodies.empty() && !difference.isMemoryOnly;
+    if (isSame && a.order == b.order) return std::nullopt;
     difference.frame = a.scene.frame;
     difference.offset = firstOffset(a, b);
     return difference;

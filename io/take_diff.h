@@ -18,6 +18,8 @@ struct TakeDifference {
     std::string farthestBody;         ///< of them, the one whose centre is farthest off
     double farthest = 0.0;            ///< by how much [m]
     double largestTurn = 0.0;         ///< between its two orientations [rad]
+    bool isMemoryOnly = false;        ///< all stand and move alike, but remember other contacts or
+                                      ///< rest: what follows will differ
 };
 
 struct TakeComparison {

@@ -183,9 +183,13 @@ std::vector<TakeInput> hashInputs(const Shot& shot)
     for (const ShotShape& shape : shot.shapes) {
         const auto* file = std::get_if<FileSpec>(&shape.source);
         const auto* node = std::get_if<NodeSpec>(&shape.source);
-        const std::string path = file ? file->path : node ? node->path : "";
-        if (path.empty() || !known.insert(path).second) continue;
-        inputs.push_back({path, hashText(readFileBytes(path))});
+        for (const std::string& path : {file   ? file->path
+                                        : node ? node->path
+                                               : "",
+                                        shape.collision ? shape.collision->path : ""}) {
+            if (path.empty() || !known.insert(path).second) continue;
+            inputs.push_back({path, hashText(readFileBytes(path))});
+        }
     }
     return inputs;
 }

@@ -28,6 +28,7 @@ struct CheckOptions {
     int estimateFrames = 3;
     std::optional<int> threads;
     std::vector<std::string> overrides;
+    ImportLimits importLimits;
 };
 
 /// What is told of a shape: its first body gives the mass.
@@ -177,6 +178,7 @@ nlohmann::ordered_json toJson(const ShapeUse& use)
 {
     const Shape& shape = *use.shape;
     const ShapeReport& report = use.report;
+    const MeshDeviation& apart = shape.repairs.drawnToColliding;
     return {{"bodies", use.bodies},
             {"triangles", report.triangles},
             {"points", report.points},
@@ -199,7 +201,10 @@ nlohmann::ordered_json toJson(const ShapeUse& use)
             {"flipped_edges", shape.repairs.harmless.flippedEdges},
             {"turned", shape.repairs.harmless.isTurned},
             {"remeshed", shape.repairs.remeshed != MeshRepair::none},
-            {"drawn_to_colliding_m", shape.repairs.farthest}};
+            {"collision_mesh", shape.repairs.hasCollisionMesh},
+            {"drawn_to_colliding_m", apart.distance},
+            {"drawn_to_colliding_at", {apart.place[0], apart.place[1], apart.place[2]}},
+            {"drawn_to_colliding_of", apart.isOnFirst ? "drawn" : "colliding"}};
 }
 
 void printJson(const Shot& shot, const World& world, const ShotReport& report)
@@ -235,7 +240,7 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
 
 int runCheck(const CheckOptions& options, Console& console)
 {
-    const Shot shot = parseShot(options.shot, options.overrides);
+    const Shot shot = parseShot(options.shot, options.overrides, options.importLimits);
     if (options.resolved) {
         std::printf("%s", shot.resolvedText.c_str());
         return kExitDone;
@@ -269,6 +274,7 @@ Command addCheckCommand(CLI::App& program)
         ->add_option("--estimate", options->estimateFrames,
                      "Frames simulated to estimate the time [3]; 0 for none")
         ->check(CLI::Range(0, 1000));
+    addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->add_flag("--no-cache", options->noCache,
                       "Build every distance field anew and keep none");

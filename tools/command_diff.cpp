@@ -28,7 +28,9 @@ void printText(const TakeComparison& comparison)
         std::printf(" (%d sub-steps in A, %d in B)", first.stepsA, first.stepsB);
     }
     std::printf("\n");
-    if (first.bodies.empty()) {
+    if (first.isMemoryOnly) {
+        std::printf("all stand and move alike; what they remember of their contacts differs\n");
+    } else if (first.bodies.empty()) {
         std::printf("only the order in which bodies are processed differs\n");
         return;
     }
@@ -36,8 +38,10 @@ void printText(const TakeComparison& comparison)
     for (std::size_t i = 0; i < std::min(first.bodies.size(), kNamed); ++i) {
         std::printf(" %s", first.bodies[i].c_str());
     }
-    std::printf("%s\nfarthest off: %s by %.3g m and %.3g degrees\n",
-                first.bodies.size() > kNamed ? " ..." : "", first.farthestBody.c_str(),
+    if (first.bodies.size() > kNamed) std::printf(" ...");
+    std::printf("\n");
+    if (first.isMemoryOnly) return;
+    std::printf("farthest off: %s by %.3g m and %.3g degrees\n", first.farthestBody.c_str(),
                 first.farthest, first.largestTurn * 180.0 / kPi);
 }
 
@@ -49,10 +53,13 @@ void printJson(const TakeComparison& comparison)
                                    {"difference", nullptr}};
     if (comparison.difference) {
         const TakeDifference& first = *comparison.difference;
-        json["difference"] = {
-            {"frame", first.frame},         {"substeps", {first.stepsA, first.stepsB}},
-            {"bodies", first.bodies},       {"farthest_body", first.farthestBody},
-            {"farthest_m", first.farthest}, {"turn_rad", first.largestTurn}};
+        json["difference"] = {{"frame", first.frame},
+                              {"substeps", {first.stepsA, first.stepsB}},
+                              {"bodies", first.bodies},
+                              {"farthest_body", first.farthestBody},
+                              {"farthest_m", first.farthest},
+                              {"turn_rad", first.largestTurn},
+                              {"memory_only", first.isMemoryOnly}};
         if (first.offset) json["difference"]["offset_frames"] = *first.offset;
     }
     std::printf("%s\n", json.dump(2).c_str());

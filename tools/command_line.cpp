@@ -2,6 +2,7 @@
 
 #include <sched.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -184,6 +185,19 @@ std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
     }
     if (!least) return std::nullopt;
     return std::max(static_cast<int>(std::ceil(*least)), 1);
+}
+
+void addImportLimits(CLI::App& command, ImportLimits& limits)
+{
+    const auto add = [&](const char* flag, std::uint32_t& value, const std::string& help) {
+        command.add_option(flag, value, help + " [" + std::to_string(value) + "]")
+            ->check(CLI::Range(1u, 1'000'000'000u))
+            ->group("What an asset may hold");
+    };
+    add("--import-points", limits.points, "Points of a mesh, and triangles, at most");
+    add("--import-nodes", limits.nodes, "Nodes of a file that show a mesh, at most");
+    add("--import-depth", limits.depth, "Nodes nested in each other, at most");
+    add("--import-name", limits.nameLength, "Letters in the name of a node, at most");
 }
 
 std::string describeDuration(double seconds)

@@ -7,6 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "io/import_limits.h"
+
+namespace CLI {
+class App;
+}
+
 namespace scree {
 
 /// Frames in ascending order, each once: "1001-1240", "1-100x5" (every fifth), "1001", and lists of
@@ -35,6 +41,10 @@ int threadsToUse(std::optional<int> asked);
 /// when there is no limit. `cgroupRoot` is /sys/fs/cgroup but for tests.
 std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
                                   const std::filesystem::path& cgroupOfProcess);
+
+/// Adds the flags that change what an asset may hold: --import-points and the like. `limits` must
+/// outlive the command.
+void addImportLimits(CLI::App& command, ImportLimits& limits);
 
 /// Seconds as a person says them: "8.2 s", "3 min 05 s", "2 h 10 min".
 std::string describeDuration(double seconds);

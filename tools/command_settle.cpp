@@ -31,6 +31,7 @@ struct SettleOptions {
     double tolerance = 5e-3;
     std::optional<int> threads;
     std::vector<std::string> overrides;
+    ImportLimits importLimits;
 };
 
 constexpr double kWindowSeconds = 0.5;  // over which nothing may move
@@ -53,7 +54,9 @@ std::string percentText(double ratio)
 class Settling {
 public:
     Settling(const SettleOptions& options, Console& console)
-        : options_(options), console_(console), shot_(parseShot(options.shot, options.overrides))
+        : options_(options),
+          console_(console),
+          shot_(parseShot(options.shot, options.overrides, options.importLimits))
     {
         setThreadCount(threadsToUse(options.threads));
         world_ = buildWorld(shot_);
@@ -190,6 +193,7 @@ Command addSettleCommand(CLI::App& program)
                      "At rest is what moves less than this part of its radius in half a second "
                      "[0.005]")
         ->check(CLI::Range(1e-12, 1.0));
+    addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
         ->type_name("KEY=VALUE")

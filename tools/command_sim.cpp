@@ -59,7 +59,7 @@ public:
         : options_(options), console_(console), progressMode_(parseProgressMode(options.progress))
     {
         setThreadCount(threadsToUse(options.threads));
-        shot_ = parseShot(options.shot, options.overrides);
+        shot_ = parseShot(options.shot, options.overrides, options.importLimits);
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
         DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
@@ -342,6 +342,7 @@ Command addSimCommand(CLI::App& program)
     command->add_option("-o,--output", options->take, "The take directory [takes/NAME]");
     command->add_option("--frames", options->frames,
                         "Simulate up to the last of these: 1001-1100 (a later --resume goes on)");
+    addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads,
                         "Number of threads [all]; the result does not depend on it");
     CLI::Option* resume =

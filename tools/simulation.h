@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/import_limits.h"
 #include "tools/console.h"
 
 namespace scree {
@@ -15,6 +16,7 @@ struct SimOptions {
     bool resume = false, overwrite = false, noCache = false;
     bool printsTake = true;  ///< on stdout, at the end
     std::vector<std::string> overrides;
+    ImportLimits importLimits;
 };
 
 /// One run of `scree sim`, from the first missing frame to the last; returns its exit code. Throws

@@ -122,6 +122,17 @@ std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& worl
     return warnings;
 }
 
+std::string describe(const MeshDeviation& drawnToColliding)
+{
+    const Vec3& place = drawnToColliding.place;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "what collides is up to %.3g m from what is drawn, at (%.4g, %.4g, %.4g) of %s",
+                  drawnToColliding.distance, place.x(), place.y(), place.z(),
+                  drawnToColliding.isOnFirst ? "what is drawn" : "what collides");
+    return text;
+}
+
 std::vector<std::string> repairsOf(const World& world)
 {
     std::vector<std::string> repairs;
@@ -133,12 +144,16 @@ std::vector<std::string> repairsOf(const World& world)
         if (!done.harmless.isNone()) {
             repairs.push_back("shape '" + shape.name + "': " + describe(done.harmless));
         }
-        if (done.remeshed == MeshRepair::none) continue;
-        repairs.push_back(
-            "shape '" + shape.name +
-            "': " + (done.remeshed == MeshRepair::wrap ? "wrapped" : "made a shell") +
-            formatted(" with voxels of %.3g m; what collides is up to %.3g m from what is drawn",
-                      done.voxel, done.farthest));
+        const bool isRemeshed = done.remeshed != MeshRepair::none;
+        if (!isRemeshed && !done.hasCollisionMesh) continue;
+        std::string text = "shape '" + shape.name + "': ";
+        if (done.hasCollisionMesh) text += "collides as a mesh of its own";
+        if (done.hasCollisionMesh && isRemeshed) text += ", ";
+        if (isRemeshed) {
+            text += done.remeshed == MeshRepair::wrap ? "wrapped" : "made a shell";
+            text += formatted(" with voxels of %.3g m", done.voxel);
+        }
+        repairs.push_back(text + "; " + describe(done.drawnToColliding));
     }
     return repairs;
 }

@@ -13,6 +13,9 @@ namespace scree {
 /// "cup and saucer: 3.1 mm, 4.2 % of the smaller one".
 std::string describe(const StartOverlap& overlap, const World& world);
 
+/// How far what collides is from what is drawn, and where in the asset's frame [m].
+std::string describe(const MeshDeviation& drawnToColliding);
+
 /// Applies shot.startOverlap to the world at time zero. Throws Error{badInput} that names the pairs
 /// when they are an error or will not come apart.
 void applyStartRule(const Shot& shot, World& world, Console& console);
@@ -21,7 +24,7 @@ void applyStartRule(const Shot& shot, World& world, Console& console);
 /// speeds beyond the cap. One sentence each.
 std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world);
 
-/// One sentence for each shape whose mesh was repaired.
+/// One sentence for each shape whose mesh was repaired, or is not the one that collides.
 std::vector<std::string> repairsOf(const World& world);
 
 }  // namespace scree

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/collision/broad_phase.h"
+#include "core/collision/near_features.h"
 #include "core/dynamics/disjoint_sets.h"
+#include "core/dynamics/forces.h"
 
 namespace scree {
 namespace {
@@ -46,7 +49,56 @@ void wakeWith(World& world, std::vector<BodyId> roots)
     }
 }
 
+/// Sleepers that stand closer than this share of the smaller one's size touch. No force has made
+/// them press on each other yet, so the eye decides.
+constexpr double kTouching = 0.01;
+
+/// Contacts without force between sleeping bodies: what wakeWith follows.
+std::vector<RememberedContact> contactsOfSleepers(const World& world)
+{
+    std::vector<Aabb> boxes(world.bodyCount());
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (!world.contactMemory.isAsleep(body)) continue;
+        const Shape& shape = world.shapeOf(body);
+        boxes[i] = boxAt(shape, world.motion[i].worldFromBody())
+                       .grown(0.5 * kTouching * shape.boundingRadius);
+    }
+    BroadPhase broadPhase;
+    std::vector<RememberedContact> found;
+    std::vector<GapContact> contacts;
+    for (const BodyPair& pair : broadPhase.findPairs(boxes, world.mass)) {
+        if (!mayCollide(world, pair)) continue;
+        const PlacedPair placed{&world.shapeOf(pair.a), &world.shapeOf(pair.b),
+                                world.motion[pair.a].worldFromBody(),
+                                world.motion[pair.b].worldFromBody()};
+        contacts.clear();
+        NearFeatures().findContacts(placed, kTouching * smallerRadius(world, pair.a, pair.b),
+                                    contacts);
+        if (contacts.empty()) continue;
+        const Quat aFromWorld = world.motion[pair.a].orientation.conjugate();
+        found.push_back({pair.a, pair.b, contacts.front().feature, aFromWorld * contacts.front().rA,
+                         Vec3::Zero()});
+    }
+    return found;
+}
+
 }  // namespace
+
+void sleepFromTheStart(World& world, const StepSettings& settings,
+                       const std::vector<BodyId>& bodies)
+{
+    if (bodies.empty()) return;
+    std::vector<AppliedForce> forces;
+    findForces(world, settings, world.frameDuration, forces);
+    world.contactMemory.rest.resize(world.bodyCount());
+    for (const BodyId body : bodies) {
+        const BodyMotion& motion = world.motion[body];
+        world.contactMemory.rest[body] = {motion.position, motion.orientation,
+                                          forces[body].acceleration, kStillFrames, true};
+    }
+    world.contactMemory.contacts = contactsOfSleepers(world);
+}
 
 void fallAsleep(World& world, GapScratch& scratch)
 {

@@ -7,9 +7,16 @@
 // when one of its forces changes, or when what it rests on is moved.
 #pragma once
 
+#include <vector>
+
 #include "core/dynamics/gap_rows.h"
 
 namespace scree {
+
+/// Before the first frame: puts dynamic bodies to sleep where they stand, held up or not, until
+/// something comes closer or a force on them changes. Those of them that touch wake together.
+void sleepFromTheStart(World& world, const StepSettings& settings,
+                       const std::vector<BodyId>& bodies);
 
 /// At the end of a frame: notes who has moved and puts to sleep what has not. `scratch` holds the
 /// rows of the last step.

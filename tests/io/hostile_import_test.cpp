@@ -135,11 +135,66 @@ TEST(MeshImport, RefusesReferencesOutsideTheFolder)
     }
 }
 
+TEST(MeshImport, RefusesWhatExceedsACapAndSaysWhichFlagRaisesIt)
+{
+    const test::TemporaryFolder folder;
+    writeGltf(folder);
+    const std::string path = (folder / "set.gltf").string();
+    const auto refusal = [&](std::uint32_t ImportLimits::*cap, std::uint32_t most) -> std::string {
+        ImportLimits limits;
+        limits.*cap = most;
+        try {
+            importFile(path, limits);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::badInput);
+            return error.what();
+        }
+        return "not refused";
+    };
+    const std::string file = "mesh file '" + path + "' ";
+    EXPECT_EQ(refusal(&ImportLimits::points, 3), file + "has more than 3 points (--import-points)");
+    EXPECT_EQ(refusal(&ImportLimits::nodes, 2), file + "has more than 2 nodes (--import-nodes)");
+    EXPECT_EQ(refusal(&ImportLimits::nameLength, 8),
+              file + "has more than 8 letters in a name (--import-name)");
+    // Three nodes side by side, of four points each and names of nine letters.
+    EXPECT_EQ(refusal(&ImportLimits::points, 4), "not refused");
+    EXPECT_EQ(refusal(&ImportLimits::nodes, 3), "not refused");
+    EXPECT_EQ(refusal(&ImportLimits::nameLength, 9), "not refused");
+    // The same below each other.
+    std::string chain = gltfText("data.bin");
+    chain.replace(chain.find("\"nodes\":[0,1,2]"), 15, "\"nodes\":[0]");
+    chain.replace(chain.find("\"mesh\":0"), 8, "\"mesh\":0,\"children\":[1]");
+    const std::size_t second = chain.find("\"mesh\":0", chain.find("Mug.small"));
+    chain.replace(second, 8, "\"mesh\":0,\"children\":[2]");
+    std::ofstream(path) << chain;
+    EXPECT_EQ(refusal(&ImportLimits::depth, 1),
+              file + "cannot be read: its nodes are nested deeper than 1 (--import-depth)");
+    EXPECT_EQ(refusal(&ImportLimits::depth, 2), "not refused");
+}
+
 std::string shotOf(const test::TemporaryFolder& folder, const std::string& nodes)
 {
     return "scree = 1\n[shot]\nname = \"s\"\nunits = \"cm\"\n[material.wood]\n[[import]]\nfile = "
            "\"" +
            (folder / "set.gltf").string() + "\"\nmaterial = \"wood\"\nnodes = " + nodes + "\n";
+}
+
+TEST(ShotImport, KeepsTheCapsOfWhoAsked)
+{
+    const test::TemporaryFolder folder;
+    writeGltf(folder);
+    const std::string text = shotOf(folder, "\"*\"");
+    ImportLimits limits;
+    limits.nodes = 2;
+    EXPECT_THROW(parseShotText(text, "s.toml", {}, limits), Error);
+    limits = {};
+    limits.points = 3;
+    const std::string shape =
+        "scree = 1\n[shot]\nname = \"s\"\n[material.m]\n[shape.a]\nfile = \"" +
+        (folder / "set.gltf").string() +
+        "\"\n[[body]]\nname = \"b\"\nshape = \"a\"\nmaterial = \"m\"\n";
+    const Shot shot = parseShotText(shape, "s.toml", {}, limits);
+    EXPECT_THROW(buildWorld(shot), Error) << "shapes are read when the world is built";
 }
 
 TEST(ShotImport, MakesABodyOfEveryNodeThatAPatternFits)
@@ -239,9 +294,9 @@ TEST(MeshImport, MutatedFilesNeverCrashOrHangTheProgram)
 {
     const char* wanted = std::getenv("SCREE_FUZZ");
     const std::uint64_t count = wanted ? std::strtoull(wanted, nullptr, 10) : 300;
-    ConfinedLimits limits;
-    limits.clockSeconds = 0.2;  // a third of the cut PLY files keep the reader busy for ever
-    limits.memoryBytes = 512 << 20;
+    ImportLimits limits;
+    limits.process.clockSeconds = 0.2;  // a third of the cut PLY files keep it busy for ever
+    limits.process.memoryBytes = 512 << 20;
     const test::TemporaryFolder folder;
     writeGltf(folder);
     for (const auto& [ending, clean] : cleanFiles()) {
@@ -251,7 +306,7 @@ TEST(MeshImport, MutatedFilesNeverCrashOrHangTheProgram)
             // Number 0 is the clean file, so that the test is known to reach the parser.
             std::ofstream(path, std::ios::binary) << (number == 0 ? clean : mutated(clean, number));
             try {
-                importFile(path, number == 0 ? ConfinedLimits() : limits);
+                importFile(path, number == 0 ? ImportLimits() : limits);
                 ++outcomes["read"];
             } catch (const Error& error) {
                 ASSERT_EQ(error.kind(), ErrorKind::badInput) << error.what();
@@ -266,6 +321,33 @@ TEST(MeshImport, MutatedFilesNeverCrashOrHangTheProgram)
                     outcomes["read"], outcomes["refused"], outcomes["crashed"],
                     outcomes["stopped"]);
     }
+}
+
+TEST(ShotParser, MutatedShotsAreReadOrRefusedWithTheirPlace)
+{
+    const char* wanted = std::getenv("SCREE_FUZZ");
+    const std::uint64_t count = wanted ? std::strtoull(wanted, nullptr, 10) : 300;
+    int read = 0, refused = 0;
+    for (const std::string name : {"gears", "card_house", "dump_truck", "crockery"}) {
+        const std::filesystem::path path = test::sourceFile("shots/" + name + ".toml");
+        std::ifstream stream(path, std::ios::binary);
+        const std::string clean(std::istreambuf_iterator<char>(stream), {});
+        for (std::uint64_t number = 0; number <= count; ++number) {
+            try {
+                parseShotText(number == 0 ? clean : mutated(clean, number), path.string());
+                ++read;
+            } catch (const Error& error) {
+                ++refused;
+                const bool isInput =
+                    error.kind() == ErrorKind::badInput || error.kind() == ErrorKind::missingInput;
+                ASSERT_TRUE(isInput) << error.what();
+                ASSERT_NE(std::string(error.what()).find(".toml:"), std::string::npos)
+                    << error.what();
+            }
+        }
+    }
+    std::printf("shots: %d read, %d refused\n", read, refused);
+    EXPECT_GE(read, 4) << "the clean ones";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-#include "core/geometry/mesh_defects.h"
 #include "io/mesh_import.h"
+#include "core/geometry/mesh_defects.h"
 
 #include <gtest/gtest.h>
 

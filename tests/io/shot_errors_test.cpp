@@ -159,8 +159,6 @@ std::vector<BadShot> badShots()
          "bad.toml:12:9: nothing moves this body, so it has no 'force'"},
         {"UnknownGroup", body("shape = \"block\"\ngroup = \"props\"\ncollides = [\"porps\"]\n"),
          "bad.toml:12:13: no body has group = \"porps\"; did you mean 'props'? (known: props)"},
-        {"AsleepAtFirst", body("shape = \"block\"\nstart = \"asleep\"\n"),
-         "bad.toml:11:9: 'start' = \"asleep\" is not supported yet; this version knows only awake"},
         {"WindWithoutDirection", kBase + "[[force]]\ntype = \"wind\"\nstrength = 3\n",
          "bad.toml:7:1: a wind needs a 'direction'"},
         {"FalloffWithoutReach",
@@ -234,7 +232,8 @@ std::vector<BadShot> badShots()
         {"StartOverlap", kHead + "[start]\noverlap = \"wran\"\n",
          "bad.toml:5:11: 'overlap' must be one of \"error\", \"warn\", \"separate\", not \"wran\"; "
          "did you mean 'warn'?"},
-        {"Contacts", kHead + "[output]\ncontacts = 1\n", "bad.toml:5:12: 'contacts' must be true or false, not 1"},
+        {"Contacts", kHead + "[output]\ncontacts = 1\n",
+         "bad.toml:5:12: 'contacts' must be true or false, not 1"},
         {"SubframesThatSpanAFrame", kHead + "[output]\nsubframes = [-0.5, 0.0, 0.5]\n",
          "bad.toml:5:13: 'subframes' must lie within one frame and at least 0.01 frames apart, "
          "like [-0.25, 0.0, 0.25], not [-0.5, 0.0, 0.5]"},
@@ -325,7 +324,7 @@ std::vector<BadShot> badShots()
          kHead + "[[camera]]\neye = [1, 0, 0]\n[[camera]]\nname = \"main\"\neye = [2, 0, 0]\n",
          "bad.toml:7:8: camera name 'main' is taken by another camera"},
         {"CameraNowhere", kHead + "[[camera]]\ntarget = [1, 0, 0]\n",
-         "bad.toml:4:1: camera 'main' needs 'eye', 'keys' or 'orbit' to stand somewhere"},
+         "bad.toml:4:1: camera 'main' needs 'eye', 'keys', 'orbit' or 'file' to stand somewhere"},
         {"CameraWithEyeAndOrbit", kHead + "[[camera]]\neye = [1, 0, 0]\norbit = { radius = 3 }\n",
          "bad.toml:6:1: 'orbit' cannot stand beside 'eye' in [[camera]]"},
         {"CameraKeysBackwards",
@@ -344,6 +343,8 @@ std::vector<BadShot> badShots()
          "bad.toml:5:9: [[camera]] orbit lacks 'radius': a number above 0"},
         {"OrbitBackwards", kHead + "[[camera]]\norbit = { radius = 3, frames = \"9-4\" }\n",
          "bad.toml:5:32: 'frames' must be \"FIRST-LAST\", for example \"1001-1240\", not \"9-4\""},
+        {"StillOfAnotherShot", kHead + "[render]\nstill = 900\n",
+         "bad.toml:5:9: 'still' must be one of the shot's frames, 1001 to 1240"},
         {"PictureTooLarge", kHead + "[render]\nsize = [1280, 99999]\n",
          "bad.toml:5:15: 'size' must be 2 whole numbers, each from 16 to 16384, not 99999"},
     };

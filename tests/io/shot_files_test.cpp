@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/start_check.h"
 #include "core/geometry/mesh_defects.h"
 #include "io/build_world.h"
 #include "io/mesh_import.h"
@@ -36,8 +37,43 @@ TEST(ShotFiles, AllParseAndKeepTheirMeaningWhenResolved)
         EXPECT_FALSE(shot.cameras.empty()) << path;
         ++count;
     }
-    EXPECT_GE(count, 24);
+    EXPECT_GE(count, 34);
 }
+
+/// Names of the shots themselves, without those of the experiments.
+std::vector<std::string> shippedNames()
+{
+    std::vector<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(test::sourceFile("shots"))) {
+        if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+class EveryShot : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryShot, StartsWithNothingToComplainOf)
+{
+    const Shot shot = shippedShot(GetParam() + ".toml");
+    const World world = buildWorld(shot);
+    const std::vector<StartOverlap> overlaps = findStartOverlaps(world, shot.penetrationWarn);
+    EXPECT_TRUE(overlaps.empty()) << world.info[overlaps.front().a].name << " and "
+                                  << world.info[overlaps.front().b].name;
+    const std::vector<BodyId> loose = findUnsupported(world, shot.settings.gravity);
+    EXPECT_TRUE(loose.empty()) << world.info[loose.front()].name << " will fall for ever";
+    const std::vector<FastBody> fast =
+        findTooFast(world, shot.settings, 1.0 / shot.framesPerSecond);
+    EXPECT_TRUE(fast.empty()) << world.info[fast.front().body].name << " is too fast";
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const Shape& shape = world.shapeOf(static_cast<BodyId>(i));
+        const bool isMeant = shape.repairs.remeshed != MeshRepair::none;
+        EXPECT_TRUE(isMeant || shape.repairs.harmless.isNone()) << shape.name << " needs repair";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(ShotFiles, EveryShot, testing::ValuesIn(shippedNames()),
+                         [](const auto& one) { return one.param; });
 
 TEST(ShotFiles, RingsStartApartAndAboveThePoles)
 {

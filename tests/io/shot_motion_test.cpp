@@ -120,7 +120,8 @@ TEST(ShotMotion, TheResolvedShotIsTheShotAgain)
 
 TEST(ShotMotion, StrictSetsEverythingItPromises)
 {
-    const Shot shot = parseShotText(kShot, "push.toml", {"solver.method=paper", "solver.strict=true"});
+    const Shot shot =
+        parseShotText(kShot, "push.toml", {"solver.method=paper", "solver.strict=true"});
     EXPECT_EQ(shot.settings.orientation, OrientationUpdate::euler);
     EXPECT_TRUE(shot.settings.freezeUnsupported);
     EXPECT_EQ(shot.settings.frictionFallback, FrictionFallback::plainKinetic);

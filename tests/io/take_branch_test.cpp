@@ -7,6 +7,7 @@
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
 #include "io/file_bytes.h"
+#include "io/frame_file.h"
 #include "io/shot_parser.h"
 #include "io/take.h"
 #include "io/take_diff.h"
@@ -107,6 +108,22 @@ TEST_F(BranchTest, AVariantPartsFromItsOriginalAfterTheBranchAndOnlyInWhatItChan
     EXPECT_GT(comparison.difference->farthest, 1e-4);
     EXPECT_GT(comparison.difference->stepsA, 0);
     EXPECT_EQ(comparison.framesCompared, 6);
+}
+
+TEST_F(BranchTest, TakesThatOnlyRememberOtherContactsDiffer)
+{
+    const TakeReader whole = simulate("whole", {});
+    const TakeReader other = simulate("other", {});
+    const fs::path path = other.paths().frame(1004);
+    FrameState state = readFrameFile(path);
+    ASSERT_FALSE(state.contactMemory.contacts.empty());
+    state.contactMemory.contacts.front().force *= 2.0;
+    writeFileBytes(path, encodeFrame(state));
+    const TakeComparison comparison = compareTakes(whole, other);
+    ASSERT_TRUE(comparison.difference);
+    EXPECT_EQ(comparison.difference->frame, 1004);
+    EXPECT_TRUE(comparison.difference->isMemoryOnly);
+    EXPECT_EQ(comparison.difference->bodies, (std::vector<std::string>{"ground", "block"}));
 }
 
 TEST_F(BranchTest, OtherBodiesAreRefusedWithWhatDiffers)

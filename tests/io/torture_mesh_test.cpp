@@ -273,7 +273,7 @@ TEST(TortureMesh, AShellGivesASheetItsThickness)
     const double volume = thickness + 0.25 * 3.14159265 * thickness * thickness * 4.0 / 2.0;
     EXPECT_NEAR(shape->unitMass.volume / volume, 1.0, 0.03);
     EXPECT_NEAR(shape->innerThickness / thickness, 1.0, 0.1);
-    EXPECT_NEAR(shape->repairs.farthest / (0.5 * thickness), 1.0, 0.1);
+    EXPECT_NEAR(shape->repairs.drawnToColliding.distance / (0.5 * thickness), 1.0, 0.1);
     EXPECT_NE(refusalOf(sheet(4), repairBy(MeshRepair::shell, 0.01)).find("more than the 256"),
               std::string::npos);
 }
