@@ -1,5 +1,3 @@
-// Symbols: p a corner in the frame of the body whose surface it nears, q the closest point there,
-//          n normal out of that surface, d unit direction of an edge.
 #include "core/collision/near_features.h"
 
 #include <algorithm>
@@ -12,19 +10,8 @@ namespace {
 
 /// How much farther than asked a look reaches, so that it need not be repeated at once. Only time
 /// depends on it.
-constexpr double kLookAhead = 1.0;        // times the reach
-constexpr double kLeastLookAhead = 0.01;  // times the bounding radius of the smaller body
-
-/// Edges closer to parallel than this meet nowhere in particular: their ends speak for them [-].
-constexpr double kParallel = 1e-3;
-
-/// Edges deeper in each other than this share of the thinner wall are not what touches: in a deep
-/// overlap every far edge "interferes", and the corners inside tell the way out.
-constexpr double kDeepestEdges = 0.25;
-
-/// Nearer to an edge or corner than this share of the smaller body, the faces beside it decide the
-/// normal: an edge is no sharper than that.
-constexpr double kSharpness = 1e-3;
+constexpr double kLookAhead = 2.0;        // times the reach
+constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
 
 /// Contacts nearer to each other than this share of the smaller body, with normals as close, are
 /// one.
@@ -38,310 +25,307 @@ std::uint64_t featureId(Kind kind, std::int32_t first, std::int32_t second = 0)
            static_cast<std::uint64_t>(second);
 }
 
-bool isBall(const Shape& shape)
+Segment placed(const RelativePair& pair, const ConvexEdge& edge)
 {
-    const ExactSolid* solid = shape.distance.solid();
-    return solid && solid->form() == ExactSolid::Form::sphere;
+    return {pair * edge.start, pair.rotation * edge.direction, edge.length};
 }
 
-double smallerRadius(const PlacedPair& pair)
+/// Lower bound of the distance between what the tree of the first shape holds and the second.
+double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
 {
-    double smaller = std::numeric_limits<double>::infinity();
-    for (const Shape* shape : {pair.shapeA, pair.shapeB}) {
-        if (!shape->isPlane) smaller = std::min(smaller, shape->boundingRadius);
+    double atLeast = std::numeric_limits<double>::infinity();
+    for (const Sphere& sphere : ofFirst.cover()) {
+        const double distance = pair.second.distance.lowerBound(pair * sphere.centre);
+        atLeast = std::min(atLeast, distance - sphere.radius);
     }
-    return smaller;
+    return atLeast;
 }
 
-/// The body that lends corners, seen from the other.
-struct Corners {
-    const Shape& corners;
-    const Shape& surface;
-    Mat3 rotation;  // surface from corners
-    Vec3 translation;
+/// Bounding spheres of the edges of a shape, one array a coordinate.
+struct EdgeSpheres {
+    std::vector<double> x, y, z, radius;
+
+    void assign(const ContactFeatures& features, const std::vector<std::int32_t>& chosen)
+    {
+        for (std::vector<double>* list : {&x, &y, &z, &radius}) list->resize(chosen.size());
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            const ConvexEdge& edge = features.edges()[chosen[i]];
+            radius[i] = 0.5 * edge.length;
+            const Vec3 middle = edge.start + radius[i] * edge.direction;
+            x[i] = middle.x();
+            y[i] = middle.y();
+            z[i] = middle.z();
+        }
+    }
 };
 
-struct SurfaceContact {
-    Vec3 normal;  // out of the surface, its frame
-    double gap;
-};
-
-/// How a corner at p faces the surface; none when its surroundings would have to pass through it.
-std::optional<SurfaceContact> facing(const Corners& way, std::int32_t corner, const Vec3& p,
-                                     double reach, double sharpness, SurfaceContact& unsupported)
+/// Edges of the first shape that may come within `clearance` of the second, by index.
+void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::int32_t>& near)
 {
-    const SignedDistance& field = way.surface.distance;
-    const auto supports = [&](const Vec3& n) {
-        return way.corners.features.cornerSupports(corner, way.rotation.transpose() * n);
+    near.clear();
+    const ContactFeatures& features = pair.first.features;
+    const auto isClear = [&](const Vec3& centre, double radius) {
+        return pair.second.distance.isClearOf(pair * centre, radius + clearance);
     };
-    if (way.surface.isPlane) {
-        if (p.y() >= reach) return {};
-        return SurfaceContact{Vec3::UnitY(), p.y()};
-    }
-    const double grid = field.gridValue(p);
-    if (field.solid() || std::abs(grid) >= field.refinementBand()) {
-        if (grid >= reach) return {};
-        const SurfaceContact far{field.gridGradient(p).normalized(), grid};
-        if (!far.normal.allFinite()) return {};
-        if (supports(far.normal)) return far;
-        if (!field.solid() || grid >= sharpness) {
-            unsupported = far;
-            return {};
+    features.edgeTree().visit(isClear, [&](std::uint32_t e) {
+        const ConvexEdge& edge = features.edges()[e];
+        const double quarter = 0.25 * edge.length;
+        if (isClear(edge.start + quarter * edge.direction, quarter) &&
+            isClear(edge.start + 3.0 * quarter * edge.direction, quarter)) {
+            return;
         }
-    }
-    const SignedDistance::Nearest nearest =
-        field.solid() ? SignedDistance::Nearest{grid, p, true, field.gridGradient(p)}
-                      : field.nearest(p);
-    if (nearest.value >= reach) return {};
-    const bool isAtEdge = !nearest.onFace && nearest.value < sharpness;
-    if (!isAtEdge) {
-        const SurfaceContact direct{
-            nearest.onFace ? nearest.normal : Vec3((p - nearest.point) / nearest.value),
-            nearest.value};
-        if (supports(direct.normal)) return direct;
-        if (nearest.value >= sharpness) return {};  // it passes beside: edges meet there, if any
-    }
-
-    // Corners of aligned blocks lie within rounding of several faces, of which only one can be
-    // stood on, and just off an edge the shortest way to it may point anywhere. Among the faces
-    // about as near take the one that has least to give way.
-    thread_local std::vector<NearFace> faces;
-    faces.clear();
-    field.facesNear(p, std::max(4.0 * std::abs(nearest.value), sharpness), faces);
-    std::optional<SurfaceContact> best;
-    for (const NearFace& face : faces) {
-        if (best && face.height <= best->gap) continue;
-        if (supports(face.normal)) best = SurfaceContact{face.normal, face.height};
-    }
-    if (!best) unsupported = {nearest.normal, nearest.value};
-    return best;
+        near.push_back(static_cast<std::int32_t>(e));
+    });
+    std::sort(near.begin(), near.end());
 }
 
-/// Where the lines of two edges are closest, inside both; in the frame of B.
-struct Crossing {
-    Vec3 onA, onB, normal;  // normal not oriented
-};
-
-std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double lengthA,
-                                 const Vec3& startB, const Vec3& dB, double lengthB)
+/// Of the points of one body that turns with the frame of the other [m].
+double leverOf(const RelativePair& pair)
 {
-    const double cosine = dA.dot(dB);
-    const double sineSquared = 1.0 - cosine * cosine;
-    if (sineSquared < kParallel * kParallel) return {};
-    const Vec3 between = startA - startB;
-    const double alongA = dA.dot(between), alongB = dB.dot(between);
-    const double s = (cosine * alongB - alongA) / sineSquared;
-    if (s < 0.0 || s > lengthA) return {};
-    const double t = (alongB - cosine * alongA) / sineSquared;
-    if (t < 0.0 || t > lengthB) return {};
-    return Crossing{startA + s * dA, startB + t * dB, dA.cross(dB).normalized()};
+    const double ofSecond =
+        pair.second.isPlane ? 0.0 : pair.second.boundingRadius + pair.translation.norm();
+    return std::max(pair.first.isPlane ? 0.0 : pair.first.boundingRadius, ofSecond);
 }
 
-struct EdgeContact {
-    Vec3 onA, normal;  // frame of B
-    double gap;
-};
-
-std::optional<EdgeContact> facing(const PlacedPair& pair, const Mat3& rotation,
-                                  const Vec3& translation, std::int32_t ofA, std::int32_t ofB,
-                                  double reach, double sharpness)
-{
-    const ConvexEdge& a = pair.shapeA->features.edges()[ofA];
-    const ConvexEdge& b = pair.shapeB->features.edges()[ofB];
-    const std::optional<Crossing> at =
-        crossing(rotation * a.start + translation, rotation * a.direction, a.length, b.start,
-                 b.direction, b.length);
-    if (!at) return {};
-    const Vec3 outward = b.faceNormal[0] + b.faceNormal[1];
-    const Vec3 n = at->normal.dot(outward) >= 0.0 ? at->normal : Vec3(-at->normal);
-    const double gap = n.dot(at->onA - at->onB);
-    if (gap >= reach) return {};
-    if (!edgeSupports(b, -n) || !edgeSupports(a, rotation.transpose() * n)) return {};
-    if (gap >= -sharpness) return EdgeContact{at->onA, n, gap};
-
-    // Two edges of solids that overlap elsewhere may pass each other anywhere inside. If these are
-    // what overlaps, A's edge is about as deep in B as the faces beside B's edge make it.
-    const double deepest =
-        kDeepestEdges * std::min(pair.shapeA->innerThickness, pair.shapeB->innerThickness);
-    if (gap < -deepest) return {};
-    const double expected = gap * std::max(n.dot(b.faceNormal[0]), n.dot(b.faceNormal[1]));
-    if (pair.shapeB->distance.value(at->onA) > 0.5 * expected) return {};
-    return EdgeContact{at->onA, n, gap};
-}
-
-/// Distance between two segments is at least this.
-double apartAtLeast(const Vec3& middleA, double halfA, const Vec3& middleB, double halfB)
-{
-    return (middleA - middleB).norm() - halfA - halfB;
-}
-
-}  // namespace
-
-void NearFeatures::lookAgain(const PlacedPair& pair, const Mat3& rotation, const Vec3& translation)
-{
-    isKnown_ = true;
-    rotation_ = rotation;
-    translation_ = translation;
-    cornersOfA_.clear();
-    cornersOfB_.clear();
-    edges_.clear();
-
-    const Shape& shapeA = *pair.shapeA;
-    const Shape& shapeB = *pair.shapeB;
-    const Mat3 back = rotation.transpose();
-    const Corners ways[2] = {{shapeA, shapeB, rotation, translation},
-                             {shapeB, shapeA, back, -(back * translation)}};
-    thread_local std::vector<std::int32_t> nearEdges[2];
-    for (int side = 0; side < 2; ++side) {
-        const Corners& way = ways[side];
-        const SignedDistance& field = way.surface.distance;
-        const ContactFeatures& features = way.corners.features;
-        const auto isClear = [&](const Vec3& centre, double radius) {
-            return field.isClearOf(way.rotation * centre + way.translation, radius + clearance_);
-        };
-        std::vector<NearCorner>& near = side == 0 ? cornersOfA_ : cornersOfB_;
-        if (!features.corners().empty()) {
-            features.cornerTree().visit(isClear, [&](std::uint32_t i) {
-                const std::int32_t corner = features.corners()[i];
-                const Vec3 p = way.rotation * features.points().col(corner) + way.translation;
-                const double atLeast = field.lowerBound(p);
-                if (atLeast < clearance_) near.push_back({atLeast, corner});
-            });
-            std::sort(near.begin(), near.end(),
-                      [](const NearCorner& p, const NearCorner& q) { return p.corner < q.corner; });
-        }
-        nearEdges[side].clear();
-        if (way.surface.isPlane || features.edges().empty()) continue;
-        features.edgeTree().visit(isClear, [&](std::uint32_t e) {
-            const ConvexEdge& edge = features.edges()[e];
-            const double half = 0.5 * edge.length;
-            if (isClear(edge.start + half * edge.direction, half)) return;
-            nearEdges[side].push_back(static_cast<std::int32_t>(e));
-        });
-        std::sort(nearEdges[side].begin(), nearEdges[side].end());
-    }
-    for (std::int32_t ofA : nearEdges[0]) {
-        const ConvexEdge& a = shapeA.features.edges()[ofA];
-        const double halfA = 0.5 * a.length;
-        const Vec3 middleA = rotation * (a.start + halfA * a.direction) + translation;
-        for (std::int32_t ofB : nearEdges[1]) {
-            const ConvexEdge& b = shapeB.features.edges()[ofB];
-            const double halfB = 0.5 * b.length;
-            const double atLeast =
-                apartAtLeast(middleA, halfA, b.start + halfB * b.direction, halfB);
-            if (atLeast < clearance_) edges_.push_back({atLeast, ofA, ofB});
-        }
-    }
-}
-
-void NearFeatures::findContacts(const PlacedPair& pair, double reach,
-                                std::vector<GapContact>& contacts)
-{
-    const Mat3 worldFromA = pair.worldFromA.orientation.toRotationMatrix();
-    const Mat3 worldFromB = pair.worldFromB.orientation.toRotationMatrix();
-    const Mat3 rotation = worldFromB.transpose() * worldFromA;
-    const Vec3 offset = pair.worldFromA.position - pair.worldFromB.position;
-    const Vec3 translation = worldFromB.transpose() * offset;
-
-    // No point of either body has moved farther in the other's frame than this.
-    const auto extent = [](const Shape& shape, double lever) {
-        return shape.isPlane ? 0.0 : shape.boundingRadius + lever;
-    };
-    double travel = std::numeric_limits<double>::infinity();
-    if (isKnown_) {
-        travel = (translation - translation_).norm() +
-                 (rotation - rotation_).norm() *
-                     std::max(extent(*pair.shapeA, 0.0), extent(*pair.shapeB, translation.norm()));
-    }
-    if (reach + travel > clearance_) {
-        clearance_ = reach + std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair));
-        lookAgain(pair, rotation, translation);
-        travel = 0.0;
+/// What a pair touches with so far, and what lies inside without being a contact.
+class ContactList {
+public:
+    ContactList(std::vector<GapContact>& contacts, double samePlace)
+        : contacts_(contacts), first_(contacts.size()), samePlace_(samePlace)
+    {
     }
 
-    const std::size_t first = contacts.size();
-    const double samePlace = kSamePlace * smallerRadius(pair);
-    const auto push = [&](std::uint64_t feature, const Vec3& onA, const Vec3& normal, double gap) {
-        // Where two corners meet, or an edge ends on another, several features say the same.
-        const Vec3 place = onA - 0.5 * gap * normal;
-        for (std::size_t i = first; i < contacts.size(); ++i) {
-            GapContact& known = contacts[i];
-            if ((known.rA - place).squaredNorm() > samePlace * samePlace) continue;
-            if (known.normal.dot(normal) < 1.0 - kSamePlace) continue;
-            if (gap < known.gap) {
-                known.gap = gap;
-                known.rA = place;
-                known.normal = normal;
+    /// Where two corners meet, or an edge ends on another, several features say the same.
+    void add(const GapContact& contact)
+    {
+        for (std::size_t i = first_; i < contacts_.size(); ++i) {
+            GapContact& known = contacts_[i];
+            if ((known.rA - contact.rA).squaredNorm() > samePlace_ * samePlace_) continue;
+            if (known.normal.dot(contact.normal) < 1.0 - kSamePlace) continue;
+            if (contact.gap < known.gap) {
+                known.gap = contact.gap;
+                known.rA = contact.rA;
+                known.normal = contact.normal;
             }
             return;
         }
-        contacts.push_back({feature, place, normal, gap});
-    };
-    const double sharpness = kSharpness * smallerRadius(pair);
-    std::optional<GapContact> unsupported;
-    const auto faceCorners = [&](const Corners& way, const std::vector<NearCorner>& near,
-                                 bool ofA) {
-        for (const NearCorner& candidate : near) {
-            if (candidate.atLeast >= reach + travel) continue;
-            const Vec3 corner = way.corners.features.points().col(candidate.corner);
-            const Vec3 p = way.rotation * corner + way.translation;
-            SurfaceContact refused{Vec3::Zero(), 0.0};
-            const auto contact = facing(way, candidate.corner, p, reach, sharpness, refused);
-            const SurfaceContact& found = contact ? *contact : refused;
-            if (!contact && refused.gap >= 0.0) continue;
-            const std::uint64_t feature =
-                featureId(ofA ? Kind::cornerOfA : Kind::cornerOfB, candidate.corner);
-            const Vec3 normal =
-                (ofA ? 1.0 : -1.0) * ((ofA ? worldFromB : worldFromA) * found.normal);
-            const Vec3 onA =
-                ofA ? Vec3(worldFromA * corner) : Vec3(worldFromA * p + found.gap * normal);
-            if (contact) {
-                push(feature, onA, normal, found.gap);
-            } else if (!unsupported || found.gap < unsupported->gap) {
-                unsupported =
-                    GapContact{feature, onA - 0.5 * found.gap * normal, normal, found.gap};
-            }
-        }
-    };
-    // An exact ball touches with whatever of it is nearest: one place, never a corner.
-    const auto faceBall = [&](const Shape& ball, const Shape& surface, const Vec3& centre,
-                              bool ofA) {
-        const double radius = ball.distance.solid()->half().x();
-        const double gap = surface.distance.value(centre) - radius;
-        if (gap >= reach) return;
-        const Vec3 n = surface.distance.gridGradient(centre).normalized();
-        const Vec3 normal = (ofA ? 1.0 : -1.0) * ((ofA ? worldFromB : worldFromA) * n);
-        const Vec3 onA =
-            ofA ? Vec3(-radius * normal) : Vec3(worldFromA * centre + (radius + gap) * normal);
-        push(featureId(Kind::ball, ofA ? 0 : 1), onA, normal, gap);
-    };
-    if (isBall(*pair.shapeA)) {
-        faceBall(*pair.shapeA, *pair.shapeB, translation, true);
-        return;
-    }
-    if (isBall(*pair.shapeB)) {
-        faceBall(*pair.shapeB, *pair.shapeA, -(rotation.transpose() * translation), false);
-        return;
-    }
-    faceCorners({*pair.shapeA, *pair.shapeB, rotation, translation}, cornersOfA_, true);
-    const Mat3 back = rotation.transpose();
-    faceCorners({*pair.shapeB, *pair.shapeA, back, -(back * translation)}, cornersOfB_, false);
-    for (const NearEdges& candidate : edges_) {
-        if (candidate.atLeast >= reach + travel) continue;
-        const auto contact =
-            facing(pair, rotation, translation, candidate.ofA, candidate.ofB, reach, sharpness);
-        if (!contact) continue;
-        push(featureId(Kind::edges, candidate.ofA, candidate.ofB),
-             worldFromB * contact->onA - offset, worldFromB * contact->normal, contact->gap);
+        contacts_.push_back(contact);
     }
 
-    // In a deep overlap the geometry of touching means little. A corner inside is still a corner
-    // inside: without any contact that opposes, the deepest one speaks.
-    if (!unsupported) return;
-    const bool isOpposed =
-        std::any_of(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(),
-                    [](const GapContact& c) { return c.gap < 0.0; });
-    if (!isOpposed) contacts.push_back(*unsupported);
+    void addUnsupported(const GapContact& contact)
+    {
+        if (!unsupported_ || contact.gap < unsupported_->gap) unsupported_ = contact;
+    }
+
+    /// In a deep overlap the geometry of touching means little. A corner inside is still a corner
+    /// inside: without any contact that opposes, the deepest one speaks.
+    void finish()
+    {
+        if (!unsupported_) return;
+        const bool isOpposed =
+            std::any_of(contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
+                        [](const GapContact& c) { return c.gap < 0.0; });
+        if (!isOpposed) contacts_.push_back(*unsupported_);
+    }
+
+private:
+    std::vector<GapContact>& contacts_;
+    std::size_t first_;
+    double samePlace_;
+    std::optional<GapContact> unsupported_;
+};
+
+/// Turns what one way found into the contact of the pair.
+struct ToWorld {
+    Mat3 worldFromSecond;
+    Vec3 secondFromA;  // centre of the second from that of A, world [m]
+    bool firstIsA;
+
+    GapContact operator()(std::uint64_t feature, const FeatureContact& found) const
+    {
+        const Vec3 normal = worldFromSecond * found.normal;
+        const Vec3 onFirst = worldFromSecond * found.point + secondFromA;
+        return {feature, onFirst - 0.5 * found.gap * normal, firstIsA ? normal : Vec3(-normal),
+                found.gap};
+    }
+};
+
+}  // namespace
+
+void NearFeatures::moveTo(const RelativePair& pair)
+{
+    way_ += (pair.translation - translation_).norm() +
+            (pair.rotation - rotation_).norm() * leverOf(pair);
+    rotation_ = pair.rotation;
+    translation_ = pair.translation;
+}
+
+bool NearFeatures::isStale(double reach) const
+{
+    const double moved = way_ - lookedAt_;
+    return !isKnown_ || moved > window_ || reach + moved > clearance_;
+}
+
+void NearFeatures::lookAtCorners(const RelativePair& pair, double clearance,
+                                 std::vector<NearCorner>& near) const
+{
+    const ContactFeatures& features = pair.first.features;
+    const SignedDistance& field = pair.second.distance;
+    const auto isClear = [&](const Vec3& centre, double radius) {
+        return field.isClearOf(pair * centre, radius + clearance);
+    };
+    features.cornerTree().visit(isClear, [&](std::uint32_t i) {
+        const std::int32_t corner = features.corners()[i];
+        const double atLeast = field.lowerBound(pair * features.points().col(corner));
+        if (atLeast < clearance) near.push_back({way_ + atLeast, corner});
+    });
+    std::sort(near.begin(), near.end(),
+              [](const NearCorner& p, const NearCorner& q) { return p.corner < q.corner; });
+}
+
+/// Edges may be deep in each other and still touch, so of two that are apart it also matters when
+/// they can have crossed. Nearest points of segments wander: when no point moves farther than δ,
+/// the line between those at distance d changes by up to δ + 2 √(δ(d + δ)). Until that is as much
+/// as it points out of B, o, they are outside.
+void NearFeatures::look(const Segment& ofA, const ConvexEdge& ofB, double deepest,
+                        NearEdges& edges) const
+{
+    const SegmentGap gap = segmentGap(ofA, {ofB.start, ofB.direction, ofB.length});
+    const double d = gap.distance;
+    edges.farUntil = way_ + d;
+    edges.outsideUntil = way_ + d - deepest;
+    const double o = gap.between.dot(ofB.outward);
+    if (o <= 0.0 || d > 2.0 * deepest) return;
+    const double half = 2.0 * d + o;
+    const double mayCrossAfter = (std::sqrt(half * half + 3.0 * o * o) - half) / 3.0;
+    edges.outsideUntil = std::max(edges.outsideUntil, way_ + mayCrossAfter);
+}
+
+void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach)
+{
+    if (pair.first.features.edges().empty() || pair.second.features.edges().empty()) return;
+    thread_local std::vector<std::int32_t> nearA, nearB;
+    thread_local EdgeSpheres ofB;
+    thread_local std::vector<double> excess;
+    findEdgesNear(pair, clearance_, nearA);
+    if (nearA.empty()) return;
+    findEdgesNear(back, clearance_, nearB);
+    ofB.assign(pair.second.features, nearB);
+    const double deepest = deepestEdges(pair), end = way_ + window_;
+    const double farthest = std::max(reach, deepest) + window_;
+    const std::size_t count = nearB.size();
+    excess.resize(count);
+    for (std::int32_t e : nearA) {
+        const ConvexEdge& edge = pair.first.features.edges()[e];
+        const Segment segment = placed(pair, edge);
+        const double half = 0.5 * edge.length;
+        const Vec3 middle = segment.start + half * segment.direction;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double dx = ofB.x[i] - middle.x(), dy = ofB.y[i] - middle.y();
+            const double dz = ofB.z[i] - middle.z(), far = ofB.radius[i] + half + farthest;
+            excess[i] = dx * dx + dy * dy + dz * dz - far * far;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            if (excess[i] > 0.0) continue;
+            NearEdges edges{0.0, 0.0, e, nearB[i]};
+            look(segment, pair.second.features.edges()[nearB[i]], deepest, edges);
+            if (edges.farUntil - end < reach || edges.outsideUntil <= end) edges_.push_back(edges);
+        }
+    }
+}
+
+void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back, double reach)
+{
+    isKnown_ = true;
+    cornersOfA_.clear();
+    cornersOfB_.clear();
+    edges_.clear();
+    lookedAt_ = way_;
+
+    // Most pairs whose boxes meet are far apart: a few spheres say how far.
+    clearance_ = std::min({apartAtLeast(pair, pair.first.features.cornerTree()),
+                           apartAtLeast(back, back.first.features.cornerTree()),
+                           back.first.features.edges().empty()
+                               ? std::numeric_limits<double>::infinity()
+                               : apartAtLeast(pair, pair.first.features.edgeTree())});
+    window_ =
+        std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair.first, pair.second));
+    if (clearance_ > reach + window_) {
+        window_ = clearance_;
+        return;
+    }
+    clearance_ = reach + window_;
+    lookAtCorners(pair, clearance_, cornersOfA_);
+    lookAtCorners(back, clearance_, cornersOfB_);
+    lookAtEdges(pair, back, reach);
+}
+
+void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
+                                std::vector<GapContact>& contacts, double odometer)
+{
+    const Shape &shapeA = *bodies.shapeA, &shapeB = *bodies.shapeB;
+    const Mat3 worldFromA = bodies.worldFromA.orientation.toRotationMatrix();
+    const Mat3 worldFromB = bodies.worldFromB.orientation.toRotationMatrix();
+    const Vec3 offset = bodies.worldFromA.position - bodies.worldFromB.position;
+    const RelativePair pair{shapeA, shapeB, worldFromB.transpose() * worldFromA,
+                            worldFromB.transpose() * offset};
+    const RelativePair back = pair.reversed();
+    const ToWorld ofA{worldFromB, -offset, true}, ofB{worldFromA, Vec3::Zero(), false};
+    const double smaller = smallerRadius(shapeA, shapeB);
+    ContactList list(contacts, kSamePlace * smaller);
+
+    if (isBall(shapeA) || isBall(shapeB)) {
+        const bool isA = isBall(shapeA);
+        const auto contact = faceBall(isA ? pair : back, reach);
+        if (contact) list.add((isA ? ofA : ofB)(featureId(Kind::ball, isA ? 0 : 1), *contact));
+        return;
+    }
+
+    moveTo(pair);
+    if (isStale(reach)) lookAgain(pair, back, reach);
+
+    const double sharpness = kSharpness * smaller;
+    double farUntil = lookedAt_ + std::min(clearance_, window_);  // of all features
+    const auto faceCorners = [&](const RelativePair& way, std::vector<NearCorner>& near, Kind kind,
+                                 const ToWorld& toWorld) {
+        for (NearCorner& candidate : near) {
+            if (candidate.farUntil - way_ < reach) {
+                const std::uint64_t feature = featureId(kind, candidate.corner);
+                std::optional<FeatureContact> unsupported;
+                if (const auto contact =
+                        faceCorner(way, candidate.corner, reach, sharpness, unsupported)) {
+                    list.add(toWorld(feature, *contact));
+                } else if (unsupported) {
+                    list.addUnsupported(toWorld(feature, *unsupported));
+                } else {
+                    const Vec3 p = way * way.first.features.points().col(candidate.corner);
+                    candidate.farUntil = way_ + way.second.distance.lowerBound(p);
+                }
+            }
+            farUntil = std::min(farUntil, candidate.farUntil);
+        }
+    };
+    faceCorners(pair, cornersOfA_, Kind::cornerOfA, ofA);
+    faceCorners(back, cornersOfB_, Kind::cornerOfB, ofB);
+    const double deepest = deepestEdges(pair);
+    for (NearEdges& candidate : edges_) {
+        if (candidate.farUntil - way_ < reach || candidate.outsideUntil <= way_) {
+            const auto contact = faceEdges(pair, candidate.ofA, candidate.ofB, reach, sharpness);
+            if (contact) {
+                const auto feature = featureId(Kind::edges, candidate.ofA, candidate.ofB);
+                list.add(ofA(feature, *contact));
+            } else {
+                look(placed(pair, shapeA.features.edges()[candidate.ofA]),
+                     shapeB.features.edges()[candidate.ofB], deepest, candidate);
+            }
+        }
+        // Seen from B, A moves by what B turns, with a longer lever than the odometer counts.
+        const double outside = (candidate.outsideUntil - way_) / leverOf(pair) * smaller;
+        farUntil = std::min({farUntil, candidate.farUntil, way_ + outside});
+    }
+    list.finish();
+    apart_ = farUntil - way_;
+    odometerThen_ = odometer;
 }
 
 }  // namespace scree

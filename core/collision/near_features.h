@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/collision/feature_contacts.h"
 #include "core/collision/interference.h"
 #include "core/geometry/shape.h"
 
@@ -24,26 +25,50 @@ struct GapContact {
 
 /// The features of a pair that may come within reach, remembered while the pair moves little. The
 /// memory changes no result: what is found depends on the poses and the reach alone.
+///
+/// Distances change no faster than points move. So for every feature there is a place on the way of
+/// the pair (how far any point has moved in the frame of the other body, added up) before which it
+/// need not be looked at; and for most pairs one for all of them. `odometer` is a bound of that
+/// way that costs nothing: what the two bodies have moved in the world, added up [m].
 class NearFeatures {
 public:
+    /// Whether nothing can be within reach; may say no too often.
+    bool isApart(double reach, double odometer) const
+    {
+        return reach + (odometer - odometerThen_) < apart_;
+    }
+
     /// Appends all contacts with gaps below `reach` [m], ordered by feature.
-    void findContacts(const PlacedPair& pair, double reach, std::vector<GapContact>& contacts);
+    void findContacts(const PlacedPair& pair, double reach, std::vector<GapContact>& contacts,
+                      double odometer = 0.0);
 
 private:
     struct NearCorner {
-        double atLeast;  // lower bound of its distance when looked at [m]
+        double farUntil;  // its distance plus the way, when last looked at [m]
         std::int32_t corner;
     };
     struct NearEdges {
-        double atLeast;
+        double farUntil;
+        double outsideUntil;  // place on the way until which they cannot have crossed [m]
         std::int32_t ofA, ofB;
     };
 
-    void lookAgain(const PlacedPair& pair, const Mat3& rotation, const Vec3& translation);
+    void moveTo(const RelativePair& pair);
+    bool isStale(double reach) const;
+    void lookAgain(const RelativePair& pair, const RelativePair& back, double reach);
+    void lookAtCorners(const RelativePair& pair, double clearance,
+                       std::vector<NearCorner>& near) const;
+    void lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach);
+    void look(const Segment& ofA, const ConvexEdge& ofB, double deepest, NearEdges& edges) const;
 
     bool isKnown_ = false;
-    double clearance_ = 0.0;            // everything closer than this was noted [m]
-    Mat3 rotation_ = Mat3::Identity();  // B from A when looked at
+    double apart_ = 0.0;  // distance of the bodies at odometerThen_; 0 if not known to be [m]
+    double odometerThen_ = 0.0;         // [m]
+    double way_ = 0.0;                  // [m]
+    double lookedAt_ = 0.0;             // place on the way of the last look [m]
+    double window_ = 0.0;               // the way for which that is good [m]
+    double clearance_ = 0.0;            // everything nearer was noted then [m]
+    Mat3 rotation_ = Mat3::Identity();  // B from A, when last moved to
     Vec3 translation_ = Vec3::Zero();
     std::vector<NearCorner> cornersOfA_, cornersOfB_;
     std::vector<NearEdges> edges_;

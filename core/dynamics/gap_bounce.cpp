@@ -22,7 +22,8 @@
 namespace scree {
 namespace {
 
-constexpr int kMostPairSweeps = 100;
+constexpr int kMostPairSweeps = 20;
+constexpr double kPairIsSolved = 1e-4;  // of the speed of the impact
 
 /// Places of a pair that are hit within this share of a step are hit together.
 constexpr double kTogether = 0.01;
@@ -175,10 +176,12 @@ private:
         }
         const GapBody &a = scratch_.bodies[rows_[0].a], &b = scratch_.bodies[rows_[0].b];
         GapBody afterA = a, afterB = b;
+        double fastest = 0.0;
+        for (const Impact& impact : hits_) fastest = std::max(fastest, impact.velocity.norm());
         for (int sweep = 0; sweep < kMostPairSweeps; ++sweep) {
             double residual = 0.0;
             for (GapRow& row : rows_) residual = std::max(residual, visitRow(row, afterA, afterB));
-            if (residual < 1e-12 * settings_.gravity.norm() * dt_ + 1e-15) break;
+            if (residual <= kPairIsSolved * fastest) break;
         }
         double work = 0.0;
         for (const GapRow& row : rows_) {

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/dynamics/gap_lanes.h"
 #include "core/dynamics/gap_levels.h"
 
 namespace scree {
@@ -24,6 +25,10 @@ namespace {
 /// 800 rows no more than the settings say.
 constexpr std::size_t kSpareVisits = 30000, kSpareRows = 160;
 constexpr int kMostSweeps = 400;
+
+/// What a sweep may still change, as a share of what gravity does in a step, and of what the first
+/// sweep changed.
+constexpr double kEnough = 1e-7, kLeftToNextStep = 1e-2;
 
 void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
 {
@@ -70,6 +75,7 @@ void forRows(GapScratch& scratch, const GapIsland& island, const Visit& visit)
 /// One sweep up and one down; answers the largest change of a normal velocity [m/s].
 double sweep(GapScratch& scratch, const GapIsland& island)
 {
+    forRows(scratch, island, [](GapRow& row) { row.before = row.impulse; });
     double residual = 0.0;
     const auto solve = [&](GapRow& row) {
         const double changed = visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]);
@@ -107,19 +113,60 @@ double goOn(GapScratch& scratch, const GapIsland& island, double energyBefore)
     return energy;
 }
 
-void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
-                 const GapIsland& island)
+/// The plain twin of GapLanes, for one row after the other.
+class PlainRows {
+public:
+    PlainRows(GapScratch& scratch, const GapIsland& island) : scratch_(scratch), island_(island)
+    {
+        forRows(scratch_, island_, [](GapRow& row) { row.way = Vec3::Zero(); });
+    }
+    double sweep() { return scree::sweep(scratch_, island_); }
+    double goOn(double energyBefore) { return scree::goOn(scratch_, island_, energyBefore); }
+
+private:
+    GapScratch& scratch_;
+    const GapIsland& island_;
+};
+
+/// Until a sweep changes next to nothing, or a hundredth of what the first one changed: the rest is
+/// left to the next step, which begins with what this one found.
+template <class Rows>
+void solve(const StepSettings& settings, double dt, const GapIsland& island, Rows& rows)
 {
-    const double enough = 1e-7 * settings.gravity.norm() * dt + 1e-15;
+    double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
     const int most = mostSweeps(settings, island);
-    forRows(scratch, island, [](GapRow& row) { row.way = Vec3::Zero(); });
     double energy = 0.0;
     for (int done = 1;; ++done) {
-        forRows(scratch, island, [](GapRow& row) { row.before = row.impulse; });
-        const double residual = sweep(scratch, island);
+        const double residual = rows.sweep();
+        if (done == 1) enough = std::max(enough, kLeftToNextStep * residual);
         if (residual <= enough || done >= most) return;
-        energy = goOn(scratch, island, energy);
+        energy = rows.goOn(energy);
     }
+}
+
+bool resistsRolling(const GapScratch& scratch, const GapIsland& island)
+{
+    for (std::size_t i : island.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            if (scratch.rows[r].rollingArm > 0.0 || scratch.rows[r].spinningArm > 0.0) return true;
+        }
+    }
+    return false;
+}
+
+void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
+                 const GapIsland& island, std::vector<LaneBody>& laneBodies)
+{
+    if (resistsRolling(scratch, island)) {
+        PlainRows rows(scratch, island);
+        solve(settings, dt, island, rows);
+        return;
+    }
+    thread_local GapLanes lanes;
+    lanes.build(scratch, island, laneBodies);
+    solve(settings, dt, island, lanes);
+    lanes.store(scratch);
 }
 
 void countImpulses(const GapScratch& scratch, ImpulseCounts& counts)
@@ -219,9 +266,13 @@ ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLeve
         applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b], row.worldImpulse());
     }
     handWeightDown(settings, dt, levels, scratch);
+    std::vector<LaneBody> laneBodies(scratch.bodies.size() + 1);
+    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
+        laneBodies[i] = {scratch.bodies[i].velocity, scratch.bodies[i].spin};
+    }
     parallelFor(scratch.islands.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            solveIsland(settings, dt, scratch, scratch.islands[i]);
+            solveIsland(settings, dt, scratch, scratch.islands[i], laneBodies);
         }
     });
     ImpulseCounts counts;

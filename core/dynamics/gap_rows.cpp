@@ -52,6 +52,28 @@ double surfaceSpeed(const World& world, const GapScratch& scratch, BodyId body, 
     return (b.spin.norm() + dt * (b.inverseInertia * b.torque).norm()) * shape.boundingRadius;
 }
 
+void readOdometers(const World& world, GapScratch& scratch)
+{
+    const std::size_t known = scratch.seenAt.size();
+    scratch.seenAt.resize(world.bodyCount());
+    scratch.odometer.resize(world.bodyCount(), 0.0);
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const Pose pose = world.motion[i].worldFromBody();
+        const Pose& then = scratch.seenAt[i];
+        if (i < known) {
+            const Shape& shape = world.shapeOf(static_cast<BodyId>(i));
+            // The chord of a point at unit distance.
+            const double turned =
+                2.0 * (pose.orientation * then.orientation.conjugate()).vec().norm();
+            scratch.odometer[i] += (pose.position - then.position).norm();
+            const double farthest =
+                shape.isPlane ? std::numeric_limits<double>::infinity() : shape.boundingRadius;
+            if (turned > 0.0) scratch.odometer[i] += turned * farthest;
+        }
+        scratch.seenAt[i] = pose;
+    }
+}
+
 /// Gaps that may close within the step. What both are pulled by alike counts too: one of them may
 /// be held up.
 double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
@@ -224,24 +246,26 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
 {
     const GapBody& a = scratch.bodies[row.a];
     const GapBody& b = scratch.bodies[row.b];
-    const auto response = [&](const Vec3& along, const Vec3& across) {
-        double k = 0.0;
-        if (row.movesA) {
-            k += a.inverseMass * along.dot(across) +
-                 row.rA.cross(along).dot(a.inverseInertia * row.rA.cross(across));
-        }
-        if (row.movesB) {
-            k += b.inverseMass * along.dot(across) +
-                 row.rB.cross(along).dot(b.inverseInertia * row.rB.cross(across));
-        }
-        return k;
-    };
     row.movesA = a.inverseMass > 0.0 && !row.isHeldA;
     row.movesB = b.inverseMass > 0.0 && !row.isHeldB;
     row.tangent = anyTangent(row.normal);
-    const Vec3 t = row.tangent, s = row.secondTangent();
-    row.inverseNormalMass = response(row.normal, row.normal);
-    const double tt = response(t, t), ts = response(t, s), ss = response(s, s);
+
+    // The response in the axes of the row, normal first.
+    Mat3 axes;
+    axes << row.normal, row.tangent, row.secondTangent();
+    Mat3 k = Mat3::Zero();
+    const auto addBody = [&](const GapBody& body, const Vec3& r) {
+        Mat3 arms;
+        for (int axis = 0; axis < 3; ++axis) arms.col(axis) = r.cross(axes.col(axis));
+        k.diagonal().array() += body.inverseMass;
+        k += arms.transpose() * (body.inverseInertia * arms);
+    };
+    if (row.movesA) addBody(a, row.rA);
+    if (row.movesB) addBody(b, row.rB);
+    row.inverseNormalMass = k(0, 0);
+    row.normalIntoFriction[0] = k(1, 0);
+    row.normalIntoFriction[1] = k(2, 0);
+    const double tt = k(1, 1), ts = k(1, 2), ss = k(2, 2);
     const double determinant = tt * ss - ts * ts;
     row.frictionMass[0] = ss / determinant;
     row.frictionMass[1] = -ts / determinant;
@@ -254,6 +278,7 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
 {
     findForces(world, settings, dt, scratch.forces);
     wakeByForces(world, scratch.forces);
+    readOdometers(world, scratch);
     do {
         readBodies(world, scratch);
         findGapPairs(world, dt, scratch);
@@ -262,11 +287,13 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
                 GapPair& pair = scratch.pairs[i];
                 pair.contacts.clear();
                 const auto [a, b] = pair.bodies;
+                const double reach = reachOf(world, scratch, pair.bodies, dt);
+                const double odometer = scratch.odometer[a] + scratch.odometer[b];
+                if (pair.near.isApart(reach, odometer)) continue;
                 const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
                                         world.motion[a].worldFromBody(),
                                         world.motion[b].worldFromBody()};
-                pair.near.findContacts(placed, reachOf(world, scratch, pair.bodies, dt),
-                                       pair.contacts);
+                pair.near.findContacts(placed, reach, pair.contacts, odometer);
             }
         });
     } while (wakeByTouch(world, dt, scratch));

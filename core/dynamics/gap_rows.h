@@ -39,6 +39,7 @@ struct GapRow {
     double inverseNormalMass;
     double frictionMass[3];          ///< inverse of the tangential 2×2 block: tt, ts, ss
     double slideMass;                ///< 1 / largest eigenvalue of that block
+    double normalIntoFriction[2];    ///< tangential velocities by a unit normal impulse
     double rollingArm, spinningArm;  ///< lever arms of the resistance to rolling and spinning [m]
     Vec3 couple;                     ///< of that resistance, on A, world [N m s]
     bool movesA, movesB;    ///< whether its impulses act on the body: not on what cannot be moved,
@@ -76,6 +77,9 @@ struct GapScratch {
     std::vector<BodyPair> candidates;  ///< what it found, without pairs that groups keep apart
     std::vector<AppliedForce> forces;
     std::vector<GapPair> pairs;  ///< sorted by bodies
+    /// Per body: where it was last, and how far its points have moved in all at most [m].
+    std::vector<Pose> seenAt;
+    std::vector<double> odometer;
     std::vector<GapBody> bodies;
     std::vector<GapRow> rows;        ///< pair by pair
     std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top

@@ -62,7 +62,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         around[ends.first].push_back(direction);
         around[ends.second].push_back(-direction);
 
-        ConvexEdge edge{{ends.first, ends.second}, start, direction, length, {}, {}};
+        ConvexEdge edge{{ends.first, ends.second}, start, direction, length, {}, {}, {}};
         for (int side = 0; side < 2; ++side) {
             edge.faceNormal[side] = faceNormal(mesh, both.face[side]);
             const Vec3 across = oppositeCorner(mesh, both.face[side], ends) - start;
@@ -72,6 +72,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         }
         // Convex: each face falls away behind the plane of the other.
         if (edge.intoFace[1].dot(edge.faceNormal[0]) > -kFlat) continue;
+        edge.outward = (edge.faceNormal[0] + edge.faceNormal[1]).normalized();
         edges_.push_back(edge);
         edgeSpheres.push_back({0.5 * (start + end), 0.5 * length});
     }

@@ -24,6 +24,7 @@ struct ConvexEdge {
     double length;                   ///< [m]
     std::array<Vec3, 2> faceNormal;  ///< of its two faces
     std::array<Vec3, 2> intoFace;    ///< unit, in each face, away from the edge
+    Vec3 outward;                    ///< unit, halfway between the normals of its faces
 };
 
 class ContactFeatures {

@@ -9,16 +9,18 @@ namespace scree {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 8;
+constexpr int kCoverDepth = 4;  // at most 16 spheres
 
 }  // namespace
 
 SphereTree::SphereTree(std::span<const Sphere> things) : things_(things.size())
 {
     std::iota(things_.begin(), things_.end(), 0u);
-    if (!things.empty()) build(things, 0, static_cast<std::uint32_t>(things.size()));
+    if (!things.empty()) build(things, 0, static_cast<std::uint32_t>(things.size()), 0);
 }
 
-void SphereTree::build(std::span<const Sphere> things, std::uint32_t begin, std::uint32_t end)
+void SphereTree::build(std::span<const Sphere> things, std::uint32_t begin, std::uint32_t end,
+                       int depth)
 {
     Aabb centres;
     for (std::uint32_t i = begin; i < end; ++i) centres.include(things[things_[i]].centre);
@@ -31,7 +33,9 @@ void SphereTree::build(std::span<const Sphere> things, std::uint32_t begin, std:
     }
     const std::size_t self = nodes_.size();
     nodes_.push_back(node);
-    if (end - begin <= kLeafSize) {
+    const bool isLeaf = end - begin <= kLeafSize;
+    if (depth == kCoverDepth || (depth < kCoverDepth && isLeaf)) cover_.push_back(node.sphere);
+    if (isLeaf) {
         nodes_[self].begin = begin;
         nodes_[self].end = end;
     } else {
@@ -43,8 +47,8 @@ void SphereTree::build(std::span<const Sphere> things, std::uint32_t begin, std:
                              const double ca = things[a].centre[axis], cb = things[b].centre[axis];
                              return ca < cb || (ca == cb && a < b);
                          });
-        build(things, begin, middle);
-        build(things, middle, end);
+        build(things, begin, middle, depth + 1);
+        build(things, middle, end, depth + 1);
     }
     nodes_[self].next = static_cast<std::uint32_t>(nodes_.size());
 }

@@ -36,6 +36,9 @@ public:
         }
     }
 
+    /// A few spheres that together hold everything.
+    std::span<const Sphere> cover() const { return cover_; }
+
 private:
     struct Node {
         Sphere sphere;
@@ -43,10 +46,11 @@ private:
         std::uint32_t next = 0;  // the node after this whole subtree, in depth-first order
     };
 
-    void build(std::span<const Sphere> things, std::uint32_t begin, std::uint32_t end);
+    void build(std::span<const Sphere> things, std::uint32_t begin, std::uint32_t end, int depth);
 
     std::vector<Node> nodes_;  // depth-first
     std::vector<std::uint32_t> things_;
+    std::vector<Sphere> cover_;
 };
 
 }  // namespace scree

@@ -1,0 +1,135 @@
+// Symbols: p a corner in the frame of the body whose surface it nears, n normal out of that
+//          surface, d unit direction of an edge, s and t places along two edges.
+#include "core/collision/feature_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace scree {
+namespace {
+
+/// Where the lines of two edges are closest, inside both.
+struct Crossing {
+    Vec3 onFirst, onSecond, normal;  // normal not oriented
+};
+
+std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double lengthA,
+                                 const Vec3& startB, const Vec3& dB, double lengthB)
+{
+    const double cosine = dA.dot(dB);
+    const double sineSquared = 1.0 - cosine * cosine;
+    if (sineSquared < kParallel * kParallel) return {};
+    const Vec3 between = startA - startB;
+    const double alongA = dA.dot(between), alongB = dB.dot(between);
+    const double s = (cosine * alongB - alongA) / sineSquared;
+    if (s < 0.0 || s > lengthA) return {};
+    const double t = (alongB - cosine * alongA) / sineSquared;
+    if (t < 0.0 || t > lengthB) return {};
+    return Crossing{startA + s * dA, startB + t * dB, dA.cross(dB).normalized()};
+}
+
+}  // namespace
+
+double smallerRadius(const Shape& a, const Shape& b)
+{
+    double smaller = std::numeric_limits<double>::infinity();
+    for (const Shape* shape : {&a, &b}) {
+        if (!shape->isPlane) smaller = std::min(smaller, shape->boundingRadius);
+    }
+    return smaller;
+}
+
+std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t corner,
+                                         double reach, double sharpness,
+                                         std::optional<FeatureContact>& unsupported)
+{
+    const SignedDistance& field = pair.second.distance;
+    const ContactFeatures& features = pair.first.features;
+    const Vec3 p = pair * features.points().col(corner);
+    const auto supports = [&](const Vec3& n) {
+        return features.cornerSupports(corner, pair.rotation.transpose() * n);
+    };
+    const auto refuse = [&](const Vec3& normal, double gap) {
+        if (gap < 0.0) unsupported = FeatureContact{p, normal, gap};
+        return std::nullopt;
+    };
+    if (pair.second.isPlane) {
+        if (p.y() >= reach) return {};
+        return FeatureContact{p, Vec3::UnitY(), p.y()};
+    }
+    const double grid = field.gridValue(p);
+    if (field.solid() || std::abs(grid) >= field.refinementBand()) {
+        if (grid >= reach) return {};
+        const FeatureContact far{p, field.gridGradient(p).normalized(), grid};
+        if (!far.normal.allFinite()) return {};
+        if (supports(far.normal)) return far;
+        if (!field.solid() || grid >= sharpness) return refuse(far.normal, far.gap);
+    }
+    const SignedDistance::Nearest nearest =
+        field.solid() ? SignedDistance::Nearest{grid, p, true, field.gridGradient(p)}
+                      : field.nearest(p);
+    if (nearest.value >= reach) return {};
+    const bool isAtEdge = !nearest.onFace && nearest.value < sharpness;
+    if (!isAtEdge) {
+        const Vec3 direct =
+            nearest.onFace ? nearest.normal : Vec3((p - nearest.point) / nearest.value);
+        if (supports(direct)) return FeatureContact{p, direct, nearest.value};
+        if (nearest.value >= sharpness) return {};  // it passes beside: edges meet there, if any
+    }
+
+    // Corners of aligned blocks lie within rounding of several faces, of which only one can be
+    // stood on, and just off an edge the shortest way to it may point anywhere. Among the faces
+    // about as near take the one that has least to give way.
+    thread_local std::vector<NearFace> faces;
+    faces.clear();
+    field.facesNear(p, std::max(4.0 * std::abs(nearest.value), sharpness), faces);
+    std::optional<FeatureContact> best;
+    for (const NearFace& face : faces) {
+        if (best && face.height <= best->gap) continue;
+        if (supports(face.normal)) best = FeatureContact{p, face.normal, face.height};
+    }
+    if (!best) return refuse(nearest.normal, nearest.value);
+    return best;
+}
+
+std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,
+                                        std::int32_t ofSecond, double reach, double sharpness)
+{
+    const ConvexEdge& a = pair.first.features.edges()[ofFirst];
+    const ConvexEdge& b = pair.second.features.edges()[ofSecond];
+    const std::optional<Crossing> at = crossing(pair * a.start, pair.rotation * a.direction,
+                                                a.length, b.start, b.direction, b.length);
+    if (!at) return {};
+    const Vec3 n = at->normal.dot(b.outward) >= 0.0 ? at->normal : Vec3(-at->normal);
+    const double gap = n.dot(at->onFirst - at->onSecond);
+    if (gap >= reach) return {};
+    if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
+    if (gap >= -sharpness) return FeatureContact{at->onFirst, n, gap};
+
+    // Two edges of solids that overlap elsewhere may pass each other anywhere inside. If these are
+    // what overlaps, the first edge is about as deep as the faces beside the second make it.
+    if (gap < -deepestEdges(pair)) return {};
+    const double expected = gap * std::max(n.dot(b.faceNormal[0]), n.dot(b.faceNormal[1]));
+    if (pair.second.distance.value(at->onFirst) > 0.5 * expected) return {};
+    return FeatureContact{at->onFirst, n, gap};
+}
+
+bool isBall(const Shape& shape)
+{
+    const ExactSolid* solid = shape.distance.solid();
+    return solid && solid->form() == ExactSolid::Form::sphere;
+}
+
+std::optional<FeatureContact> faceBall(const RelativePair& pair, double reach)
+{
+    const double radius = pair.first.distance.solid()->half().x();
+    const SignedDistance& field = pair.second.distance;
+    const double gap = field.value(pair.translation) - radius;
+    if (gap >= reach) return {};
+    const Vec3 n = field.gridGradient(pair.translation).normalized();
+    return FeatureContact{pair.translation - radius * n, n, gap};
+}
+
+}  // namespace scree

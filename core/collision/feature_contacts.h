@@ -1,0 +1,93 @@
+// How one feature of a body faces another: a corner or a ball a surface, an edge an edge. Each
+// answers a place, a normal and a gap, or nothing when the two are no contact.  [A7, A8]
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "core/geometry/shape.h"
+
+namespace scree {
+
+/// Nearer to an edge or corner than this share of the smaller body, the faces beside it decide the
+/// normal: an edge is no sharper than that.
+inline constexpr double kSharpness = 1e-3;
+
+/// Edges closer to parallel than this meet nowhere in particular: their ends speak for them [-].
+inline constexpr double kParallel = 1e-3;
+
+/// Two shapes in the frame of the second.
+struct RelativePair {
+    const Shape& first;
+    const Shape& second;
+    Mat3 rotation;     ///< second from first
+    Vec3 translation;  ///< [m]
+
+    RelativePair reversed() const
+    {
+        const Mat3 back = rotation.transpose();
+        return {second, first, back, -(back * translation)};
+    }
+    Vec3 operator*(const Vec3& point) const { return rotation * point + translation; }
+};
+
+/// Edges deeper in each other than this are not what touches [m]: in a deep overlap every far edge
+/// "interferes", and the corners inside tell the way out.
+inline double deepestEdges(const RelativePair& pair)
+{
+    return 0.25 * std::min(pair.first.innerThickness, pair.second.innerThickness);
+}
+
+/// In the frame of the second shape.
+struct FeatureContact {
+    Vec3 point;   ///< on the first [m]
+    Vec3 normal;  ///< out of the second
+    double gap;   ///< [m]
+};
+
+/// Bounding radius of the smaller shape [m]; planes have none.
+double smallerRadius(const Shape& a, const Shape& b);
+
+/// A corner of the first shape and the surface of the second, when nearer than `reach`. A corner
+/// whose surroundings would have to pass through the surface first is no contact; if it lies inside
+/// all the same, `unsupported` is filled.
+std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t corner,
+                                         double reach, double sharpness,
+                                         std::optional<FeatureContact>& unsupported);
+
+/// An edge of either, when their gap is below `reach`.
+std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,
+                                        std::int32_t ofSecond, double reach, double sharpness);
+
+bool isBall(const Shape& shape);
+
+/// An exact ball touches with whatever of it is nearest: one place, never a corner.
+std::optional<FeatureContact> faceBall(const RelativePair& pair, double reach);
+
+struct Segment {
+    Vec3 start, direction;  ///< unit
+    double length;          ///< [m]
+};
+
+struct SegmentGap {
+    double distance;  ///< [m]; where they are nearly parallel a hair less
+    Vec3 between;     ///< from the nearest point of the second to that of the first [m]
+};
+
+inline SegmentGap segmentGap(const Segment& a, const Segment& b)
+{
+    const Vec3 between = a.start - b.start;
+    const double cosine = a.direction.dot(b.direction);
+    const double alongA = a.direction.dot(between), alongB = b.direction.dot(between);
+    const double sineSquared = 1.0 - cosine * cosine;
+    const bool isParallel = sineSquared < kParallel * kParallel;
+    double s =
+        isParallel ? 0.0 : std::clamp((cosine * alongB - alongA) / sineSquared, 0.0, a.length);
+    const double t = std::clamp(alongB + s * cosine, 0.0, b.length);
+    s = std::clamp(t * cosine - alongA, 0.0, a.length);
+    const Vec3 nearest = between + s * a.direction - t * b.direction;
+    return {nearest.norm() - (isParallel ? kParallel * a.length : 0.0), nearest};
+}
+
+}  // namespace scree

@@ -1,0 +1,231 @@
+// Symbols: u relative velocity at a row along normal n, tangents t and s; j its impulse.
+#include "core/dynamics/gap_lanes.h"
+
+#include <algorithm>
+
+namespace scree {
+
+/// The bodies of a batch, in registers while its rows are visited.
+struct GapLanes::Motion {
+    Lanes3 vA, wA, vB, wB;
+
+    Motion(const Batch& batch, const std::vector<LaneBody>& bodies)
+    {
+        const auto gather = [&](const Side& side, Vec3 LaneBody::*part) {
+            return Lanes3::of(bodies[side.body[0]].*part, bodies[side.body[1]].*part,
+                              bodies[side.body[2]].*part, bodies[side.body[3]].*part);
+        };
+        vA = gather(batch.a, &LaneBody::velocity);
+        wA = gather(batch.a, &LaneBody::spin);
+        vB = gather(batch.b, &LaneBody::velocity);
+        wB = gather(batch.b, &LaneBody::spin);
+    }
+    void store(const Batch& batch, std::vector<LaneBody>& bodies) const
+    {
+        for (int lane = 0; lane < kLanes; ++lane) {
+            if (batch.a.isMovable[lane]) bodies[batch.a.body[lane]] = {vA.get(lane), wA.get(lane)};
+            if (batch.b.isMovable[lane]) bodies[batch.b.body[lane]] = {vB.get(lane), wB.get(lane)};
+        }
+    }
+};
+
+void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
+                     std::vector<LaneBody>& bodies)
+{
+    bodies_ = &bodies;
+    schedule(scratch, island);
+    rows_.clear();
+    for (Batch& batch : batches_) fill(scratch, batch);
+}
+
+/// Every pair goes into the first batch after those of the pairs before it that share a body with
+/// it: the outcome of a sweep is that of visiting the pairs one by one.
+void GapLanes::schedule(const GapScratch& scratch, const GapIsland& island)
+{
+    batches_.clear();
+    lanesUsed_.clear();
+    firstFree_.resize(bodies_->size(), 0);
+    const auto dummy = static_cast<std::int32_t>(bodies_->size() - 1);
+    for (std::size_t i : island.pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        const bool movesA = scratch.bodies[a].inverseMass > 0.0;
+        const bool movesB = scratch.bodies[b].inverseMass > 0.0;
+        std::int32_t place = std::max(movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0);
+        const auto count = static_cast<std::int32_t>(batches_.size());
+        while (place < count && lanesUsed_[place] == kLanes) ++place;
+        if (place == count) {
+            Batch& batch = batches_.emplace_back();
+            for (int lane = 0; lane < kLanes; ++lane) {
+                batch.pair[lane] = -1;
+                batch.a.body[lane] = batch.b.body[lane] = dummy;
+                batch.a.isMovable[lane] = batch.b.isMovable[lane] = false;
+            }
+            lanesUsed_.push_back(0);
+        }
+        Batch& batch = batches_[place];
+        const int lane = lanesUsed_[place]++;
+        batch.pair[lane] = static_cast<std::int32_t>(i);
+        batch.a.body[lane] = a;
+        batch.b.body[lane] = b;
+        batch.a.isMovable[lane] = movesA;
+        batch.b.isMovable[lane] = movesB;
+        if (movesA) firstFree_[a] = place + 1;
+        if (movesB) firstFree_[b] = place + 1;
+    }
+    for (std::size_t i : island.pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        firstFree_[a] = firstFree_[b] = 0;
+    }
+}
+
+void GapLanes::fill(const GapScratch& scratch, Batch& batch)
+{
+    std::size_t count = 0;
+    for (std::int32_t p : batch.pair) {
+        if (p >= 0) count = std::max(count, scratch.pairs[p].end - scratch.pairs[p].begin);
+    }
+    batch.begin = rows_.size();
+    batch.end = batch.begin + count;
+    rows_.resize(batch.end);
+    for (int lane = 0; lane < kLanes; ++lane) {
+        if (batch.pair[lane] < 0) continue;
+        const GapPair& pair = scratch.pairs[batch.pair[lane]];
+        const GapRow& any = scratch.rows[pair.begin];
+        const auto place = [&](Side& side, const GapBody& body, bool moves) {
+            if (!moves) return;
+            side.inverseMass[lane] = body.inverseMass;
+            side.inverseInertia.set(lane, body.inverseInertia);
+        };
+        place(batch.a, scratch.bodies[any.a], any.movesA);
+        place(batch.b, scratch.bodies[any.b], any.movesB);
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            const GapRow& from = scratch.rows[r];
+            Row& row = rows_[batch.begin + (r - pair.begin)];
+            row.rA.set(lane, from.rA);
+            row.rB.set(lane, from.rB);
+            row.normal.set(lane, from.normal);
+            row.tangent.set(lane, from.tangent);
+            row.second.set(lane, from.secondTangent());
+            row.target[lane] = from.target;
+            row.friction[lane] = from.friction;
+            row.normalMass[lane] = 1.0 / from.inverseNormalMass;
+            row.inverseNormalMass[lane] = from.inverseNormalMass;
+            row.turnsIntoTangent[lane] = from.normalIntoFriction[0];
+            row.turnsIntoSecond[lane] = from.normalIntoFriction[1];
+            row.massTt[lane] = from.frictionMass[0];
+            row.massTs[lane] = from.frictionMass[1];
+            row.massSs[lane] = from.frictionMass[2];
+            row.slideMass[lane] = from.slideMass;
+            row.inverseSlideMass[lane] = 1.0 / from.slideMass;
+            row.impulse.set(lane, from.impulse);
+        }
+    }
+}
+
+/// `change` of the impulse, along normal and tangents.
+inline void GapLanes::apply(const Row& row, const Batch& batch, const Lanes3& change,
+                            Motion& motion)
+{
+    const Lanes3 j = change.x * row.normal + change.y * row.tangent + change.z * row.second;
+    motion.vA += batch.a.inverseMass * j;
+    motion.wA += batch.a.inverseInertia * cross(row.rA, j);
+    motion.vB -= batch.b.inverseMass * j;
+    motion.wB -= batch.b.inverseInertia * cross(row.rB, j);
+}
+
+/// visitRow without branches; friction sees what the normal impulse changes without that having
+/// been applied.
+inline Lanes GapLanes::visit(Row& row, const Batch& batch, Motion& motion) const
+{
+    const Lanes3 u = motion.vA + cross(motion.wA, row.rA) - motion.vB - cross(motion.wB, row.rB);
+    const Lanes3 old = row.impulse;
+    const Lanes un = dot(u, row.normal);
+    const Lanes normal = maxOf(kNoLanes, old.x - (un - row.target) * row.normalMass);
+    const Lanes pushed = normal - old.x;
+
+    const Lanes ut = dot(u, row.tangent) + pushed * row.turnsIntoTangent;
+    const Lanes us = dot(u, row.second) + pushed * row.turnsIntoSecond;
+    const Lanes stickT = old.y - (row.massTt * ut + row.massTs * us);
+    const Lanes stickS = old.z - (row.massTs * ut + row.massSs * us);
+    const Lanes limit = row.friction * normal;
+    const auto slides = stickT * stickT + stickS * stickS > limit * limit;
+    const Lanes slideT = old.y - row.slideMass * ut, slideS = old.z - row.slideMass * us;
+    const Lanes length = sqrtOf(slideT * slideT + slideS * slideS);
+    const Lanes shorter = length > limit ? limit / length : lanesOf(1.0);
+    row.impulse = {normal, slides ? shorter * slideT : stickT, slides ? shorter * slideS : stickS};
+    apply(row, batch, row.impulse - old, motion);
+    return absOf(pushed) * row.inverseNormalMass;
+}
+
+double GapLanes::sweep()
+{
+    Lanes residual = kNoLanes;
+    for (const Batch& batch : batches_) {
+        Motion motion(batch, *bodies_);
+        for (std::size_t r = batch.begin; r < batch.end; ++r) {
+            rows_[r].before = rows_[r].impulse;
+            residual = maxOf(residual, visit(rows_[r], batch, motion));
+        }
+        motion.store(batch, *bodies_);
+    }
+    energy_ = kNoLanes;
+    for (std::size_t place = batches_.size(); place-- > 0;) {
+        const Batch& batch = batches_[place];
+        Motion motion(batch, *bodies_);
+        for (std::size_t r = batch.end; r-- > batch.begin;) {
+            Row& row = rows_[r];
+            residual = maxOf(residual, visit(row, batch, motion));
+            const Lanes3 d = row.impulse - row.before;
+            energy_ +=
+                row.inverseNormalMass * d.x * d.x + (d.y * d.y + d.z * d.z) * row.inverseSlideMass;
+        }
+        motion.store(batch, *bodies_);
+    }
+    return largestOf(residual);
+}
+
+double GapLanes::goOn(double energyBefore)
+{
+    const double energy = sumOf(energy_);
+    const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
+    const bool beginsAnew = beta > 1.0;  // the active set has changed
+    for (const Batch& batch : batches_) {
+        Motion motion(batch, *bodies_);
+        for (std::size_t r = batch.begin; r < batch.end; ++r) {
+            Row& row = rows_[r];
+            if (beginsAnew) {
+                row.way = Lanes3{};
+                continue;
+            }
+            const Lanes3 step = lanesOf(beta) * row.way;
+            row.way = step + (row.impulse - row.before);
+            row.impulse += step;
+            apply(row, batch, step, motion);
+        }
+        motion.store(batch, *bodies_);
+    }
+    return energy;
+}
+
+void GapLanes::store(GapScratch& scratch) const
+{
+    const auto hand = [&](const Side& side, int lane) {
+        if (!side.isMovable[lane]) return;
+        const LaneBody& body = (*bodies_)[side.body[lane]];
+        scratch.bodies[side.body[lane]].velocity = body.velocity;
+        scratch.bodies[side.body[lane]].spin = body.spin;
+    };
+    for (const Batch& batch : batches_) {
+        for (int lane = 0; lane < kLanes; ++lane) {
+            if (batch.pair[lane] < 0) continue;
+            hand(batch.a, lane);
+            hand(batch.b, lane);
+            const GapPair& pair = scratch.pairs[batch.pair[lane]];
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                scratch.rows[r].impulse = rows_[batch.begin + (r - pair.begin)].impulse.get(lane);
+            }
+        }
+    }
+}
+
+}  // namespace scree

@@ -1,0 +1,70 @@
+// The rows of an island four pairs abreast: the fast twin of visitRow. Pairs that share no movable
+// body do not see each other's impulses, so visiting them at once is visiting them in order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/dynamics/gap_rows.h"
+#include "core/math/lanes.h"
+
+namespace scree {
+
+/// What the rows of an island change, one cache line a body.
+struct alignas(64) LaneBody {
+    Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+};
+
+class GapLanes {
+public:
+    /// Lays the rows of an island out; none may resist rolling. `bodies` are those of the world,
+    /// and one more that no row has.
+    void build(const GapScratch& scratch, const GapIsland& island, std::vector<LaneBody>& bodies);
+
+    /// One sweep up and one down; answers the largest change of a normal velocity [m/s].
+    double sweep();
+
+    /// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].
+    /// Answers the energy of that change, to be handed in next time; 0 begins anew.
+    double goOn(double energyBefore);
+
+    /// Hands impulses and velocities back to rows and bodies.
+    void store(GapScratch& scratch) const;
+
+private:
+    struct Row {
+        Lanes3 rA, rB, normal, tangent, second;
+        Lanes target = kNoLanes, friction = kNoLanes;
+        Lanes normalMass = kNoLanes, inverseNormalMass = kNoLanes;
+        Lanes turnsIntoTangent = kNoLanes,
+              turnsIntoSecond = kNoLanes;  // velocity by a unit normal impulse
+        Lanes massTt = kNoLanes, massTs = kNoLanes, massSs = kNoLanes, slideMass = kNoLanes,
+              inverseSlideMass = kNoLanes;
+        Lanes3 impulse, before, way;  // along normal, tangent, second
+    };
+    struct Side {
+        std::int32_t body[kLanes];
+        bool isMovable[kLanes];
+        Lanes inverseMass = kNoLanes;
+        SymmetricLanes inverseInertia;
+    };
+    struct Batch {
+        Side a, b;
+        std::int32_t pair[kLanes];  // index into GapScratch::pairs, −1 for none
+        std::size_t begin = 0, end = 0;
+    };
+    struct Motion;
+
+    void schedule(const GapScratch& scratch, const GapIsland& island);
+    void fill(const GapScratch& scratch, Batch& batch);
+    Lanes visit(Row& row, const Batch& batch, Motion& motion) const;
+    static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
+
+    std::vector<LaneBody>* bodies_ = nullptr;
+    std::vector<Batch> batches_;
+    std::vector<std::int32_t> lanesUsed_, firstFree_;
+    std::vector<Row> rows_;
+    Lanes energy_ = kNoLanes;
+};
+
+}  // namespace scree

@@ -1,0 +1,151 @@
+// The fast kernels of method `scree` beside their plain twins: what a pair remembers changes no
+// contact, and rows abreast are rows one by one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/collision/near_features.h"
+#include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_lanes.h"
+#include "core/geometry/primitives.h"
+#include "core/math/rotation.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+/// Uniform in −1 … 1.
+double signedUnit(std::uint64_t stream, std::uint64_t index)
+{
+    return 2.0 * randomUnit(7, stream, index) - 1.0;
+}
+
+Vec3 signedUnits(std::uint64_t stream, std::uint64_t first)
+{
+    return {signedUnit(stream, first), signedUnit(stream, first + 1),
+            signedUnit(stream, first + 2)};
+}
+
+bool sameContacts(const std::vector<GapContact>& p, const std::vector<GapContact>& q)
+{
+    return std::equal(
+        p.begin(), p.end(), q.begin(), q.end(), [](const GapContact& a, const GapContact& b) {
+            return a.feature == b.feature && a.gap == b.gap && a.rA == b.rA && a.normal == b.normal;
+        });
+}
+
+/// Rings tumble into, through and past rings and a pole, with reaches that grow and shrink: edges
+/// that were apart cross, and what was not noted comes near.
+TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const auto pole = buildMeshShape("pole", makeCylinder(0.25, 8.0, 20, 21));
+    std::size_t contacts = 0, skipped = 0;
+    for (std::uint64_t run = 0; run < 120; ++run) {
+        const Shape& other = run % 3 ? *ring : *pole;
+        Pose a{1.5 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
+        Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
+        const Vec3 step = 0.02 * signedUnits(run, 9), turnA = 0.02 * signedUnits(run, 12),
+                   turnB = 0.01 * signedUnits(run, 15);
+        NearFeatures remembering;
+        double odometer = 0.0;
+        for (std::uint64_t i = 0; i < 60; ++i) {
+            a.position += step;
+            a.orientation = rotated(a.orientation, turnA);
+            b.orientation = rotated(b.orientation, turnB);
+            odometer += step.norm() + turnA.norm() * ring->boundingRadius +
+                        turnB.norm() * other.boundingRadius;
+            const double reach = 0.01 + 0.03 * std::abs(signedUnit(run, 20 + i));
+            const PlacedPair placed{ring.get(), &other, a, b};
+            std::vector<GapContact> remembered, fresh;
+            const bool isApart = remembering.isApart(reach, odometer);
+            if (!isApart) remembering.findContacts(placed, reach, remembered, odometer);
+            NearFeatures().findContacts(placed, reach, fresh);
+            ASSERT_TRUE(sameContacts(remembered, fresh)) << run << ' ' << i << ' ' << isApart;
+            contacts += fresh.size();
+            skipped += isApart;
+        }
+    }
+    EXPECT_GT(contacts, 1000u);
+    EXPECT_GT(skipped, 1000u);
+}
+
+GapScratch randomHeap(std::uint64_t seed)
+{
+    constexpr int kBodies = 12, kPairs = 30;
+    GapScratch scratch;
+    scratch.bodies.resize(kBodies);
+    for (std::size_t i = 0; i < kBodies; ++i) {
+        GapBody& body = scratch.bodies[i];
+        body.velocity = signedUnits(seed, 100 * i);
+        body.spin = signedUnits(seed, 100 * i + 3);
+        // Two cannot be moved; they may share a batch with themselves.
+        body.inverseMass = i < 2 ? 0.0 : 1.5 + signedUnit(seed, 100 * i + 6);
+        const Mat3 turned = exponentialMap(signedUnits(seed, 100 * i + 7)).toRotationMatrix();
+        const Vec3 moments = Vec3(2.0, 3.0, 4.0) * (i < 2 ? 0.0 : 1.0);
+        body.inverseInertia = turned * moments.asDiagonal() * turned.transpose();
+    }
+    GapIsland island;
+    for (std::uint64_t p = 0; p < kPairs; ++p) {
+        const auto a = static_cast<BodyId>(randomIndex(kBodies, seed, 1, p));
+        const auto b = static_cast<BodyId>(2 + randomIndex(kBodies - 2, seed, 2, p));
+        if (a == b) continue;
+        GapPair pair;
+        pair.bodies = {a, b};
+        pair.begin = scratch.rows.size();
+        pair.end = pair.begin + 1 + randomIndex(5, seed, 3, p);
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            GapRow row{};
+            row.a = a;
+            row.b = b;
+            row.rA = signedUnits(seed, 5000 + 20 * r);
+            row.rB = signedUnits(seed, 5003 + 20 * r);
+            row.normal = signedUnits(seed, 5006 + 20 * r).normalized();
+            row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
+            row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
+            prepareRow(scratch, row);
+            scratch.rows.push_back(row);
+        }
+        island.pairs.push_back(scratch.pairs.size());
+        scratch.pairs.push_back(pair);
+    }
+    scratch.islands = {island};
+    return scratch;
+}
+
+TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        GapScratch plain = randomHeap(seed), abreast = plain;
+        std::vector<LaneBody> bodies(abreast.bodies.size() + 1);
+        for (std::size_t i = 0; i < abreast.bodies.size(); ++i) {
+            bodies[i] = {abreast.bodies[i].velocity, abreast.bodies[i].spin};
+        }
+        GapLanes lanes;
+        lanes.build(abreast, abreast.islands[0], bodies);
+        for (int sweep = 0; sweep < 3; ++sweep) {
+            double residual = 0.0;
+            const auto visit = [&](std::size_t r) {
+                GapRow& row = plain.rows[r];
+                residual =
+                    std::max(residual, visitRow(row, plain.bodies[row.a], plain.bodies[row.b]));
+            };
+            for (std::size_t r = 0; r < plain.rows.size(); ++r) visit(r);
+            for (std::size_t r = plain.rows.size(); r-- > 0;) visit(r);
+            EXPECT_NEAR(lanes.sweep(), residual, 1e-11);
+        }
+        lanes.store(abreast);
+        // Friction sees the normal impulse in another order of operations: rounding, not more.
+        for (std::size_t r = 0; r < plain.rows.size(); ++r) {
+            EXPECT_NEAR((plain.rows[r].impulse - abreast.rows[r].impulse).norm(), 0.0, 1e-11);
+        }
+        for (std::size_t i = 0; i < plain.bodies.size(); ++i) {
+            EXPECT_NEAR((plain.bodies[i].velocity - abreast.bodies[i].velocity).norm(), 0.0, 1e-11);
+            EXPECT_NEAR((plain.bodies[i].spin - abreast.bodies[i].spin).norm(), 0.0, 1e-11);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace scree::test
