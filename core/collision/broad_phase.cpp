@@ -67,9 +67,11 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
     std::nth_element(edges_.begin(), middle, edges_.end());
     const double cellSize = std::max(2.0 * *middle, 1e-12);
 
+    firstCells_.resize(boxes.size());
     for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
         if (boxes[body].isEmpty()) continue;
         const CellRange range = cellsOf(boxes[body], cellSize);
+        firstCells_[body] = range.first;
         if (range.count() > kMostCells) {
             large_.push_back(body);
             continue;
@@ -90,7 +92,13 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
         std::size_t end = begin;
         while (end < entries_.size() && entries_[end].cell == entries_[begin].cell) ++end;
         for (std::size_t i = begin; i < end; ++i) {
-            for (std::size_t j = i + 1; j < end; ++j) report(entries_[i].body, entries_[j].body);
+            for (std::size_t j = i + 1; j < end; ++j) {
+                // Boxes that share several cells meet in the first of them.
+                const auto &p = firstCells_[entries_[i].body], &q = firstCells_[entries_[j].body];
+                const std::uint64_t first =
+                    keyOf(std::max(p[0], q[0]), std::max(p[1], q[1]), std::max(p[2], q[2]));
+                if (first == entries_[i].cell) report(entries_[i].body, entries_[j].body);
+            }
         }
         begin = end;
     }
@@ -104,7 +112,6 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
     }
 
     std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
     return pairs_;
 }
 

@@ -2,6 +2,7 @@
 // [A14]
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,7 @@ private:
         BodyId body;
     };
     std::vector<Entry> entries_;
+    std::vector<std::array<std::int64_t, 3>> firstCells_;  // of each body
     std::vector<BodyId> large_;
     std::vector<double> edges_;
     std::vector<BodyPair> pairs_;
