@@ -17,7 +17,7 @@ namespace scree {
 namespace {
 
 constexpr std::string_view kMark = "scree distance field\n";
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 constexpr std::string_view kEnding = ".field";
 
 template <class Element>

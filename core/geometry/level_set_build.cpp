@@ -87,8 +87,11 @@ public:
         float voxels = accessor_.getValue(openvdb::Coord(node[0], node[1], node[2]));
         const double h = layout_.spacing;
         const Vec3 p = layout_.node(node[0], node[1], node[2]);
-        if (sides_ && voxels < 0.0f && sides_->at(p) < 0.5) voxels = -voxels;
-        if (std::abs(voxels) < kBandVoxels) return static_cast<float>(h * voxels);
+        // Of the walls of a cavity OpenVDB may keep remnants of a band: far from the mesh, not from
+        // its outside.
+        const bool isBehindWalls = sides_ && voxels < 0.0f;
+        if (isBehindWalls && sides_->at(p) < 0.5) voxels = -voxels;
+        if (!isBehindWalls && std::abs(voxels) < kBandVoxels) return static_cast<float>(h * voxels);
         const double reach = lastDistance_ + (p - lastPoint_).norm();
         const int t = rays_.closestTriangle(p, reach);
         const Vec3 closest = closestOnTriangle(p, mesh_.points.col(mesh_.triangles(0, t)),

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -80,6 +81,39 @@ TEST(E21SignedDistance, ACavityIsOutsideAndWhatLiesInItIsInside)
             ASSERT_EQ(shape->distance.value(p) < 0.0, exact < 0.0) << r;
         }
     }
+}
+
+/// OpenVDB keeps remnants of a band at the walls of a cavity, some voxels off: no distance can
+/// change by more than the way between two nodes.
+TEST(E21SignedDistance, DistancesAtTheWallsOfACavityChangeNoFasterThanTheWay)
+{
+    TriMesh bottle = makeCylinder(1.0, 2.0, 20, 6);
+    TriMesh hollow = makeCylinder(0.8, 1.6, 20, 6);
+    hollow.triangles.row(1).swap(hollow.triangles.row(2));
+    const Eigen::Index points = bottle.points.cols(), faces = bottle.triangles.cols();
+    bottle.points.conservativeResize(3, points + hollow.points.cols());
+    bottle.points.rightCols(hollow.points.cols()) = hollow.points;
+    bottle.triangles.conservativeResize(3, faces + hollow.triangles.cols());
+    bottle.triangles.rightCols(hollow.triangles.cols()) =
+        hollow.triangles.array() + static_cast<int>(points);
+    ShapeSettings settings;
+    settings.storage = FieldStorage::dense;
+    settings.resolution = 72;
+    const auto shape = buildMeshShape("bottle", bottle, settings);
+    const NodeLayout& layout = shape->distance.field().nodes.layout;
+    double worst = 0.0;
+    for (int k = 1; k < layout.count[2]; ++k) {
+        for (int j = 1; j < layout.count[1]; ++j) {
+            for (int i = 1; i < layout.count[0]; ++i) {
+                const double here = shape->distance.gridValue(layout.node(i, j, k));
+                for (const auto& [di, dj, dk] : {std::array{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+                    const Vec3 before = layout.node(i - di, j - dj, k - dk);
+                    worst = std::max(worst, std::abs(here - shape->distance.gridValue(before)));
+                }
+            }
+        }
+    }
+    EXPECT_LE(worst, 1.001 * layout.spacing);
 }
 
 TEST(E21SignedDistance, ABoxIsExactNearItsSurfaceAndWithinHalfAVoxelEverywhere)
