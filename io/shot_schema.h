@@ -37,9 +37,9 @@ struct ShotKey {
     const char* byDefault = "";  ///< as TOML; empty: none
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    bool isOpen = false;              ///< the limits themselves are not allowed
-    const char* choices = "";         ///< of words, "a|b|c"
-    bool isFile = false;              ///< text that names a file relative to the shot
+    bool isOpen = false;       ///< the limits themselves are not allowed
+    const char* choices = "";  ///< of words, "a|b|c"
+    bool isFile = false;       ///< text that names a file relative to the shot
     bool isRequired = false;
     const char* excludes = "";  ///< keys of the same table that cannot stand beside it, "a|b|c"
     const char* help = "";      ///< what it means, what goes wrong at the extremes

@@ -94,8 +94,8 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         outlooks.push_back(outlookOf(world, static_cast<BodyId>(b), remaining));
     }
-    // What is left of the frame is no wish of the motion: steps that had to fit into it would halve,
-    // and halve again.
+    // What is left of the frame is no wish of the motion: steps that had to fit into it would
+    // halve, and halve again.
     const double longest = frameDuration / std::max(settings.substeps.min, 1);
     StepLength limit{longest, StepLimit::frame, -1, false};
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
