@@ -234,12 +234,7 @@ void cutIntoIslands(GapScratch& scratch)
 
 double smallerRadius(const World& world, BodyId a, BodyId b)
 {
-    double smaller = std::numeric_limits<double>::infinity();
-    for (BodyId body : {a, b}) {
-        const Shape& shape = world.shapeOf(body);
-        if (!shape.isPlane) smaller = std::min(smaller, shape.boundingRadius);
-    }
-    return smaller;
+    return smallerRadius(world.shapeOf(a), world.shapeOf(b));
 }
 
 void prepareRow(const GapScratch& scratch, GapRow& row)
