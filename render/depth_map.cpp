@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/check.h"
 
 namespace scree {
 namespace {
@@ -53,16 +57,29 @@ Ramp depthRamp(const Corner& a, const Corner& b, const Corner& c, float area)
     return {a.z() - perX * a.x() - perY * a.y(), perX, perY};
 }
 
+/// Texels of a row that are drawn at once, as many as a register holds.
+constexpr int kBlock = kFewestMapTexels;
+
+float leastOf(float a, float b, float c)
+{
+    return std::min(a, std::min(b, c));
+}
+
+float greatestOf(float a, float b, float c)
+{
+    return std::max(a, std::max(b, c));
+}
+
 void drawTriangle(DepthMap& map, const Corner& a, Corner b, Corner c, float area, float slopeBias)
 {
     const int last = map.size - 1;
     const auto clamped = [&](float value) {
         return static_cast<int>(std::clamp(value, -1.0f, static_cast<float>(map.size)));
     };
-    const int firstX = std::max(clamped(std::ceil(std::min({a.x(), b.x(), c.x()}))), 0);
-    const int lastX = std::min(clamped(std::floor(std::max({a.x(), b.x(), c.x()}))), last);
-    const int firstY = std::max(clamped(std::ceil(std::min({a.y(), b.y(), c.y()}))), 0);
-    const int lastY = std::min(clamped(std::floor(std::max({a.y(), b.y(), c.y()}))), last);
+    const int firstX = std::max(clamped(std::ceil(leastOf(a.x(), b.x(), c.x()))), 0);
+    const int lastX = std::min(clamped(std::floor(greatestOf(a.x(), b.x(), c.x()))), last);
+    const int firstY = std::max(clamped(std::ceil(leastOf(a.y(), b.y(), c.y()))), 0);
+    const int lastY = std::min(clamped(std::floor(greatestOf(a.y(), b.y(), c.y()))), last);
     if (firstX > lastX || firstY > lastY) return;
     if (area < 0.0f) {
         std::swap(b, c);
@@ -74,19 +91,62 @@ void drawTriangle(DepthMap& map, const Corner& a, Corner b, Corner c, float area
     const Ramp depth = depthRamp(a, b, c, area);
     const float bias = slopeBias * std::max(std::abs(depth.perX), std::abs(depth.perY));
     // Far from the triangle's own corners a steep plane is nowhere: its depths stay among theirs.
-    const float least = std::max(std::min({a.z(), b.z(), c.z()}), 0.0f);
+    const float least = std::max(leastOf(a.z(), b.z(), c.z()), 0.0f);
     for (int y = firstY; y <= lastY; ++y) {
         float* row = map.depths.data() + static_cast<std::size_t>(y) * map.size;
         const float e0 = edges[0].at(0, y), e1 = edges[1].at(0, y), e2 = edges[2].at(0, y);
         const float z0 = depth.at(0, y);
-        for (int x = firstX; x <= lastX; ++x) {
-            const float place = static_cast<float>(x);
-            const float inside = std::min({e0 + edges[0].perX * place, e1 + edges[1].perX * place,
-                                           e2 + edges[2].perX * place});
-            const float z = std::max(z0 + depth.perX * place, least) + bias;
-            row[x] = inside >= 0.0f ? std::min(row[x], z) : row[x];
+        // Whole blocks, the last one moved back into the row: most triangles are narrower than a
+        // block, and what is done twice or outside the triangle changes nothing.
+        for (int x = firstX; x <= lastX; x += kBlock) {
+            const int begin = std::min(x, map.size - kBlock);
+            for (int k = begin; k < begin + kBlock; ++k) {
+                const float place = static_cast<float>(k);
+                const float inside = leastOf(e0 + edges[0].perX * place, e1 + edges[1].perX * place,
+                                             e2 + edges[2].perX * place);
+                const float z = std::max(z0 + depth.perX * place, least) + bias;
+                row[k] = inside >= 0.0f ? std::min(row[k], z) : row[k];
+            }
         }
     }
+}
+
+/// The points of a mesh in texels and depths. Only a camera's projection divides.
+std::vector<Corner> cornersOf(const ShadedMesh& mesh, const Mat4& texelFromAsset)
+{
+    const Eigen::Matrix4f single = texelFromAsset.cast<float>();
+    const Eigen::RowVector4f last = single.row(3);
+    const bool isParallel = last == Eigen::RowVector4f(0.0f, 0.0f, 0.0f, 1.0f);
+    std::vector<Corner> corners(mesh.points.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners[i] = single.topLeftCorner<3, 3>() * mesh.points[i] + single.topRightCorner<3, 1>();
+        if (!isParallel) corners[i] /= last.head<3>().dot(mesh.points[i]) + last.w();
+    }
+    return corners;
+}
+
+/// Whether no texel around the corners, and one more each way against rounding, is as deep as the
+/// nearest of them.
+bool isHidden(const DepthMap& map, const std::vector<Corner>& corners)
+{
+    Corner least = Corner::Constant(std::numeric_limits<float>::max()), greatest = -least;
+    for (const Corner& corner : corners) {
+        least = least.cwiseMin(corner);
+        greatest = greatest.cwiseMax(corner);
+    }
+    const auto texel = [&](float place) {
+        return static_cast<int>(std::clamp(place, -2.0f, static_cast<float>(map.size) + 1.0f));
+    };
+    const int firstX = std::max(texel(std::floor(least.x())), 0);
+    const int lastX = std::min(texel(std::ceil(greatest.x())), map.size - 1);
+    const int firstY = std::max(texel(std::floor(least.y())), 0);
+    const int lastY = std::min(texel(std::ceil(greatest.y())), map.size - 1);
+    bool isSeen = false;
+    for (int y = firstY; y <= lastY && !isSeen; ++y) {
+        const float* row = map.depths.data() + static_cast<std::size_t>(y) * map.size;
+        for (int x = firstX; x <= lastX; ++x) isSeen |= row[x] > least.z();
+    }
+    return !isSeen;
 }
 
 /// The weights of the blur; their sum is 1.
@@ -132,17 +192,15 @@ void blurAlong(const std::vector<float>& source, std::vector<float>& target, int
 
 void clearDepths(DepthMap& map, int size)
 {
+    SCREE_CHECK(size >= kFewestMapTexels, "a map of " + std::to_string(size) + " texels");
     map.size = size;
     map.depths.assign(static_cast<std::size_t>(size) * size, 1.0f);
 }
 
-void drawDepths(DepthMap& map, const ShadedMesh& mesh, const Mat4& clipFromAsset, double slopeBias)
+bool drawDepths(DepthMap& map, const ShadedMesh& mesh, const Mat4& clipFromAsset, double slopeBias)
 {
-    const Mat4 exact = texelFromClip(map.size) * clipFromAsset;
-    const Eigen::Matrix<float, 3, 4> texelFromAsset = exact.topRows<3>().cast<float>();
-    std::vector<Corner> corners(mesh.points.size());
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        corners[i] = texelFromAsset.leftCols<3>() * mesh.points[i] + texelFromAsset.col(3);
+    const std::vector<Corner> corners = cornersOf(mesh, texelFromClip(map.size) * clipFromAsset);
+    if (isHidden(map, corners)) return false;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const Corner &a = corners[mesh.indices[i]], &b = corners[mesh.indices[i + 1]],
                      &c = corners[mesh.indices[i + 2]];
@@ -150,6 +208,7 @@ void drawDepths(DepthMap& map, const ShadedMesh& mesh, const Mat4& clipFromAsset
         if (mesh.isClosed ? area > 0.0f : area != 0.0f)
             drawTriangle(map, a, b, c, area, static_cast<float>(slopeBias));
     }
+    return true;
 }
 
 void drawPlaneDepths(DepthMap& map, const PlaneSurface& plane, const Mat4& clipFromWorld)
@@ -168,6 +227,19 @@ void drawPlaneDepths(DepthMap& map, const PlaneSurface& plane, const Mat4& clipF
             row[x] = std::min(row[x], static_cast<float>(std::clamp(z, 0.0, 1.0)));
         }
     }
+}
+
+void openBorder(DepthMap& map)
+{
+    const int last = map.size - 1;
+    const auto clear = [&](int x, int y) {
+        map.depths[static_cast<std::size_t>(y) * map.size + x] = 1.0f;
+    };
+    for (int k = 0; k <= last; ++k)
+        for (const int end : {0, last}) {
+            clear(k, end);
+            clear(end, k);
+        }
 }
 
 DepthBounds boundDepths(const DepthMap& map)

@@ -18,16 +18,25 @@ struct DepthMap {
     std::vector<float> depths;  // size × size
 };
 
+/// No map is smaller: rows are drawn in blocks of so many texels.
+inline constexpr int kFewestMapTexels = 8;
+
 /// A map of that size with nothing in it.
 void clearDepths(DepthMap& map, int size);
 
-/// Draws one body; of a closed mesh only the sides that face the light. `clipFromAsset` must be a
-/// parallel projection. Each triangle is pushed away by `slopeBias` times the depth it spans over a
-/// texel, against surfaces that shade themselves.
-void drawDepths(DepthMap& map, const ShadedMesh& mesh, const Mat4& clipFromAsset, double slopeBias);
+/// Draws one body; of a closed mesh only the sides that face the light. `clipFromAsset` may be a
+/// camera's projection if all of the body is before the camera. Each triangle is pushed away by
+/// `slopeBias` times the depth it spans over a texel, against surfaces that shade themselves. False
+/// if the body is outside of the map, or farther than every texel around its image: then it would
+/// change nothing, and is not drawn.
+bool drawDepths(DepthMap& map, const ShadedMesh& mesh, const Mat4& clipFromAsset, double slopeBias);
 
 /// Draws an infinite plane that faces the light; any other is left out.
 void drawPlaneDepths(DepthMap& map, const PlaneSurface& plane, const Mat4& clipFromWorld);
+
+/// Makes the outermost texels empty, for readers that take the nearest texel of a map for what is
+/// beyond it.
+void openBorder(DepthMap& map);
 
 /// Least and greatest depth of every tile of a map and the tiles around it: where a point is nearer
 /// than the least or farther than the greatest, no texel within a tile's length needs to be asked.

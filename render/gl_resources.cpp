@@ -9,6 +9,7 @@
 #include <array>
 #include <span>
 
+#include "core/base/check.h"
 #include "core/base/error.h"
 #include "render/shaders.h"
 
@@ -23,14 +24,14 @@ void requireComplete(const char* what)
         failInOpenGl(std::string("cannot draw into ") + what);
 }
 
-/// Bilinear filtering; outside the texture everything reads as `border`.
-void setSampling(const std::array<float, 4>& border)
+/// Bilinear filtering; outside the texture everything reads as the nearest texel. A border of
+/// another value would cost a software rasteriser a comparison for every texel it reads.
+void setSampling()
 {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 void attachBuffer(GLuint buffer, GLenum format, GLenum attachment, int width, int height)
@@ -169,20 +170,35 @@ void upload(MapTexture& target, int size, GLint kept, GLenum given,
 void uploadDepths(MapTexture& target, const DepthMap& map)
 {
     upload(target, map.size, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, map.depths);
-    setSampling({1.0f, 1.0f, 1.0f, 1.0f});
+    setSampling();
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
 }
 
-void uploadMoments(MapTexture& target, const DepthMoments& moments)
+void uploadMoments(MapTexture& target, const DepthMoments& near, const DepthMoments& wide)
 {
-    upload(target, moments.size, GL_RG32F, GL_RG, moments.values);
-    setSampling({100.0f, 10000.0f, 0.0f, 0.0f});  // beyond the map everything is far below
+    SCREE_CHECK(near.size == wide.size, "moments of two maps");
+    constexpr std::array<float, 4> kFarBelow = {100.0f, 10000.0f, 100.0f, 10000.0f};
+    const int last = near.size - 1;
+    std::vector<float> values;
+    values.reserve(2 * near.values.size());
+    for (int y = 0; y <= last; ++y) {
+        for (int x = 0; x <= last; ++x) {
+            const std::size_t texel = 2 * (static_cast<std::size_t>(y) * near.size + x);
+            const bool isBorder = x == 0 || y == 0 || x == last || y == last;
+            const std::array<float, 4> four = {near.values[texel], near.values[texel + 1],
+                                               wide.values[texel], wide.values[texel + 1]};
+            const std::array<float, 4>& kept = isBorder ? kFarBelow : four;
+            values.insert(values.end(), kept.begin(), kept.end());
+        }
+    }
+    upload(target, near.size, GL_RGBA32F, GL_RGBA, values);
+    setSampling();
 }
 
 void uploadBounds(MapTexture& target, const DepthBounds& bounds)
 {
     upload(target, bounds.size, GL_RG32F, GL_RG, bounds.values);
-    setSampling({1.0f, 1.0f, 0.0f, 0.0f});  // beyond the map nothing is
+    setSampling();
 }
 
 void resizePicture(PictureTarget& target, int width, int height, int pointsPerEdge)
@@ -196,7 +212,7 @@ void resizePicture(PictureTarget& target, int width, int height, int pointsPerEd
     glBindTexture(GL_TEXTURE_2D, target.pointColors);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, pointWidth, pointHeight, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  nullptr);
-    setSampling({0.0f, 0.0f, 0.0f, 0.0f});
+    setSampling();
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.pointColors,
                            0);
     attachBuffer(target.pointDepths, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT, pointWidth,

@@ -46,13 +46,14 @@ struct MapTexture {
     int size = 0;
 };
 
-/// Depths; reading them gives the share of neighbouring texels that are at least as deep as asked,
-/// 1 outside the map.
+/// Depths; reading them gives the share of neighbouring texels that are at least as deep as asked.
+/// Beyond the map the outermost texels go on: see openBorder().
 void uploadDepths(MapTexture& target, const DepthMap& map);
-
-/// Two numbers a texel; outside the map they say that everything is far below.
-void uploadMoments(MapTexture& target, const DepthMoments& moments);
 void uploadBounds(MapTexture& target, const DepthBounds& bounds);
+
+/// Moments under a narrow and a wide blur, four numbers a texel. The outermost texels, which go on
+/// beyond the map, say that everything is far below.
+void uploadMoments(MapTexture& target, const DepthMoments& near, const DepthMoments& wide);
 
 /// Where a picture is drawn: one or two by two points for each pixel, and then the pixels
 /// themselves.

@@ -106,6 +106,7 @@ Image::Image(int imageWidth, int imageHeight, const Color& fill)
 {
     SCREE_CHECK(width >= 0 && height >= 0, "an image of negative size");
     values.resize(static_cast<std::size_t>(width) * height * 3);
+    if (fill.isZero(0.0f)) return;
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = fill[i % 3];
 }
 
@@ -126,14 +127,22 @@ void Image::set(int x, int y, const Color& color)
     for (int channel = 0; channel < 3; ++channel) values[i + channel] = color[channel];
 }
 
-std::uint8_t encodeSrgb(float linear)
+namespace {
+
+std::uint8_t encoded(const SrgbTable& table, float linear)
 {
-    const SrgbTable& table = srgbTable();
     if (!(linear > 0.0f)) return 0;  // NaN is black too
     const float clamped = std::min(linear, 1.0f);
     int byte = table.firstByte[static_cast<int>(clamped * SrgbTable::kBucketCount)];
     while (table.threshold[byte] <= clamped) ++byte;
     return static_cast<std::uint8_t>(byte);
+}
+
+}  // namespace
+
+std::uint8_t encodeSrgb(float linear)
+{
+    return encoded(srgbTable(), linear);
 }
 
 float decodeSrgb(std::uint8_t encoded)
@@ -143,8 +152,9 @@ float decodeSrgb(std::uint8_t encoded)
 
 std::vector<std::uint8_t> toSrgbBytes(const Image& image)
 {
+    const SrgbTable& table = srgbTable();
     std::vector<std::uint8_t> bytes(image.values.size());
-    std::transform(image.values.begin(), image.values.end(), bytes.begin(), encodeSrgb);
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = encoded(table, image.values[i]);
     return bytes;
 }
 
@@ -153,6 +163,21 @@ Image fromSrgbBytes(int width, int height, std::span<const std::uint8_t> bytes)
     Image image(width, height);
     SCREE_CHECK(bytes.size() == image.values.size(), "bytes do not fill the image");
     std::transform(bytes.begin(), bytes.end(), image.values.begin(), decodeSrgb);
+    return image;
+}
+
+Image fromOpenGl(int width, int height, std::span<const std::uint8_t> bytes)
+{
+    const SrgbTable& table = srgbTable();
+    Image image(width, height);
+    SCREE_CHECK(3 * bytes.size() == 4 * image.values.size(), "bytes do not fill the image");
+    float* value = image.values.data();
+    for (int y = height - 1; y >= 0; --y) {
+        const std::uint8_t* byte = bytes.data() + static_cast<std::size_t>(y) * width * 4;
+        for (int x = 0; x < width; ++x, byte += 4, value += 3)
+            for (int channel = 0; channel < 3; ++channel)
+                value[channel] = table.linear[byte[channel]];
+    }
     return image;
 }
 

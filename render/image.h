@@ -42,6 +42,9 @@ std::vector<std::uint8_t> toSrgbBytes(const Image& image);
 /// The opposite: width × height × 3 sRGB bytes, top row first.
 Image fromSrgbBytes(int width, int height, std::span<const std::uint8_t> bytes);
 
+/// From OpenGL's memory: width × height × 4 sRGB bytes, bottom row first, the fourth ignored.
+Image fromOpenGl(int width, int height, std::span<const std::uint8_t> bytes);
+
 /// The picture at another, smaller or equal size: every new pixel is the mean of the area it
 /// covers.
 Image downscaled(const Image& image, int width, int height);

@@ -26,6 +26,7 @@
 #include "render/depth_map.h"
 #include "render/edge_smoothing.h"
 #include "render/gl_resources.h"
+#include "render/hidden_bodies.h"
 #include "render/shaders.h"
 #include "render/view_fit.h"
 
@@ -40,13 +41,7 @@ constexpr int kWideBlurStride = 4;  // texels between taps of the wide blur
 // Depth a triangle may span over a texel before it shades itself, in texels.
 constexpr double kSlopeBias = 1.5;
 
-enum TextureUnit {
-    kShadowUnit,
-    kShadowBoundsUnit,
-    kNearHeightsUnit,
-    kWideHeightsUnit,
-    kFilterUnit
-};
+enum TextureUnit { kShadowUnit, kShadowBoundsUnit, kHeightsUnit, kFilterUnit };
 
 /// A square from -1 to 1 in x and z whose normal is +y.
 ShadedMesh unitSquare()
@@ -93,11 +88,17 @@ private:
         PlaneSurface surface;
     };
 
+    struct Placed {
+        std::size_t mesh = 0, body = 0;
+    };
+
     /// All that is known of a picture before the first pass.
     struct View {
-        Vec3 origin = Vec3::Zero();  // world place of the camera's target
-        Camera camera;               // from here on, lengths are measured from the origin
-        std::vector<Ball> bodies;
+        Vec3 origin = Vec3::Zero();        // world place of the camera's target
+        Camera camera;                     // from here on, lengths are measured from the origin
+        std::vector<Placed> placed;        // all bodies that are shown but planes
+        std::vector<PlacedMesh> bodies;    // parallel to placed
+        std::vector<Ball> balls;           // parallel to placed
         std::vector<PlaneSurface> planes;  // parallel to planes_
         double distance = 1.0;             // from eye to target
         Mat4 clipFromWorld, worldFromClip;
@@ -109,15 +110,13 @@ private:
     void uploadScene(const SceneDescription& scene);
 
     View measure(const SceneFrame& frame, const Camera& camera, double aspect) const;
-    void placeBodies(const SceneFrame& frame, const View& view);
+    void placeBodies(const View& view, int width, int height);
     void drawBodies() const;
     void drawWires(const View& view) const;
     void drawPlane(std::size_t index, const View& view);
     void drawScreen() const;
-    void drawDepthsOfBodies(const SceneFrame& frame, const View& view, const Mat4& clipFromWorld,
-                            double slopeBias);
-    void drawSunDepths(const SceneFrame& frame, const View& view);
-    void drawSkyHeights(const SceneFrame& frame, const View& view);
+    void drawSunDepths(const View& view);
+    void drawSkyHeights(const View& view);
     void setLight(const Program& program, const View& view) const;
     void drawPicture(const View& view);
     void averagePoints();
@@ -144,7 +143,7 @@ private:
     MeshBuffers square_;
     std::vector<PlaneBody> planes_;
     DepthMap depths_;  // scratch
-    MapTexture sunDepths_, sunBounds_, nearHeights_, wideHeights_;
+    MapTexture sunDepths_, sunBounds_, heights_;
     PictureTarget picture_;
     std::vector<std::uint8_t> bytes_;  // scratch
 };
@@ -227,11 +226,14 @@ Rasterizer::Context::View Rasterizer::Context::measure(const SceneFrame& frame,
     view.camera.target.setZero();
     view.distance = std::max(view.camera.eye.norm(), 1e-6);
 
-    for (const MeshBuffers& mesh : meshes_) {
-        for (const std::size_t body : mesh.bodies) {
-            const Pose& pose = frame.worldFromAsset[body];
-            if (isShown(body, frame))
-                view.bodies.push_back({pose * mesh.ball.centre - view.origin, mesh.ball.radius});
+    for (std::size_t mesh = 0; mesh < meshes_.size(); ++mesh) {
+        for (const std::size_t body : meshes_[mesh].bodies) {
+            if (!isShown(body, frame)) continue;
+            Pose pose = frame.worldFromAsset[body];
+            pose.position -= view.origin;
+            view.placed.push_back({mesh, body});
+            view.bodies.push_back({&casters_[mesh], pose});
+            view.balls.push_back({pose * meshes_[mesh].ball.centre, meshes_[mesh].ball.radius});
         }
     }
     for (const PlaneBody& plane : planes_) {
@@ -240,39 +242,32 @@ Rasterizer::Context::View Rasterizer::Context::measure(const SceneFrame& frame,
             {pose * plane.surface.point - view.origin, pose.orientation * plane.surface.normal});
     }
 
-    const DepthRange range = fitDepth(view.camera, aspect, view.bodies, view.planes,
+    const DepthRange range = fitDepth(view.camera, aspect, view.balls, view.planes,
                                       planes_.empty() ? view.distance : kHazeEnd * view.distance);
     const Points visible = visibleCorners(view.camera, aspect, range);
     view.clipFromWorld = clipFromView(view.camera, aspect, range) * viewFromWorld(view.camera);
     view.worldFromClip = view.clipFromWorld.inverse();
-    view.sun = fitDepthMap(towardSun_, view.bodies, visible, 0.0, 0.0, settings_.shadowTexels);
-    view.sky = fitDepthMap(up_, view.bodies, visible, kSkyMarginShare * typicalRadius_,
+    view.sun = fitDepthMap(towardSun_, view.balls, visible, 0.0, 0.0, settings_.shadowTexels);
+    view.sky = fitDepthMap(up_, view.balls, visible, kSkyMarginShare * typicalRadius_,
                            kSkyTexelShare * typicalRadius_, settings_.skyTexels);
     return view;
 }
 
-/// Bodies nearer to the camera come first: what they hide is then never shaded.
-void Rasterizer::Context::placeBodies(const SceneFrame& frame, const View& view)
+/// Hands OpenGL the bodies that can be seen. Nearer ones come first: what they hide is then never
+/// shaded.
+void Rasterizer::Context::placeBodies(const View& view, int width, int height)
 {
-    std::vector<std::pair<double, std::size_t>> nearToFar;
-    std::vector<float> instances;
-    for (MeshBuffers& mesh : meshes_) {
-        nearToFar.clear();
-        for (const std::size_t body : mesh.bodies) {
-            const Pose& pose = frame.worldFromAsset[body];
-            if (!isShown(body, frame)) continue;
-            const Vec3 place = pose * mesh.ball.centre - view.origin;
-            nearToFar.emplace_back((place - view.camera.eye).squaredNorm(), body);
-        }
-        std::sort(nearToFar.begin(), nearToFar.end());
-        instances.clear();
-        for (const auto& [distance, body] : nearToFar) {
-            const Pose& pose = frame.worldFromAsset[body];
-            appendInstance(instances, pose.orientation.toRotationMatrix(),
-                           pose.position - view.origin, looks_[body]);
-        }
-        if (!mesh.bodies.empty()) uploadInstances(mesh, instances);
+    const PictureMap map = mapOfPicture(view.clipFromWorld, width, height);
+    clearDepths(depths_, map.size);
+    std::vector<std::vector<float>> instances(meshes_.size());
+    for (const std::size_t i :
+         drawNearToFar(depths_, view.bodies, view.balls, map.clipFromWorld, 0.0)) {
+        const Pose& pose = view.bodies[i].worldFromAsset;
+        appendInstance(instances[view.placed[i].mesh], pose.orientation.toRotationMatrix(),
+                       pose.position, looks_[view.placed[i].body]);
     }
+    for (std::size_t mesh = 0; mesh < meshes_.size(); ++mesh)
+        if (!meshes_[mesh].bodies.empty()) uploadInstances(meshes_[mesh], instances[mesh]);
 }
 
 void Rasterizer::Context::drawBodies() const
@@ -321,40 +316,25 @@ void Rasterizer::Context::drawPlane(std::size_t index, const View& view)
     square_.draw();
 }
 
-void Rasterizer::Context::drawDepthsOfBodies(const SceneFrame& frame, const View& view,
-                                             const Mat4& clipFromWorld, double slopeBias)
-{
-    for (std::size_t mesh = 0; mesh < meshes_.size(); ++mesh) {
-        for (const std::size_t body : meshes_[mesh].bodies) {
-            const Pose& pose = frame.worldFromAsset[body];
-            if (!isFinite(pose)) continue;
-            Mat4 worldFromAsset = Mat4::Identity();
-            worldFromAsset.topLeftCorner<3, 3>() = pose.orientation.toRotationMatrix();
-            worldFromAsset.topRightCorner<3, 1>() = pose.position - view.origin;
-            drawDepths(depths_, casters_[mesh], clipFromWorld * worldFromAsset, slopeBias);
-        }
-    }
-}
-
-void Rasterizer::Context::drawSunDepths(const SceneFrame& frame, const View& view)
+void Rasterizer::Context::drawSunDepths(const View& view)
 {
     clearDepths(depths_, view.sun.size);
-    drawDepthsOfBodies(frame, view, view.sun.clipFromWorld, kSlopeBias);
+    drawNearToFar(depths_, view.bodies, view.balls, view.sun.clipFromWorld, kSlopeBias);
+    openBorder(depths_);
     uploadDepths(sunDepths_, depths_);
     uploadBounds(sunBounds_, boundDepths(depths_));
 }
 
 /// Depths seen from above, then their moments under a narrow and a wide blur.
-void Rasterizer::Context::drawSkyHeights(const SceneFrame& frame, const View& view)
+void Rasterizer::Context::drawSkyHeights(const View& view)
 {
     clearDepths(depths_, view.sky.size);
-    drawDepthsOfBodies(frame, view, view.sky.clipFromWorld, 0.0);
+    drawNearToFar(depths_, view.bodies, view.balls, view.sky.clipFromWorld, 0.0);
     for (const PlaneSurface& plane : view.planes)
         if (plane.normal.dot(view.camera.eye - plane.point) > 0.0)  // else it is not seen either
             drawPlaneDepths(depths_, plane, view.sky.clipFromWorld);
     const DepthMoments near = blurred(momentsOf(depths_), 1);
-    uploadMoments(nearHeights_, near);
-    uploadMoments(wideHeights_, blurred(near, kWideBlurStride));
+    uploadMoments(heights_, near, blurred(near, kWideBlurStride));
 }
 
 /// Selects a program and tells it of lights and maps.
@@ -370,8 +350,7 @@ void Rasterizer::Context::setLight(const Program& program, const View& view) con
     program.set("shadowBounds", kShadowBoundsUnit);
     program.set("shadowFromWorld", textureFromWorld(view.sun));
     program.set("shadowTexel", view.sun.texel);
-    program.set("nearHeights", kNearHeightsUnit);
-    program.set("wideHeights", kWideHeightsUnit);
+    program.set("heights", kHeightsUnit);
     program.set("skyFromWorld", textureFromWorld(view.sky));
     program.set("skyDepth", view.sky.depth);
     program.set("bodyRadius", typicalRadius_);
@@ -381,8 +360,7 @@ void Rasterizer::Context::drawPicture(const View& view)
 {
     for (const auto& [unit, texture] : {std::pair(kShadowUnit, sunDepths_.texture),
                                         std::pair(kShadowBoundsUnit, sunBounds_.texture),
-                                        std::pair(kNearHeightsUnit, nearHeights_.texture),
-                                        std::pair(kWideHeightsUnit, wideHeights_.texture)}) {
+                                        std::pair(kHeightsUnit, heights_.texture)}) {
         glActiveTexture(GL_TEXTURE0 + unit);
         glBindTexture(GL_TEXTURE_2D, texture);
     }
@@ -427,21 +405,12 @@ void Rasterizer::Context::averagePoints()
     drawScreen();
 }
 
-/// Fetches the picture and turns OpenGL's rows, bottom first, round.
 Image Rasterizer::Context::readPicture()
 {
     const int width = picture_.width, height = picture_.height;
     bytes_.resize(static_cast<std::size_t>(width) * height * 4);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
-    Image image(width, height);
-    float* value = image.values.data();
-    for (int y = height - 1; y >= 0; --y) {
-        const std::uint8_t* byte = bytes_.data() + static_cast<std::size_t>(y) * width * 4;
-        for (int x = 0; x < width; ++x, byte += 4, value += 3)
-            for (int channel = 0; channel < 3; ++channel)
-                value[channel] = decodeSrgb(byte[channel]);
-    }
-    return image;
+    return fromOpenGl(width, height, bytes_);
 }
 
 Image Rasterizer::Context::draw(const SceneFrame& frame, const Camera& camera, int width,
@@ -460,11 +429,11 @@ Image Rasterizer::Context::draw(const SceneFrame& frame, const Camera& camera, i
                                           std::to_string(largest));
 
     const View view = measure(frame, camera, static_cast<double>(width) / height);
-    placeBodies(frame, view);
+    placeBodies(view, pointsPerEdge_ * width, pointsPerEdge_ * height);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
-    drawSunDepths(frame, view);
-    drawSkyHeights(frame, view);
+    drawSunDepths(view);
+    drawSkyHeights(view);
     resizePicture(picture_, width, height, pointsPerEdge_);
     drawPicture(view);
     if (pointsPerEdge_ > 1) averagePoints();

@@ -118,7 +118,7 @@ uniform sampler2DShadow shadowMap;
 uniform sampler2D shadowBounds;  // least and greatest depth around a tile of the map
 uniform mat4 shadowFromWorld;  // to 0 … 1 in x, y and depth
 uniform float shadowTexel;     // length in the world
-uniform sampler2D nearHeights, wideHeights;  // moments of depth below the sky
+uniform sampler2D heights;  // moments of depth below the sky, nearby and wide around
 uniform mat4 skyFromWorld;
 uniform float skyDepth;    // distance from depth 0 to depth 1
 uniform float bodyRadius;  // of a typical body
@@ -158,10 +158,9 @@ float sunShare(vec3 point, vec3 n, float facing)
 }
 
 // Upper bound of the share of the neighbourhood that is not above the point; `gap` is how far.
-float openShare(sampler2D heights, vec3 s, out float gap)
+float openShare(vec2 moments, float depth, out float gap)
 {
-    vec2 moments = texture(heights, s.xy).xy;
-    float below = min(s.z, 1.0) - moments.x;
+    float below = min(depth, 1.0) - moments.x;
     gap = max(below, 0.0) * skyDepth / bodyRadius;
     float least = 0.04 * bodyRadius / skyDepth;
     float variance = max(moments.y - moments.x * moments.x, least * least);
@@ -173,8 +172,9 @@ float skyShare(vec3 point, vec3 n)
 {
     vec3 s = (skyFromWorld * vec4(point + 0.35 * bodyRadius * n, 1.0)).xyz;
     float nearGap, wideGap;
-    float nearCover = 1.0 - openShare(nearHeights, s, nearGap);
-    float wideCover = 1.0 - openShare(wideHeights, s, wideGap);
+    vec4 moments = texture(heights, s.xy);
+    float nearCover = 1.0 - openShare(moments.xy, s.z, nearGap);
+    float wideCover = 1.0 - openShare(moments.zw, s.z, wideGap);
     return (1.0 - 0.8 * nearCover / (1.0 + 0.3 * nearGap * nearGap)) * (1.0 - 0.85 * wideCover);
 }
 
@@ -188,7 +188,8 @@ float highlight(vec3 n, vec3 v, float facing, float roughness)
     float distribution = a2 / (kPi * lobe * lobe);
     float k = 0.5 * alpha;
     float masking = 0.25 / ((nv * (1.0 - k) + k) * (facing * (1.0 - k) + k));
-    float fresnel = 0.04 + 0.96 * pow(1.0 - vh, 5.0);
+    float away = 1.0 - vh, away2 = away * away;
+    float fresnel = 0.04 + 0.96 * away2 * away2 * away;
     return min(distribution * masking * fresnel, 4.0);
 }
 
