@@ -10,9 +10,10 @@
 namespace scree {
 namespace {
 
-/// Where the lines of two edges are closest, inside both.
+/// Where the lines of two edges are closest.
 struct Crossing {
-    Vec3 onFirst, onSecond, normal;  // normal not oriented
+    Vec3 onFirst, onSecond, normal;    // normal not oriented
+    double beyondFirst, beyondSecond;  // how far past the ends of either edge, ≤ 0 within [m]
 };
 
 std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double lengthA,
@@ -24,10 +25,20 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
     const Vec3 between = startA - startB;
     const double alongA = dA.dot(between), alongB = dB.dot(between);
     const double s = (cosine * alongB - alongA) / sineSquared;
-    if (s < 0.0 || s > lengthA) return {};
     const double t = (alongB - cosine * alongA) / sineSquared;
-    if (t < 0.0 || t > lengthB) return {};
-    return Crossing{startA + s * dA, startB + t * dB, dA.cross(dB).normalized()};
+    return Crossing{startA + s * dA, startB + t * dB, dA.cross(dB).normalized(),
+                    std::max(-s, s - lengthA), std::max(-t, t - lengthB)};
+}
+
+/// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
+/// nearest to both of them past their ends, inside the body: it touches all the same.
+bool crossesInNotch(const RelativePair& pair, const Crossing& at, double gap)
+{
+    const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
+    if (beyond > -gap || std::hypot(beyond, gap) > deepestEdges(pair)) return false;
+    const Vec3 inFirst = pair.rotation.transpose() * (at.onFirst - pair.translation);
+    return (at.beyondFirst <= 0.0 || pair.first.distance.value(inFirst) < 0.0) &&
+           (at.beyondSecond <= 0.0 || pair.second.distance.value(at.onSecond) < 0.0);
 }
 
 }  // namespace
@@ -105,6 +116,8 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     const Vec3 n = at->normal.dot(b.outward) >= 0.0 ? at->normal : Vec3(-at->normal);
     const double gap = n.dot(at->onFirst - at->onSecond);
     if (gap >= reach) return {};
+    const bool isWithin = at->beyondFirst <= 0.0 && at->beyondSecond <= 0.0;
+    if (!isWithin && !crossesInNotch(pair, *at, gap)) return {};
     if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
     if (gap >= -sharpness) return FeatureContact{at->onFirst, n, gap};
 

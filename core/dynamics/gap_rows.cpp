@@ -134,8 +134,19 @@ Vec3 anyTangent(const Vec3& normal)
     return normal.cross(aside).normalized();
 }
 
+/// How a couple changes the spin of a body that rolls about the end of r, held there by friction.
+Mat3 rollingResponse(const GapBody& body, const Vec3& r)
+{
+    const Mat3 aboutContact =
+        body.inverseInertia.inverse() +
+        (r.squaredNorm() * Mat3::Identity() - r * r.transpose()) / body.inverseMass;
+    return aboutContact.inverse();
+}
+
 /// The paper's raw coefficient takes an angular speed from the bodies for each unit of normal
-/// impulse, a lever arm a couple: what turns one into the other is the response to a couple.  [A49]
+/// impulse, a lever arm a couple: what turns one into the other is the response to a couple. A
+/// couple against rolling has to stop the centre too; one against spinning about the normal only
+/// the spin.  [A49]
 void resistRolling(const World& world, const GapScratch& scratch, const RollingFriction& rolling,
                    GapRow& row)
 {
@@ -153,8 +164,14 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
         meanCurvature(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
     const double factor = curvatureFactor(curvature, finer);
     const double about = row.normal.dot(response * row.normal);
-    const double across = 0.5 * (response.trace() - about);
-    row.rollingArm = factor * (rolling.rolling + rolling.rawRolling / across);
+    row.rollingArm = factor * rolling.rolling;
+    if (rolling.rawRolling > 0.0) {
+        Mat3 rollers = Mat3::Zero();
+        if (row.movesA) rollers += rollingResponse(scratch.bodies[row.a], row.rA);
+        if (row.movesB) rollers += rollingResponse(scratch.bodies[row.b], row.rB);
+        const double across = 0.5 * (rollers.trace() - row.normal.dot(rollers * row.normal));
+        row.rollingArm += factor * rolling.rawRolling / across;
+    }
     row.spinningArm = factor * (rolling.spinning + rolling.rawSpinning / about);
 }
 

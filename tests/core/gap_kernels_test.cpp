@@ -2,6 +2,7 @@
 // contact, and rows abreast are rows one by one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/random.h"
@@ -69,6 +70,23 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
     }
     EXPECT_GT(contacts, 1000u);
     EXPECT_GT(skipped, 1000u);
+}
+
+/// As seen in a heap: an outer edge of one ring lies 16 mm deep across the inner rim of the other,
+/// where two edges of that rim meet. Nothing held it there, and it stayed for good.
+TEST(NearFeatures, AnEdgeInTheNotchOfAHollowRimTouchesPastTheEndsOfItsEdges)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const Pose a{Vec3(-0.005, -0.861, -0.663), Quat(0.0450, 0.0140, -0.1677, 0.9847).normalized()};
+    std::vector<GapContact> contacts;
+    NearFeatures().findContacts({ring.get(), ring.get(), a, Pose{}}, 0.01, contacts);
+    const auto deepest =
+        std::min_element(contacts.begin(), contacts.end(),
+                         [](const GapContact& p, const GapContact& q) { return p.gap < q.gap; });
+    ASSERT_NE(deepest, contacts.end());
+    // The rim's corner is 15.6 mm below the nearest face; across the edge the way out is longer.
+    EXPECT_NEAR(deepest->gap, -0.0165, 5e-4);
+    EXPECT_NEAR((a.position + deepest->rA - Vec3(-0.855, -0.354, -0.230)).norm(), 0.0, 0.02);
 }
 
 GapScratch randomHeap(std::uint64_t seed)

@@ -74,8 +74,8 @@ void runSeeSaw(const Context& context, Findings& findings)
     Curve still = tiltOver(weightless, 1.0);
     double largest = 0.0;
     for (double tilt : still.y) largest = std::max(largest, std::abs(tilt));
-    findings.atMost(control, "shock propagation alone: largest tilt within 1 s", largest, 0.1,
-                    "degrees",
+    findings.atMost(context.controlOfPaper(), "shock propagation alone: largest tilt within 1 s",
+                    largest, 0.1, "degrees",
                     "the paper's own control: bodies weigh nothing for what carries them");
 
     for (std::size_t i = 0; i < rest.x.size(); ++i) {

@@ -13,12 +13,6 @@ using enum Weight;
 
 const std::string kUnlimited = "solver.substeps.max=1";
 
-/// Method scree sees what moves fast without short steps: for it the runs without are only told.
-Weight controlOf(const Context& context)
-{
-    return context.method == "paper" ? control : goal;
-}
-
 /// Shoots the run's ball at its plate from a random side and place, for a frame; whether it is
 /// through.
 bool passesPlate(ShotRun& run, std::uint64_t shot, int& mostSteps)
@@ -53,7 +47,7 @@ void plate(const Context& context, Findings& findings)
     findings.equal(must, count + "tunnel", through, 0);
     findings.report(count + "most steps in a frame", steps, "",
                     "dt <= 25 us asks for 1667; the cap is 2000");
-    findings.atLeast(controlOf(context), count + "tunnel, one step a frame",
+    findings.atLeast(context.controlOfPaper(), count + "tunnel, one step a frame",
                      static_cast<double>(missed) / static_cast<double>(shots), 0.9, "of them");
 }
 
@@ -80,7 +74,7 @@ void rod(const Context& context, Findings& findings)
 {
     ShotRun limited(context, "E12_rod"), unlimited(context, "E12_rod", {"solver.substeps.max=12"});
     findings.equal(must, "rod of 2 m x 2 cm at 100 rad/s: passes the post", passesPost(limited), 0);
-    findings.equal(controlOf(context), "the same with 12 steps a frame: passes",
+    findings.equal(context.controlOfPaper(), "the same with 12 steps a frame: passes",
                    passesPost(unlimited), 1);
 }
 

@@ -25,7 +25,7 @@ void runEdgeAgainstEdge(const Context& context, Findings& findings)
 
     ShotRun blind(context, "E23_beams", {"shape.beam.edge_samples=false"});
     blind.advanceFrames(48);
-    findings.atMost(control, "with vertex samples alone: height after 2 s",
+    findings.atMost(context.controlOfPaper(), "with vertex samples alone: height after 2 s",
                     blind.motion("upper").position.y(), -0.5, "m", "it falls through");
 }
 

@@ -34,6 +34,10 @@ struct Context {
         simulate = {};
 
     bool isFull() const { return form == Form::full; }
+
+    /// Of runs that leave out what only method paper needs (short steps, shock, vertex and edge
+    /// samples): method scree does without, so for it they are only told.
+    Weight controlOfPaper() const { return method == "paper" ? Weight::control : Weight::goal; }
 };
 
 struct Experiment {
