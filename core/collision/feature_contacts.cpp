@@ -122,9 +122,12 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     if (gap >= -sharpness) return FeatureContact{at->onFirst, n, gap};
 
     // Two edges of solids that overlap elsewhere may pass each other anywhere inside. If these are
-    // what overlaps, the first edge is about as deep as the faces beside the second make it.
+    // what overlaps, the first edge is about as deep as the nearer of the faces beside the second.
+    // To leave out edges that cross square to a face, where this tells nothing, makes aligned cubes
+    // come apart sooner (E11), and a thousand cubes in a bin overlap by a quarter for good.
     if (gap < -deepestEdges(pair)) return {};
-    const double expected = gap * std::max(n.dot(b.faceNormal[0]), n.dot(b.faceNormal[1]));
+    const double nearer = std::min(n.dot(b.faceNormal[0]), n.dot(b.faceNormal[1]));
+    const double expected = gap * std::max(nearer, 0.0);
     if (pair.second.distance.value(at->onFirst) > 0.5 * expected) return {};
     return FeatureContact{at->onFirst, n, gap};
 }
