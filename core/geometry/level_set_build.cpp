@@ -68,7 +68,12 @@ struct NodeSource {
     std::optional<WindingNumber> sides;
 };
 
-/// Reads OpenVDB's band, and asks the mesh beyond it. One for each thread.
+/// Asks OpenVDB for the side and the mesh for the distance. One for each thread.
+///
+/// OpenVDB's own distances are exact only up to the first nodes beside the surface: it widens the
+/// band from neighbour to neighbour and smooths it, and at two spacings from a sphere was off by a
+/// fifth of one. All that is said of how far interpolation can be off (signed_distance.h) rests on
+/// exact nodes.
 class NodeReader {
 public:
     NodeReader(const NodeSource& source, const NodeLayout& layout)
@@ -85,13 +90,9 @@ public:
     float read(const Index3& node)
     {
         float voxels = accessor_.getValue(openvdb::Coord(node[0], node[1], node[2]));
-        const double h = layout_.spacing;
         const Vec3 p = layout_.node(node[0], node[1], node[2]);
-        // Of the walls of a cavity OpenVDB may keep remnants of a band: far from the mesh, not from
-        // its outside.
-        const bool isBehindWalls = sides_ && voxels < 0.0f;
-        if (isBehindWalls && sides_->at(p) < 0.5) voxels = -voxels;
-        if (!isBehindWalls && std::abs(voxels) < kBandVoxels) return static_cast<float>(h * voxels);
+        // Of a cavity OpenVDB knows nothing but inside.
+        if (sides_ && voxels < 0.0f && sides_->at(p) < 0.5) voxels = -voxels;
         const double reach = lastDistance_ + (p - lastPoint_).norm();
         const int t = rays_.closestTriangle(p, reach);
         const Vec3 closest = closestOnTriangle(p, mesh_.points.col(mesh_.triangles(0, t)),

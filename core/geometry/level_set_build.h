@@ -8,9 +8,9 @@
 
 namespace scree {
 
-/// OpenVDB finds the distances in a band around the surface and, by flooding, which side every node
-/// is on; beyond the band the distance is that to the closest triangle. In a mesh of several parts
-/// the winding number says which of what is not outside is solid and which a cavity. `automatic`
+/// The distance is that to the closest triangle; OpenVDB finds, by flooding, which side every node
+/// is on, and which blocks are near the surface. In a mesh of several parts the winding number says
+/// which of what is not outside is solid and which a cavity. `automatic`
 /// decides between the storages by what they would take. The result does not depend on the number
 /// of threads.
 DistanceNodes buildDistanceNodes(const TriMesh& mesh, const SurfaceRays& rays,

@@ -7,12 +7,10 @@
 
 #include "core/base/parallel.h"
 #include "core/base/random.h"
-#include "core/collision/interference.h"
 #include "core/geometry/field_store.h"
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
-#include "core/math/rotation.h"
 
 namespace scree::test {
 namespace {
@@ -45,29 +43,6 @@ int coarseBlocks(const Shape& shape)
 std::vector<TriMesh> someMeshes()
 {
     return {makeTorus(1.0, 0.25, {24, 16}), makeBox({1.0, 0.9, 1.1}, {2, 2, 2})};
-}
-
-TEST(E21FieldStorage, BricksAndDenseGridHaveTheSameSignEverywhereAndTheSameBitsInTheBand)
-{
-    for (const TriMesh& mesh : someMeshes()) {
-        const auto dense = stored(mesh, FieldStorage::dense);
-        const auto bricks = stored(mesh, FieldStorage::bricks);
-        ASSERT_GT(coarseBlocks(*bricks), 10);
-        ASSERT_EQ(coarseBlocks(*dense), 0);
-        const double h = dense->distance.spacing();
-        int inBand = 0;
-        for (std::uint64_t i = 0; i < 100000; ++i) {
-            const Vec3 p = drawIn(dense->box.grown(6.0 * h), i, 31);
-            const double a = dense->distance.value(p), b = bricks->distance.value(p);
-            ASSERT_EQ(a < 0.0, b < 0.0) << p.transpose();
-            if (std::abs(dense->distance.gridValue(p)) < dense->distance.refinementBand()) {
-                ++inBand;
-                ASSERT_EQ(a, b) << p.transpose();
-                ASSERT_EQ(dense->distance.gridValue(p), bricks->distance.gridValue(p));
-            }
-        }
-        EXPECT_GT(inBand, 3000);
-    }
 }
 
 TEST(E21FieldStorage, BricksPromiseNoMoreDistanceThanThereIs)
@@ -107,43 +82,6 @@ TEST(E21FieldStorage, BricksHaveNoCracksBetweenFineAndCoarse)
                         1e-4 * h);
         }
     }
-}
-
-TEST(E21FieldStorage, BlocksAndClustersLeaveTheSampleListsAsTheyAreInBothStorages)
-{
-    // The plain search asks every sample of both shapes and no block.
-    std::vector<std::shared_ptr<const Shape>> shapes;
-    for (const TriMesh& mesh : {makeTorus(1.0, 0.25, {16, 10}), makeBox({1.0, 0.4, 1.1}, {1, 1, 1}),
-                                makeSphere(0.6, 2)}) {
-        shapes.push_back(stored(mesh, FieldStorage::dense));
-        shapes.push_back(stored(mesh, FieldStorage::bricks));
-    }
-    int touching = 0;
-    for (std::uint64_t i = 0; i < 10000; ++i) {
-        const Shape& a = *shapes[randomIndex(shapes.size(), 35, i)];
-        const Shape& b = *shapes[randomIndex(shapes.size(), 36, i)];
-        const Vec3 turnA = drawIn({Vec3::Constant(-2.0), Vec3::Constant(2.0)}, i, 37);
-        const Vec3 turnB = drawIn({Vec3::Constant(-2.0), Vec3::Constant(2.0)}, i, 38);
-        const Vec3 apart = drawIn({Vec3::Constant(-1.0), Vec3::Constant(1.0)}, i, 39);
-        const PlacedPair pair{&a, &b, Pose{apart, exponentialMap(turnA)},
-                              Pose{Vec3::Zero(), exponentialMap(turnB)}};
-        const double tau = contourValue(a, b);
-        std::vector<Touch> fast, plain;
-        Proximity proximity;
-        proximity.reset(0.01);
-        proximity.findTouches(pair, tau, fast);
-        findTouchesPlainly(pair, tau, plain);
-        std::sort(fast.begin(), fast.end(), isDeeper);
-        std::sort(plain.begin(), plain.end(), isDeeper);
-        ASSERT_EQ(fast.size(), plain.size()) << i;
-        for (std::size_t t = 0; t < fast.size(); ++t) {
-            ASSERT_EQ(fast[t].phi, plain[t].phi) << i;
-            ASSERT_EQ(fast[t].sample, plain[t].sample) << i;
-            ASSERT_EQ(fast[t].sampleOnA, plain[t].sampleOnA) << i;
-        }
-        touching += !fast.empty();
-    }
-    EXPECT_GT(touching, 1000);
 }
 
 TEST(E21FieldStorage, AutomaticTakesBricksWhereTheySaveMuchOfALargeField)

@@ -26,12 +26,6 @@ Vec3 randomPoint(std::uint64_t i, const Aabb& box)
     return p;
 }
 
-double boxDistance(const Vec3& p, const Vec3& half)
-{
-    const Vec3 d = p.cwiseAbs() - half;
-    return d.cwiseMax(0.0).norm() + std::min(d.maxCoeff(), 0.0);
-}
-
 /// Distance to all triangles one by one, signed by the solid angle they subtend.
 double plainDistance(const TriMesh& mesh, const Vec3& p)
 {
@@ -116,24 +110,6 @@ TEST(E21SignedDistance, DistancesAtTheWallsOfACavityChangeNoFasterThanTheWay)
     EXPECT_LE(worst, 1.001 * layout.spacing);
 }
 
-TEST(E21SignedDistance, ABoxIsExactNearItsSurfaceAndWithinHalfAVoxelEverywhere)
-{
-    const Vec3 half(0.5, 0.35, 0.6);
-    const auto shape = buildMeshShape("box", makeBox(2.0 * half, {1, 1, 1}));
-    const double h = shape->distance.spacing();
-    for (std::uint64_t i = 0; i < 100000; ++i) {
-        const Vec3 p = randomPoint(i, shape->box.grown(3.0 * h));
-        const Vec3 asset = inverse(shape->bodyFromAsset) * p;
-        const double exact = boxDistance(asset, half), phi = shape->distance.value(p);
-        const bool isNear =
-            std::abs(shape->distance.gridValue(p)) < shape->distance.refinementBand();
-        ASSERT_LE(std::abs(phi - exact), isNear ? 1e-12 : 0.5 * h) << asset.transpose();
-        ASSERT_EQ(phi < 0.0, exact < 0.0) << asset.transpose();
-        ASSERT_LE(std::abs(shape->distance.gridValue(p) - exact), 0.88 * h);
-        ASSERT_LE(shape->distance.lowerBound(p), exact + 1e-12);
-    }
-}
-
 TEST(E21SignedDistance, ANonconvexMeshAgreesWithEveryTriangleAskedOneByOne)
 {
     const auto shape = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
@@ -146,42 +122,6 @@ TEST(E21SignedDistance, ANonconvexMeshAgreesWithEveryTriangleAskedOneByOne)
         ASSERT_EQ(phi < 0.0, exact < 0.0) << p.transpose();
         ASSERT_LE(shape->distance.lowerBound(p), exact + 1e-9) << p.transpose();
     }
-}
-
-TEST(E21SignedDistance, SmoothNormalsOfASpherePointOutwardWithinADegree)
-{
-    ShapeSettings settings;
-    settings.resolution = 50;  // h = R/25
-    const auto shape = buildMeshShape("sphere", makeSphere(1.0, 4), settings);
-    double worst = 1.0;
-    for (std::uint64_t i = 0; i < 10000; ++i) {
-        const Vec3 p = randomPoint(i, shape->box);
-        if (p.norm() < 0.1) continue;
-        const Vec3 onSphere = p.normalized();
-        const Approach still{onSphere, Vec3::Zero(), onSphere, onSphere};
-        worst = std::min(worst, surfaceNormal(*shape, still).dot(onSphere));
-    }
-    EXPECT_GE(worst, std::cos(1.0 * kPi / 180.0));
-}
-
-TEST(E21SignedDistance, TrueNormalsOfACubeAreThoseOfItsFaces)
-{
-    const auto shape = buildMeshShape("cube", makeBox(Vec3::Ones(), {1, 1, 1}));
-    ASSERT_TRUE(shape->usesTrueNormals);
-    int wrong = 0;
-    const int count = 10000;
-    for (std::uint64_t i = 0; i < count; ++i) {
-        // A point at most 1 mm above or below a random place of a random face, not moving.
-        const int axis = static_cast<int>(randomIndex(3, 22, i));
-        const double side = randomUnit(23, i) < 0.5 ? -1.0 : 1.0;
-        Vec3 p = randomPoint(i, shape->box), n = Vec3::Zero();
-        n[axis] = side;
-        p[axis] = side * (0.5 + 0.001 * (2.0 * randomUnit(24, i) - 1.0));
-        const Approach still{p, Vec3::Zero(), p, p};
-        wrong += surfaceNormal(*shape, still).dot(n) < 1.0 - 1e-9;
-    }
-    // Within a millimetre of an edge the nearest face of a point just inside may be the other one.
-    EXPECT_LE(wrong, count / 200);
 }
 
 TEST(E21SignedDistance, APointThatCrossesAFaceGetsThatFaceHoweverNearTheEdge)
