@@ -7,12 +7,11 @@
 
 namespace scree::verify {
 
-void textbookStep(World& world, const StepSettings& settings, double dt)
-{
-    addGravity(world, settings, dt);
-    advancePositions(world, settings, dt);
+namespace {
 
-    // Gravity is in the velocities already: what is predicted from here on has felt it.
+/// Collision and contact with velocities that have felt gravity: what is predicted has it in it.
+void resolveAfterGravity(World& world, const StepSettings& settings, double dt)
+{
     StepSettings here = settings;
     here.gravity.setZero();
     StepScratch scratch;
@@ -22,6 +21,22 @@ void textbookStep(World& world, const StepSettings& settings, double dt)
     resolveCollisions(world, here, dt, scratch, capped);
     const ContactGraph graph = buildContactGraph(world, here, dt, scratch);
     resolveContacts(world, graph, here, dt, scratch, capped);
+}
+
+}  // namespace
+
+void textbookStep(World& world, const StepSettings& settings, double dt)
+{
+    addGravity(world, settings, dt);
+    advancePositions(world, settings, dt);
+    resolveAfterGravity(world, settings, dt);
+}
+
+void gravityFirstStep(World& world, const StepSettings& settings, double dt)
+{
+    addGravity(world, settings, dt);
+    resolveAfterGravity(world, settings, dt);
+    advancePositions(world, settings, dt);
 }
 
 }  // namespace scree::verify

@@ -12,4 +12,8 @@ namespace scree::verify {
 /// just landed.  [E1, E2]
 void textbookStep(World& world, const StepSettings& settings, double dt);
 
+/// The paper's order but for one exchange: gravity before collisions. What lies still bounces with
+/// a step's worth of fall; bounces that friction tilts throw it about.  [E1, figure 3]
+void gravityFirstStep(World& world, const StepSettings& settings, double dt);
+
 }  // namespace scree::verify

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Meshes and start poses of the experiments that need more than the shapes of the shot language.
+
+    tools/props/make_trials.py shots/verify
+
+writes the stones of a catenary arch, a house of steep cards, a bolt and its nut. Lengths are in the
+unit of the shot that uses them. Every part is one closed surface.
+"""
+import math
+import os
+import sys
+
+from forms import cells, extruded, turned_outward
+from make_props import card_poses, write_poses
+
+
+def write_parts(path, parts, words):
+    """Named parts of one file; neighbours that share a place get the same digits."""
+    start = 1
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"# {words}. Made by tools/props/make_trials.py.\n")
+        for name, mesh in parts:
+            points, faces = turned_outward(mesh)
+            file.write(f"o {name}\n")
+            for point in points:
+                file.write("v " + " ".join(f"{round(c, 7) + 0.0:.8g}" for c in point) + "\n")
+            for face in faces:
+                file.write("f " + " ".join(str(i + start) for i in face) + "\n")
+            start += len(points)
+
+
+def catenary_arch(stones=25, half_span=3.0, rise=4.0, thickness=0.6, depth=1.2, foot=0.8):
+    """Stones of equal length along y = foot + rise - a (cosh(x / a) - 1), joints across the curve."""
+    low, high = 0.1, 100.0
+    for _ in range(200):
+        a = 0.5 * (low + high)
+        # The wider the parameter, the flatter the chain.
+        low, high = (a, high) if a * (math.cosh(half_span / a) - 1.0) > rise else (low, a)
+    reach = a * math.sinh(half_span / a)  # half the length of the curve
+
+    def at(s, out):
+        """The point so far along the curve from the crown and so far outside it."""
+        x = a * math.asinh(s / a)
+        y = foot + rise - a * (math.cosh(x / a) - 1.0)
+        slope = math.sinh(x / a)
+        length = math.hypot(1.0, slope)
+        return x + out * slope / length, y + out / length
+
+    for i in range(stones):
+        ends = [reach * (2.0 * (i + end) / stones - 1.0) for end in (0, 1)]
+        planes = ([0, 0.5, 1], [-0.5, 0.0, 0.5], [-0.5, 0.0, 0.5])
+        points, faces = cells(planes, lambda i, j, k: True)
+        # Straight between the joints, which therefore fit whatever the curve does.
+        placed = []
+        for along, out, across in points:
+            (x0, y0), (x1, y1) = (at(s, thickness * out) for s in ends)
+            placed.append((x0 + along * (x1 - x0), y0 + along * (y1 - y0), depth * across))
+        yield f"stone_{i:02d}", (placed, faces)
+    for name, side in (("left", -1), ("right", 1)):
+        inner, outer = (at(side * reach, thickness * out) for out in (-0.7, 0.7))
+        outline = [inner, outer, (outer[0], 0.0), (inner[0], 0.0)]
+        yield f"abutment_{name}", extruded(outline if side < 0 else outline[::-1], 1.4 * depth)
+
+
+PITCH, TURN, ROWS = 0.25, 36, 12  # of the thread [m], points around, points along a pitch
+CORE, DEPTH, PLAY = 0.5, 0.1, 0.012  # radius at its foot, height of the thread, room between [m]
+
+
+def thread(phase):
+    """Height of the thread, 0 ... 1. Round as that of a light bulb: the facets of a sharp one would
+    take all the play where crests fall between the points."""
+    return 0.5 - 0.5 * math.cos(2.0 * math.pi * phase)
+
+
+def wall(height, radius_of):
+    """Rows of points, from y = 0 up, around a threaded wall."""
+    rows = round(height / PITCH * ROWS)
+    return [[(radius_of(j / ROWS - i / TURN) * math.cos(2.0 * math.pi * i / TURN), PITCH * j / ROWS,
+              -radius_of(j / ROWS - i / TURN) * math.sin(2.0 * math.pi * i / TURN))
+             for i in range(TURN)] for j in range(rows + 1)]
+
+
+def skin(points, rows):
+    """Faces between rows of points that are already in the list, each as long as TURN."""
+    faces = []
+    for low, high in zip(rows, rows[1:]):
+        for i in range(TURN):
+            j = (i + 1) % TURN
+            faces += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
+    return faces
+
+
+def bolt(height=2.0):
+    rings = wall(height, lambda phase: CORE + DEPTH * thread(phase))
+    points = [p for ring in rings for p in ring] + [(0.0, 0.0, 0.0), (0.0, height, 0.0)]
+    rows = [range(TURN * j, TURN * (j + 1)) for j in range(len(rings))]
+    faces = skin(points, rows)
+    for i in range(TURN):
+        j = (i + 1) % TURN
+        faces += [(rows[0][j], rows[0][i], len(points) - 2), (rows[-1][i], rows[-1][j], len(points) - 1)]
+    return points, faces
+
+
+def nut(height=0.5, outer=0.85):
+    """The bolt's thread with PLAY around it, within a round body."""
+    inner = wall(height, lambda phase: CORE + PLAY + DEPTH * thread(phase))
+    outside = [[(outer * math.cos(2.0 * math.pi * i / TURN), PITCH * j / ROWS,
+                 -outer * math.sin(2.0 * math.pi * i / TURN)) for i in range(TURN)]
+               for j in range(len(inner))]
+    # Up the outside, over the top, down the inside, and below back to where it began.
+    rings = outside + inner[::-1]
+    points = [p for ring in rings for p in ring]
+    rows = [range(TURN * j, TURN * (j + 1)) for j in range(len(rings))]
+    return points, skin(points, rows + [rows[0]])
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    write_parts(os.path.join(sys.argv[1], "catenary.obj"), catenary_arch(),
+                "Twenty-five stones of an arch and what it stands on [m]")
+    write_parts(os.path.join(sys.argv[1], "bolt.obj"), [("bolt", bolt())],
+                "A bolt with a thread of 0.25 pitch [m]")
+    write_parts(os.path.join(sys.argv[1], "nut.obj"), [("nut", nut())],
+                "Its nut, with a play of 12 mm [m]")
+    for name, poses in card_poses(lean=20.0):
+        write_poses(os.path.join(sys.argv[1], name.replace("cards", "cards_steep") + ".poses"), poses)
+
+
+if __name__ == "__main__":
+    main()
