@@ -130,14 +130,5 @@ TEST(E18FreeCluster, ContactAndShockKeepBothMomentaAndCollisionTheLinearOne)
     }
 }
 
-TEST(E18FreeCluster, StrictMakesMomentumOutOfNothing)
-{
-    StepSettings settings = experimentSettings();
-    makeStrict(settings);
-    const Drifts drifts = driftsOf(settings, 240, 1.0 / 240.0);
-    print("strict, falling", drifts);
-    EXPECT_GT(drifts[kShock].linear, 1e-6);  // 1e-11 and less without strict
-}
-
 }  // namespace
 }  // namespace scree::test

@@ -145,5 +145,21 @@ TEST(StepReport, AccountsForWhatTheStepDid)  // [A58]
     EXPECT_LE((frame.momentum - momentum).norm(), 1e-12);
 }
 
+TEST(StepReport, NamesTheBodyAndThePhaseWhereNumbersEnd)  // [A59]
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    addPlane(world, material);
+    for (int i = 0; i < 2; ++i) {
+        addBody(world, boxShape(Vec3::Ones(), 2), material,
+                {{3.0 * i, 2.0, 0.0}, Quat::Identity()});
+    }
+    world.info[2].force.x() = std::nan("");
+    const FrameReport report = Stepper(experimentSettings()).advanceFrame(world, 1.0 / 24.0);
+    ASSERT_EQ(report.sum.nonFinite, std::vector<BodyId>{2});
+    EXPECT_EQ(report.sum.nonFinitePhase, Phase::contact);
+    EXPECT_EQ(world.clock.frame, 0);
+}
+
 }  // namespace
 }  // namespace scree::test
