@@ -252,7 +252,7 @@ private:
         file_.nodes.push_back(std::move(node));
     }
 
-    /// Alembic's cameras look along -z, as ours do. A zoom keeps the angle it begins with.
+    /// Alembic's cameras look along -z, as ours do.
     void addCamera(const StoredObject& object, const MatrixTrack& fileFromCamera,
                    const std::string& name)
     {
@@ -261,21 +261,32 @@ private:
         if (!core || core->sampleCount == 0 || core->layout.type != AlembicType::f64) {
             reader_.refuse("is damaged: the camera '" + object.name + "' has no lens");
         }
-        // Focal length [mm], film width and its shift, film height [cm], ….
-        std::array<double, 4> lens{};
-        const std::string_view bytes = reader_.sample(*core, 0);
-        if (bytes.size() < sizeof lens) {
-            reader_.refuse("is damaged: the camera '" + object.name + "' lacks numbers");
-        }
-        std::memcpy(lens.data(), bytes.data(), sizeof lens);
         ImportedCamera camera;
         camera.name = name;
-        camera.fovDegrees = 2.0 * std::atan(5.0 * lens[3] / lens[0]) * 180.0 / kPi;
+        camera.fovDegrees = fovOf(reader_.sample(*core, 0), object.name);
+        const std::uint32_t count = core->firstChange > 0 ? core->sampleCount : 0;
+        if (count > kMostSamples) reader_.refuse("has too many samples of '" + name + "'");
+        for (std::uint32_t i = 0; i < count; ++i) {
+            camera.zoom.push_back(
+                {reader_.secondsOf(*core, i), fovOf(reader_.sample(*core, i), object.name)});
+        }
         camera.fileFromCamera = poseOf(fileFromCamera.matrices.front());
         for (std::size_t i = 0; i < fileFromCamera.seconds.size(); ++i) {
             camera.keys.push_back({fileFromCamera.seconds[i], poseOf(fileFromCamera.matrices[i])});
         }
         file_.cameras.push_back(std::move(camera));
+    }
+
+    /// The vertical angle of view of a sample of a lens.
+    double fovOf(std::string_view bytes, const std::string& name) const
+    {
+        // Focal length [mm], film width and its shift, film height [cm], ….
+        std::array<double, 4> lens{};
+        if (bytes.size() < sizeof lens) {
+            reader_.refuse("is damaged: the camera '" + name + "' lacks numbers");
+        }
+        std::memcpy(lens.data(), bytes.data(), sizeof lens);
+        return 2.0 * std::atan(5.0 * lens[3] / lens[0]) * 180.0 / kPi;
     }
 
     static void readKeys(const MatrixTrack& fileFromMesh, const Mat3& S, ImportedNode& node)

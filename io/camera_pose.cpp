@@ -22,12 +22,12 @@ Aabb boxOf(const Points& points)
 
 Pose worldFromCamera(const SceneCamera& camera, bool zUp)
 {
-    const Vec3 up = zUp ? Vec3::UnitZ() : Vec3::UnitY();
+    const Vec3 up = upOf(camera, zUp);
     Vec3 backward = camera.eye - camera.target;
     if (backward.norm() == 0.0) backward = Vec3::UnitZ();
     backward.normalize();
     Vec3 right = up.cross(backward);
-    if (right.norm() < 1e-9) right = backward.unitOrthogonal();
+    if (right.norm() < 1e-9 * up.norm()) right = backward.unitOrthogonal();
     right.normalize();
     Mat3 axes;
     axes << right, backward.cross(right), backward;

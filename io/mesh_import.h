@@ -29,12 +29,20 @@ struct ImportedNode {
     std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
 };
 
+/// The angle of view of a camera at one moment.
+struct ImportedZoom {
+    double seconds = 0.0;  ///< of the file
+    double fovDegrees = 35.0;
+};
+
 /// A camera of a file: x to the right, y upwards, it looks along -z.
 struct ImportedCamera {
-    std::string name;               ///< of its node
-    Pose fileFromCamera;            ///< of a moving one the first
-    std::vector<ImportedKey> keys;  ///< in order of time; empty for one that never moves
-    double fovDegrees = 35.0;       ///< vertical, at the beginning: zooms are not read
+    std::string name;                ///< of its node
+    Pose fileFromCamera;             ///< of a moving one the first
+    std::vector<ImportedKey> keys;   ///< in order of time; empty for one that never moves
+    double fovDegrees = 35.0;        ///< vertical; of one that zooms the first
+    std::vector<ImportedZoom> zoom;  ///< in order of time; empty for one that never zooms
+    bool isZoomLost = false;         ///< the file has a zoom that cannot be read
 };
 
 struct ImportedFile {

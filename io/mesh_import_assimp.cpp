@@ -339,6 +339,20 @@ private:
     std::size_t keyCount_ = 0;
 };
 
+/// Whether a file animates a lens, which assimp passes over: FBX as a curve of a focal length or an
+/// angle, in words or in binary, glTF by an extension that points at the angle.
+bool animatesLens(const std::string& path)
+{
+    using namespace std::string_literals;
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    for (const std::string& name : {"FocalLength"s, "FieldOfView"s, "FieldOfViewX"s}) {
+        if (bytes.find("AnimCurveNode::" + name + "\"") != std::string::npos) return true;
+        if (bytes.find(name + "\0\1AnimCurveNode"s) != std::string::npos) return true;
+    }
+    return bytes.find("/perspective/yfov") != std::string::npos;
+}
+
 /// Whether the texture coordinates of a PLY file belong to faces. assimp gives points that faces
 /// share the coordinates of the last face, which along a seam are those of the wrong side.
 bool hasUvsOfFaces(const std::string& path)
@@ -384,6 +398,8 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     ImportedFile file;
     file.nodes = reader.takeNodes();
     file.cameras = reader.takeCameras();
+    const bool isZoomLost = !file.cameras.empty() && animatesLens(path);
+    for (ImportedCamera& camera : file.cameras) camera.isZoomLost = isZoomLost;
     if (ending == "ply" && hasUvsOfFaces(path)) {
         for (ImportedNode& node : file.nodes) node.mesh.cornerUvs.resize(2, 0);
     }

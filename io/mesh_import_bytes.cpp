@@ -158,21 +158,39 @@ private:
         ImportedCamera camera;
         camera.name = takeText(limits_.nameLength, "letters in a name (--import-name)");
         camera.fileFromCamera = takePose();
-        camera.fovDegrees = take<double>();
-        if (!(camera.fovDegrees > 0.0 && camera.fovDegrees < 180.0)) {
-            refuse("has a camera '" + camera.name + "' without an angle of view");
-        }
+        camera.fovDegrees = takeFov(camera);
         takeKeys(camera.keys);
+        const std::uint32_t count = takeCount(kMostKeys, "keys");
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto seconds = takeMoment(camera.zoom);
+            camera.zoom.push_back({seconds, takeFov(camera)});
+        }
+        camera.isZoomLost = take<std::uint8_t>() != 0;
         return camera;
+    }
+
+    double takeFov(const ImportedCamera& camera)
+    {
+        const auto degrees = take<double>();
+        if (degrees > 0.0 && degrees < 180.0) return degrees;
+        refuse("has a camera '" + camera.name + "' without an angle of view");
+    }
+
+    /// When the key after those of `keys` is.
+    template <class Key>
+    double takeMoment(const std::vector<Key>& keys)
+    {
+        const auto seconds = take<double>();
+        const bool isLater = keys.empty() || seconds > keys.back().seconds;
+        if (!std::isfinite(seconds) || !isLater) refuse("has keys that are not in order");
+        return seconds;
     }
 
     void takeKeys(std::vector<ImportedKey>& keys)
     {
         const std::uint32_t count = takeCount(kMostKeys, "keys");
         for (std::uint32_t i = 0; i < count; ++i) {
-            const auto seconds = take<double>();
-            const bool isLater = keys.empty() || seconds > keys.back().seconds;
-            if (!std::isfinite(seconds) || !isLater) refuse("has keys that are not in order");
+            const double seconds = takeMoment(keys);
             keys.push_back({seconds, takePose()});
         }
     }
@@ -212,6 +230,12 @@ std::string encodeImport(const ImportedFile& file)
         appendPose(bytes, camera.fileFromCamera);
         appendBytes(bytes, camera.fovDegrees);
         appendKeys(bytes, camera.keys);
+        appendBytes(bytes, static_cast<std::uint32_t>(camera.zoom.size()));
+        for (const ImportedZoom& key : camera.zoom) {
+            appendBytes(bytes, key.seconds);
+            appendBytes(bytes, key.fovDegrees);
+        }
+        appendBytes(bytes, static_cast<std::uint8_t>(camera.isZoomLost));
     }
     return bytes;
 }

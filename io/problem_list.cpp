@@ -10,6 +10,11 @@ void ProblemList::add(const SourceLocation& where, const std::string& message, E
     problems_.push_back({where, message, kind});
 }
 
+void ProblemList::warn(const SourceLocation& where, const std::string& message)
+{
+    warnings_.push_back(toString(where) + ": " + message);
+}
+
 void ProblemList::throwIfAny() const
 {
     if (problems_.empty()) return;

@@ -18,6 +18,11 @@ public:
     void add(const SourceLocation& where, const std::string& message,
              ErrorKind kind = ErrorKind::badInput);
 
+    /// Something the shot's user should know that is no reason to refuse it; in the order of calls.
+    void warn(const SourceLocation& where, const std::string& message);
+
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
     std::size_t count() const { return problems_.size(); }
     bool isEmpty() const { return problems_.empty(); }
 
@@ -34,6 +39,7 @@ private:
 
     std::string mainFile_;
     std::vector<Problem> problems_;
+    std::vector<std::string> warnings_;  // with their location
 };
 
 }  // namespace scree

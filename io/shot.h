@@ -156,7 +156,8 @@ struct Shot {
     ShotRender render;
     ShotOutput output;
     ImportLimits importLimits;  ///< of the assets it names; the caller's, no file may raise them
-    std::string resolvedText;   ///< canonical TOML of everything, defaults included, --set applied
+    std::vector<std::string> warnings;  ///< "file:line:column: message", of what is passed over
+    std::string resolvedText;  ///< canonical TOML of everything, defaults included, --set applied
 };
 
 }  // namespace scree

@@ -92,6 +92,9 @@ public:
 
     double metresPerUnit() const { return metres_; }
 
+    /// Of the shot's first frame, by the clock of the file.
+    double startSeconds() const { return startSeconds_; }
+
     Pose worldFrom(const Pose& fileFromNode) const
     {
         Pose pose = worldFromFile_ * fileFromNode;
@@ -114,7 +117,7 @@ public:
 private:
     double metres_;
     Pose worldFromFile_;
-    double startSeconds_;  // of the shot's first frame, by the clock of the file
+    double startSeconds_;
 };
 
 /// The first camera that the pattern fits, or the first; null, and a report, when there is none.
@@ -139,10 +142,24 @@ const ImportedCamera* chooseCamera(const ShotNode* pattern, const ShotNode& file
     return nullptr;
 }
 
+/// The angle of view at a moment by the clock of the file, evenly between its samples.
+double fovAt(const ImportedCamera& camera, double seconds)
+{
+    const std::vector<ImportedZoom>& zoom = camera.zoom;
+    const auto after = std::find_if(zoom.begin(), zoom.end(),
+                                    [&](const ImportedZoom& key) { return key.seconds > seconds; });
+    if (after == zoom.begin()) return camera.fovDegrees;
+    const ImportedZoom& before = after[-1];
+    if (after == zoom.end()) return before.fovDegrees;
+    const double share = (seconds - before.seconds) / (after->seconds - before.seconds);
+    return before.fovDegrees + share * (after->fovDegrees - before.fovDegrees);
+}
+
 /// What a camera at a pose looks at: a metre away, since files do not say how far.
 CameraKey keyAt(const Pose& worldFromCamera, double frame, double fovDegrees)
 {
-    return {frame, worldFromCamera.position, worldFromCamera * Vec3(0.0, 0.0, -1.0), fovDegrees};
+    return {frame, worldFromCamera.position, worldFromCamera * Vec3(0.0, 0.0, -1.0), fovDegrees,
+            worldFromCamera.orientation * Vec3::UnitY()};
 }
 
 /// Reports what cannot be played of the chosen nodes.
@@ -222,18 +239,27 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     // Between samples it turns steadily, as elsewhere; a key a frame keeps it from cutting corners.
     const MotionScript script(placement.keysOf(imported->keys, imported->fileFromCamera),
                               KeyInterpolation::linear);
+    const bool changes = !imported->keys.empty() || !imported->zoom.empty();
     SceneCamera camera;
     camera.isSmooth = false;
     for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
         const double seconds = (frame - shot.firstFrame) / shot.framesPerSecond;
-        camera.keys.push_back(keyAt(script.at(seconds), frame, imported->fovDegrees));
-        if (imported->keys.empty()) break;
+        const double fov = fovAt(*imported, seconds + placement.startSeconds());
+        camera.keys.push_back(keyAt(script.at(seconds), frame, fov));
+        if (!changes) break;
     }
     const CameraKey& first = camera.keys.front();
     camera.eye = first.eye;
     camera.target = first.target;
     camera.fovDegrees = first.fovDegrees;
-    if (imported->keys.empty()) camera.keys.clear();
+    camera.up = first.up;
+    if (!changes) camera.keys.clear();
+    if (imported->isZoomLost) {
+        problems.warn(node.find("file")->where,
+                      "the zoom of camera '" + imported->name + "' of '" + path +
+                          "' cannot be read: it keeps the angle of view it begins with; a zoom of "
+                          "an Alembic file is kept");
+    }
     return camera;
 }
 

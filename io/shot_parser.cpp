@@ -309,6 +309,7 @@ Shot parseShotText(const std::string& text, const std::string& path,
     completeShotTree(tree, &readTomlValue);
     Shot shot = interpretShot(tree, path, limits, problems);
     problems.throwIfAny();
+    shot.warnings = problems.warnings();
     shot.resolvedText = printShotTree(tree);
     return shot;
 }

@@ -78,18 +78,31 @@ Json toJson(const TakeLook& look)
             {"friction", look.friction},   {"restitution", look.restitution}};
 }
 
+/// Cameras that stand as the scene does say nothing of it.
+void addUp(const Vec3& up, Json& json)
+{
+    if (!up.isZero(0.0)) json["up"] = toJson(up);
+}
+
+Vec3 upFromJson(const Json& json)
+{
+    return json.contains("up") ? vectorFromJson(json.at("up")) : Vec3(Vec3::Zero());
+}
+
 Json toJson(const CameraKey& key)
 {
-    return {{"frame", key.frame},
-            {"eye", toJson(key.eye)},
-            {"target", toJson(key.target)},
-            {"fov", key.fovDegrees}};
+    Json json = {{"frame", key.frame},
+                 {"eye", toJson(key.eye)},
+                 {"target", toJson(key.target)},
+                 {"fov", key.fovDegrees}};
+    addUp(key.up, json);
+    return json;
 }
 
 CameraKey keyFromJson(const Json& json)
 {
     return {json.at("frame"), vectorFromJson(json.at("eye")), vectorFromJson(json.at("target")),
-            json.at("fov")};
+            json.at("fov"), upFromJson(json)};
 }
 
 Json toJson(const CameraOrbit& orbit)
@@ -127,6 +140,7 @@ Json toJson(const SceneCamera& camera)
                  {"eye", toJson(camera.eye)},
                  {"target", toJson(camera.target)},
                  {"fov", camera.fovDegrees}};
+    addUp(camera.up, json);
     if (!camera.keys.empty()) {
         json["keys"] = listToJson(camera.keys);
         json["interpolate"] = camera.isSmooth ? "smooth" : "linear";
@@ -142,6 +156,7 @@ SceneCamera cameraFromJson(const Json& json)
     camera.eye = vectorFromJson(json.at("eye"));
     camera.target = vectorFromJson(json.at("target"));
     camera.fovDegrees = json.at("fov");
+    camera.up = upFromJson(json);
     if (json.contains("keys")) {
         for (const Json& key : json.at("keys")) camera.keys.push_back(keyFromJson(key));
         camera.isSmooth = json.at("interpolate") == "smooth";

@@ -20,7 +20,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from read_take import read_motion  # noqa: E402
+from read_take import camera_at, read_motion  # noqa: E402
 
 CREASE = math.radians(40)  # as in the exports: sharper edges are meant to be seen
 PLANE_GROWTH = 60  # a plane is infinite: this keeps its edge behind the horizon
@@ -191,9 +191,40 @@ def box_of_bodies(info):
     return Vector(points.min(axis=0)), Vector(points.max(axis=0))
 
 
-def look_at(camera, eye, target):
-    camera.location = eye
-    camera.rotation_euler = (target - eye).to_track_quat("-Z", "Y").to_euler()
+def look_at(camera, eye, target, up=Vector((0, 0, 1))):
+    backward = (eye - target).normalized()
+    right = up.cross(backward)
+    if right.length < 1e-9:
+        right = backward.orthogonal()
+    right.normalize()
+    axes = Matrix((right, backward.cross(right), backward)).transposed()
+    camera.matrix_world = Matrix.Translation(eye) @ axes.to_4x4()
+
+
+def key_camera(camera, known, info):
+    """A key a frame: takes hold rules, not samples, and Blender's curves are others."""
+    moves = "keys" in known or "orbit" in known
+    camera.rotation_mode = "QUATERNION"
+    first, last = info["frames"]
+    before = None
+    for frame in range(first, (last if moves else first) + 1):
+        eye, target, up, fov = camera_at(known, frame, info["up"])
+        look_at(camera, *(to_blender(list(v), info) for v in (eye, target, up)))
+        camera.data.angle_y = math.radians(fov)
+        turn = camera.matrix_world.to_quaternion()
+        if before is not None and before.dot(turn) < 0:
+            turn.negate()
+        before = turn
+        camera.rotation_quaternion = turn
+        if not moves:
+            return
+        camera.keyframe_insert("location", frame=frame)
+        camera.keyframe_insert("rotation_quaternion", frame=frame)
+        camera.data.keyframe_insert("lens", frame=frame)
+    for holder in (camera, camera.data):
+        for curve in holder.animation_data.action.fcurves:
+            for key in curve.keyframe_points:
+                key.interpolation = "LINEAR"
 
 
 def set_camera(scene, info, name):
@@ -213,8 +244,7 @@ def set_camera(scene, info, name):
         sys.exit(f"Error: no camera called {name}")
     camera.data.sensor_fit = "VERTICAL"
     if known:
-        camera.data.angle_y = math.radians(known[0]["fov"])
-        look_at(camera, to_blender(known[0]["eye"], info), to_blender(known[0]["target"], info))
+        key_camera(camera, known[0], info)
         return
     low, high = box_of_bodies(info)
     camera.data.angle_y = math.radians(35)

@@ -39,6 +39,53 @@ def read_motion(take):
         yield frame, blocks["asset.position"], blocks["asset.orientation"]
 
 
+def _slope_at(frames, values, key):
+    """As in core/scene/camera_motion.cpp: at rest at both ends and at a turn, else the weighted
+    harmonic mean of the slopes on both sides."""
+    slope = np.zeros(values.shape[1])
+    if key in (0, len(frames) - 1):
+        return slope
+    h0, h1 = frames[key] - frames[key - 1], frames[key + 1] - frames[key]
+    before, after = (values[key] - values[key - 1]) / h0, (values[key + 1] - values[key]) / h1
+    passes = before * after > 0
+    w0, w1 = 2 * h1 + h0, h1 + 2 * h0
+    slope[passes] = (w0 + w1) / (w0 / before[passes] + w1 / after[passes])
+    return slope
+
+
+def camera_at(camera, frame, up_axis):
+    """Eye, target, up and vertical angle of view of a camera of take.json at a moment [frames]."""
+    scene_up = [0, 1, 0] if up_axis == "+y" else [0, 0, 1]
+    row = lambda key: [*key["eye"], *key["target"], *key.get("up", scene_up), key["fov"]]
+    now = np.array(row(camera), float)
+    if "keys" in camera:
+        frames = np.array([key["frame"] for key in camera["keys"]], float)
+        values = np.array([row(key) for key in camera["keys"]], float)
+        inside = min(max(frame, frames[0]), frames[-1])
+        k = int(np.clip(np.searchsorted(frames, inside, "right") - 1, 0, max(len(frames) - 2, 0)))
+        now = values[k]
+        if len(frames) > 1:
+            h = frames[k + 1] - frames[k]
+            s = (inside - frames[k]) / h
+            way = values[k + 1] - values[k]
+            if camera["interpolate"] == "linear":
+                now = now + s * way
+            else:
+                slopes = _slope_at(frames, values, k), _slope_at(frames, values, k + 1)
+                bend = h * s * (1 - s) * ((1 - s) * slopes[0] - s * slopes[1])
+                now = now + s * s * (3 - 2 * s) * way + bend
+    elif "orbit" in camera:
+        orbit = camera["orbit"]
+        first, last = orbit["frames"]
+        share = min(max((frame - first) / (last - first), 0.0), 1.0) if last > first else 0.0
+        angle = np.radians(orbit["start"] + share * orbit["degrees"])
+        right, front = orbit["radius"] * np.sin(angle), orbit["radius"] * np.cos(angle)
+        height = orbit["height"]
+        around = [right, height, front] if up_axis == "+y" else [right, -front, height]
+        now[:6] = [*(np.array(orbit["centre"]) + around), *orbit["centre"]]
+    return now[:3], now[3:6], now[6:9], now[9]
+
+
 def forces(blocks):
     """Mean force [N] that each contact put on its first body in the step that ended at the frame."""
     return blocks["contact.impulse"] / blocks["step.dt"][0, 0]

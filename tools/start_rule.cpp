@@ -10,9 +10,18 @@ namespace scree {
 namespace {
 
 constexpr std::size_t kNamed = 10;
-// Film props are rarely longer than a lorry or smaller than a crumb; beyond, it is usually the
-// unit.
-constexpr double kLargestProp = 40.0, kSmallestProp = 5e-4;  // [m]
+// What is thrown about is rarely longer than a car and a trailer, heavier than a loaded lorry or
+// smaller than a crumb, and no set is as long as a town; beyond, it is usually the unit. A plate
+// whose file is in centimetres is 24 m long when it is read as metres.
+constexpr double kLargestProp = 10.0, kSmallestProp = 2e-3, kLargestSet = 2000.0;  // [m]
+constexpr double kHeaviestProp = 40'000.0;                                         // [kg]
+
+struct LengthUnit {
+    const char* name;
+    double metres;
+};
+constexpr LengthUnit kUnits[] = {
+    {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
 
 std::string formatted(const char* format, double a, double b = 0.0)
 {
@@ -42,17 +51,37 @@ std::string namesOf(const std::vector<BodyId>& bodies, const World& world)
     return text + (bodies.size() > kNamed ? ", …" : "");
 }
 
+/// Where a length would be that of a prop: "; in cm it would be 0.24 m long".
+std::string likelierUnits(double units)
+{
+    std::string text;
+    for (const LengthUnit& unit : kUnits) {
+        const double size = units * unit.metres;
+        if (size < 0.01 || size > 3.0) continue;
+        text += (text.empty() ? "; in " : ", in ") + std::string(unit.name) +
+                (text.empty() ? " it would be" : "") + formatted(" %.3g m", size);
+    }
+    return text + (text.empty() ? "" : " long");
+}
+
 void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>& warnings)
 {
     std::set<const Shape*> told;
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
         const Shape& shape = world.shapeOf(body);
-        if (world.info[body].kind != BodyKind::dynamic || !told.insert(&shape).second) continue;
+        if (shape.isPlane || !told.insert(&shape).second) continue;
         const double size = shape.box.longestEdge();
-        if (size <= kLargestProp && size >= kSmallestProp) continue;
-        warnings.push_back("'" + world.info[body].name + "' is " + formatted("%.3g m", size) +
-                           " long: is shot.units right? One unit is " +
-                           formatted("%.3g m", shot.metresPerUnit));
+        const BodyMass& weight = world.massWhenBorn(body);
+        const double mass = weight.isMovable() ? 1.0 / weight.inverseMass : 0.0;
+        const bool isProp = world.info[body].kind == BodyKind::dynamic;
+        const bool isTooLong = size > (isProp ? kLargestProp : kLargestSet);
+        const bool isTooHeavy = isProp && mass > kHeaviestProp;
+        if (!isTooLong && !isTooHeavy && size >= kSmallestProp) continue;
+        warnings.push_back(
+            "'" + world.info[body].name + "' is " + formatted("%.3g m", size) + " long" +
+            (isTooHeavy ? formatted(" and weighs %.3g t", mass / 1e3) : "") +
+            ": are shot.units and the asset's scale right? One unit is " +
+            formatted("%.3g m", shot.metresPerUnit) + likelierUnits(size / shot.metresPerUnit));
     }
     const double g = shot.settings.gravity.norm();
     if (g > 50.0) {
@@ -100,7 +129,7 @@ void applyStartRule(const Shot& shot, World& world, Console& console)
 
 std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world)
 {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = shot.warnings;
     const std::vector<BodyId> loose = findUnsupported(world, shot.settings.gravity);
     if (!loose.empty()) {
         warnings.push_back(std::to_string(loose.size()) +

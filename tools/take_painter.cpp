@@ -136,7 +136,7 @@ TakePainter::TakePainter(const TakeReader& take, const std::string& cameraName,
 Camera TakePainter::cameraAtFrame(double frame) const
 {
     const SceneCamera now = cameraAt(camera_, frame, scene_.zUp);
-    return {now.eye, now.target, scene_.zUp ? Vec3::UnitZ() : Vec3::UnitY(), now.fovDegrees};
+    return {now.eye, now.target, upOf(now, scene_.zUp), now.fovDegrees};
 }
 
 std::unique_ptr<PictureEngine> TakePainter::makeEngine() const

@@ -9,13 +9,13 @@
 namespace scree {
 namespace {
 
-/// Eye, target and angle of view as one row of numbers: they all go from key to key the same way.
-using KeyValues = Eigen::Matrix<double, 7, 1>;
+/// Eye, target, up and angle of view as one row of numbers: all go from key to key the same way.
+using KeyValues = Eigen::Matrix<double, 10, 1>;
 
 KeyValues valuesOf(const CameraKey& key)
 {
     KeyValues values;
-    values << key.eye, key.target, key.fovDegrees;
+    values << key.eye, key.target, key.up, key.fovDegrees;
     return values;
 }
 
@@ -95,16 +95,24 @@ SceneCamera cameraAt(const SceneCamera& camera, double frame, bool zUp)
     now.eye = camera.eye;
     now.target = camera.target;
     now.fovDegrees = camera.fovDegrees;
+    now.up = camera.up;
     if (!camera.keys.empty()) {
         const KeyValues values = betweenKeys(camera, frame);
         now.eye = values.head<3>();
         now.target = values.segment<3>(3);
-        now.fovDegrees = values[6];
+        now.up = values.segment<3>(6);
+        now.fovDegrees = values[9];
     } else if (camera.orbit) {
         now.eye = eyeOnOrbit(*camera.orbit, frame, zUp);
         now.target = camera.orbit->centre;
     }
     return now;
+}
+
+Vec3 upOf(const SceneCamera& camera, bool zUp)
+{
+    if (!camera.up.isZero(0.0)) return camera.up;
+    return zUp ? Vec3::UnitZ() : Vec3::UnitY();
 }
 
 SceneCamera scaled(const SceneCamera& camera, double factor)

@@ -12,6 +12,9 @@ bool moves(const SceneCamera& camera);
 /// its first key and after its last.
 SceneCamera cameraAt(const SceneCamera& camera, double frame, bool zUp);
 
+/// Which way is up in the camera's picture: its own `up`, else the scene's.
+Vec3 upOf(const SceneCamera& camera, bool zUp);
+
 /// The same in another unit: all lengths times `factor`.
 SceneCamera scaled(const SceneCamera& camera, double factor);
 

@@ -56,6 +56,7 @@ struct CameraKey {
     double frame = 1001.0;
     Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
     double fovDegrees = 35.0;  ///< vertical
+    Vec3 up = Vec3::Zero();    ///< as SceneCamera::up
 };
 
 /// Part of a circle around the up axis, at even speed, always looking at its centre.
@@ -70,7 +71,10 @@ struct CameraOrbit {
 struct SceneCamera {
     std::string name = "main";
     Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
-    double fovDegrees = 35.0;          ///< vertical
+    double fovDegrees = 35.0;  ///< vertical
+    /// Which way is up in the picture; need not be at right angles, zero: as in the scene. Cameras
+    /// of files have one, since they may be rolled or look straight down.
+    Vec3 up = Vec3::Zero();
     std::vector<CameraKey> keys = {};  ///< frames ascending
     bool isSmooth = true;  ///< passes its keys without a kink; else straight on to the next
     std::optional<CameraOrbit> orbit = {};

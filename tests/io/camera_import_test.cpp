@@ -1,14 +1,18 @@
 // [[camera]] file: the camera of an asset is where other programs show it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 
 #include "core/base/error.h"
 #include "core/scene/camera_motion.h"
+#include "io/camera_pose.h"
+#include "io/file_bytes.h"
 #include "io/frame_writer.h"
 #include "io/shot_parser.h"
 #include "tests/support/export_scene.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -16,7 +20,7 @@ namespace {
 
 constexpr int kFirst = 1001, kFrames = 5;
 
-/// One that never moves, and one that goes around.
+/// One that never moves, one that goes around, and one that rolls over as it looks down and zooms.
 std::vector<SceneCamera> someCameras()
 {
     SceneCamera still;
@@ -27,13 +31,31 @@ std::vector<SceneCamera> someCameras()
     SceneCamera around;
     around.name = "around";
     around.orbit = CameraOrbit{{0.0, 1.0, 0.0}, 8.0, 3.0, 0.0, 120.0, 1001.0, 1005.0};
-    return {still, around};
+    SceneCamera rolling;
+    rolling.name = "rolling";
+    rolling.isSmooth = false;
+    for (int i = 0; i < kFrames; ++i) {
+        // Neither at rest nor at right angles to the way it looks.
+        const double angle = 0.4 * i;
+        rolling.keys.push_back({1001.0 + i, Vec3(0.2 * i, 9.0, 0.0), Vec3(0.2 * i, 0.0, 1.0), 35.0,
+                                Vec3(std::sin(angle), 0.3, std::cos(angle))});
+    }
+    return {still, around, rolling};
+}
+
+double zoomAt(double frame)
+{
+    return 35.0 - 6.0 * (frame - kFirst);
 }
 
 void writeAsset(const std::filesystem::path& output)
 {
     SceneDescription scene = test::sceneOf({test::bodyNamed("mover")});
     scene.cameras = someCameras();
+    const bool holdsZoom = output.extension() == ".abc";
+    if (holdsZoom) {
+        for (CameraKey& key : scene.cameras.back().keys) key.fovDegrees = zoomAt(key.frame);
+    }
     const std::unique_ptr<FrameWriter> writer = makeFrameWriter(output);
     writer->begin(scene, kFirst, kFrames);
     for (int i = 0; i < kFrames; ++i) {
@@ -48,21 +70,12 @@ std::string shotText(const std::string& file, const std::string& lines)
            "\"\n" + lines;
 }
 
-std::string messageOf(const std::string& text)
-{
-    try {
-        parseShotText(text, "s.toml");
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
-}
-
 class CameraImport : public testing::TestWithParam<const char*> {};
 
 TEST_P(CameraImport, StandsAndLooksAtEveryFrameAsTheFileHasIt)
 {
     const test::TemporaryFolder folder;
+    const bool isAlembic = std::string(GetParam()).ends_with(".abc");
     writeAsset(folder / GetParam());
     for (const SceneCamera& expected : someCameras()) {
         const Shot shot = parseShotText(
@@ -78,7 +91,12 @@ TEST_P(CameraImport, StandsAndLooksAtEveryFrameAsTheFileHasIt)
             const Vec3 way = (have.target - have.eye).normalized();
             const Vec3 wanted = (want.target - want.eye).normalized();
             EXPECT_LT((way - wanted).norm(), 1e-5) << frame;
-            EXPECT_NEAR(have.fovDegrees, want.fovDegrees, 1e-3);
+            const bool zooms = isAlembic && expected.name == "rolling";
+            EXPECT_NEAR(have.fovDegrees, zooms ? zoomAt(frame) : want.fovDegrees, 1e-3);
+            // Which way the picture's axes point is where the camera's roll shows.
+            const Quat turn = worldFromCamera(have, false).orientation;
+            const Quat wantedTurn = worldFromCamera(want, false).orientation;
+            EXPECT_LT(turn.angularDistance(wantedTurn), 1e-5) << expected.name << ' ' << frame;
         }
     }
 }
@@ -91,14 +109,108 @@ TEST(CameraImport, SaysWhichCamerasThereAreAndRefusesWhatTheFileDecides)
     const test::TemporaryFolder folder;
     const std::string path = folder / "a.abc";
     writeAsset(path);
-    EXPECT_EQ(messageOf(shotText(path, "node = \"arond\"\n")),
+    EXPECT_EQ(test::messageOfShot(shotText(path, "node = \"arond\"\n")),
               "s.toml:7:8: no camera of '" + path +
-                  "' is called \"arond\"; did you mean 'around'? (it has: still, around)");
-    EXPECT_EQ(
-        messageOf("scree = 1\n[shot]\nname = \"s\"\n[[camera]]\neye = [1, 2, 3]\nnode = \"a\"\n"),
-        "s.toml:6:8: 'node' chooses a camera of a 'file', and there is none");
-    EXPECT_NE(messageOf(shotText(path, "eye = [1, 2, 3]\n")).find("'eye'"), std::string::npos);
-    EXPECT_NE(messageOf(shotText(path, "fov = 30\n")).find("'fov'"), std::string::npos);
+                  "' is called \"arond\"; did you mean 'around'? (it has: still, around, rolling)");
+    EXPECT_EQ(test::messageOfShot(
+                  "scree = 1\n[shot]\nname = \"s\"\n[[camera]]\neye = [1, 2, 3]\nnode = \"a\"\n"),
+              "s.toml:6:8: 'node' chooses a camera of a 'file', and there is none");
+    EXPECT_NE(test::messageOfShot(shotText(path, "eye = [1, 2, 3]\n")).find("'eye'"),
+              std::string::npos);
+    EXPECT_NE(test::messageOfShot(shotText(path, "fov = 30\n")).find("'fov'"), std::string::npos);
+}
+
+/// A camera in FBX as words: on a node that a quarter turn about y makes look along -z, since a
+/// camera of FBX looks along +x, and that rises by a metre in a second. `more` are further objects.
+std::string fbxText(const std::string& more)
+{
+    constexpr const char* kBegin = R"(; FBX 7.4.0 project file
+FBXHeaderExtension: {
+ FBXVersion: 7400
+}
+GlobalSettings: {
+ Version: 1000
+ Properties70: {
+  P: "UnitScaleFactor", "double", "Number", "", 100
+ }
+}
+Objects: {
+ NodeAttribute: 1, "NodeAttribute::view", "Camera" {
+  Properties70: {
+   P: "FieldOfView", "FieldOfView", "", "A", 40
+   P: "AspectWidth", "double", "Number", "", 16
+   P: "AspectHeight", "double", "Number", "", 9
+  }
+  TypeFlags: "Camera"
+  GeometryVersion: 124
+ }
+ Model: 2, "Model::view", "Camera" {
+  Version: 232
+  Properties70: {
+   P: "Lcl Translation", "Lcl Translation", "", "A", 1, 2, 3
+   P: "Lcl Rotation", "Lcl Rotation", "", "A", 0, 90, 0
+  }
+ }
+ AnimationStack: 3, "AnimStack::take", "" {
+ }
+ AnimationLayer: 4, "AnimLayer::base", "" {
+ }
+ AnimationCurveNode: 5, "AnimCurveNode::T", "" {
+ }
+ AnimationCurve: 6, "AnimCurve::", "" {
+  Default: 0
+  KeyVer: 4008
+  KeyTime: *2 {
+   a: 0,46186158000
+  }
+  KeyValueFloat: *2 {
+   a: 2,3
+  }
+ }
+)";
+    constexpr const char* kEnd = R"(}
+Connections: {
+ C: "OO",1,2
+ C: "OO",2,0
+ C: "OO",4,3
+ C: "OO",5,4
+ C: "OP",5,2,"Lcl Translation"
+ C: "OP",6,5,"d|Y"
+}
+)";
+    return kBegin + more + kEnd;
+}
+
+TEST(CameraImport, OfAnFbxLooksAlongItsNodesXAndMovesWithIt)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.fbx";
+    writeFileBytes(path, fbxText(""));
+    const Shot shot = parseShotText(shotText(path, ""), "s.toml");
+    EXPECT_TRUE(shot.warnings.empty()) << shot.warnings.front();
+    ASSERT_EQ(shot.cameras.size(), 1u);
+    for (const double frame : {1001.0, 1003.0, 1005.0}) {
+        const SceneCamera now = cameraAt(shot.cameras[0], frame, false);
+        // Single precision.
+        const double height = 2.0 + (frame - 1001.0) / 24.0;
+        EXPECT_LT((now.eye - Vec3(1.0, height, 3.0)).norm(), 1e-5) << now.eye.transpose();
+        EXPECT_LT((now.target - now.eye - Vec3(0.0, 0.0, -1.0)).norm(), 1e-5);
+        EXPECT_LT((upOf(now, false) - Vec3::UnitY()).norm(), 1e-5);
+        // 40 degrees of width in 16:9 are 2 atan(tan(20) 9/16) of height.
+        EXPECT_NEAR(now.fovDegrees, 23.1468, 1e-3);
+    }
+}
+
+TEST(CameraImport, ThatZoomsInAWayThatIsNotReadIsWarnedOfWithItsPlace)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.fbx";
+    writeFileBytes(path,
+                   fbxText(" AnimationCurveNode: 7, \"AnimCurveNode::FocalLength\", \"\" {\n }\n"));
+    const Shot shot = parseShotText(shotText(path, ""), "s.toml");
+    ASSERT_EQ(shot.warnings.size(), 1u);
+    EXPECT_TRUE(shot.warnings[0].starts_with("s.toml:6:8: the zoom of camera 'view'"))
+        << shot.warnings[0];
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "io/frame_writer.h"
 #include "io/shot_parser.h"
 #include "tests/support/export_scene.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -34,16 +35,6 @@ std::string shotText(const std::string& file, const std::string& nodes, const st
     return "scree = 1\n[shot]\nname = \"s\"\nframes = \"1001-1005\"\n[material.wood]\n[[import]]\n"
            "file = \"" +
            file + "\"\nmaterial = \"wood\"\nnodes = \"" + nodes + "\"\nmotion = \"keyed\"\n" + more;
-}
-
-std::string messageOf(const std::string& text)
-{
-    try {
-        parseShotText(text, "s.toml");
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
 }
 
 class KeyedImport : public testing::TestWithParam<const char*> {};
@@ -75,7 +66,7 @@ TEST_P(KeyedImport, AFileThatMovesNothingIsRefused)
 {
     const test::TemporaryFolder folder;
     writeAsset(folder / GetParam());
-    const std::string message = messageOf(shotText(folder / GetParam(), "*still*", ""));
+    const std::string message = test::messageOfShot(shotText(folder / GetParam(), "*still*", ""));
     EXPECT_NE(message.find("s.toml:10:10: the file animates none of these nodes; motion = "
                            "\"static\""),
               std::string::npos)
@@ -94,7 +85,7 @@ TEST(KeyedImports, ScaleThatChangesIsRefused)
     writer->begin(scene, kFirst, kFrames);
     for (int i = 0; i < kFrames; ++i) writer->write(test::tumblingFrame(scene, kFirst + i, kFirst));
     writer->finish();
-    const std::string message = messageOf(shotText(folder / "x.glb", "*", ""));
+    const std::string message = test::messageOfShot(shotText(folder / "x.glb", "*", ""));
     EXPECT_NE(message.find("'late' cannot be keyed: its scale changes over time"),
               std::string::npos)
         << message;

@@ -12,6 +12,7 @@
 #include "io/shot_parser.h"
 #include "io/take.h"
 #include "io/take_reader.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -20,40 +21,17 @@ namespace {
 namespace fs = std::filesystem;
 
 // A block that lands within the shot, one that spins in mid-air, a ground and a block at rest.
-constexpr const char* kShotText = R"(
-scree = 1
-[shot]
-name = "blocks"
-frames = "1001-1006"
-units = "cm"
-[solver]
-substeps = { min = 7, max = 256 }
-[material.wood]
-density = 650
-[shape.block]
-box = { size = [20, 20, 20] }
-[[body]]
-name = "ground"
-plane = { point = [0, 0, 0], normal = [0, 1, 0] }
-material = "wood"
-motion = "static"
-[[body]]
-name = "landing"
-shape = "block"
-material = "wood"
-position = [0, 11, 0]
-rotation = [3, 2, 1]
-velocity = [30, 0, 0]
-[[body]]
-name = "spinner"
-shape = "block"
-material = "wood"
-position = [200, 400, 0]
-velocity = [100, 50, 0]
-spin = [0, 0, 1000]
-[output]
-subframes = [-0.25, 0.25, 0.4]
-)";
+const std::string kShotText =
+    test::shotTextOf({.name = "blocks",
+                      .shotKeys = "units = \"cm\"\n[solver]\nsubsteps = { min = 7, max = 256 }",
+                      .box = "[20, 20, 20]"},
+                     test::bodyText("landing",
+                                    "position = [0, 11, 0]\nrotation = [3, 2, 1]\n"
+                                    "velocity = [30, 0, 0]") +
+                         test::bodyText("spinner",
+                                        "position = [200, 400, 0]\nvelocity = [100, 50, 0]\n"
+                                        "spin = [0, 0, 1000]") +
+                         "[output]\nsubframes = [-0.25, 0.25, 0.4]\n");
 
 constexpr std::size_t kGround = 0, kSpinner = 2;
 constexpr double kGravity = 981.0;  // [cm/s²]

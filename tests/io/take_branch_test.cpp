@@ -12,6 +12,7 @@
 #include "io/take.h"
 #include "io/take_diff.h"
 #include "io/take_reader.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -20,32 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A block that falls on the ground in its third frame and slides.
-constexpr const char* kShotText = R"(
-scree = 1
-[shot]
-name = "slide"
-frames = "1001-1009"
-[material.wood]
-density = 650
-[shape.block]
-box = { size = [0.4, 0.2, 0.4] }
-[[body]]
-name = "ground"
-plane = { point = [0, 0, 0], normal = [0, 1, 0] }
-material = "wood"
-motion = "static"
-[[body]]
-name = "block"
-shape = "block"
-material = "wood"
-position = [0, 0.13, 0]
-velocity = [2, 0, 0]
-[[body]]
-name = "away"
-shape = "block"
-material = "wood"
-position = [0, 50, 0]
-)";
+const std::string kShotText =
+    test::shotTextOf({.name = "slide", .frames = "1001-1009", .box = "[0.4, 0.2, 0.4]"},
+                     test::bodyText("block", "position = [0, 0.13, 0]\nvelocity = [2, 0, 0]") +
+                         test::bodyText("away", "position = [0, 50, 0]"));
 
 class BranchTest : public testing::Test {
 protected:

@@ -117,6 +117,29 @@ TEST(Rasterizer, ABodyDarkensTheGroundWhereItHidesTheSun)
     EXPECT_NEAR(ratio(kWidth / 2 + 100), 1.0f, 0.02f);  // 2.1 beside it
 }
 
+TEST(Rasterizer, AShadowWiderThanThePictureReachesItsBorders)
+{
+    // A roof far larger than what is seen: the light's map ends at the borders of the picture, and
+    // there soft edges must not find light that comes from beyond it.
+    RasterSettings settings;
+    settings.towardSun = {0, 1, 0};
+    settings.groundLines = false;
+    Stage open, covered;
+    open.addGround();
+    covered.addGround();
+    covered.add(makeBox({400, 1, 400}, {1, 1, 1}), {Vec3(0, 30, 0), Quat::Identity()}, {});
+    Camera camera = lookingFrom({0, 8, 0});
+    camera.up = {0, 0, -1};
+    const Image lit = open.draw(camera, settings), shaded = covered.draw(camera, settings);
+    const auto ratio = [&](int x, int y) { return shaded.at(x, y).x() / lit.at(x, y).x(); };
+    const float middle = ratio(kWidth / 2, kHeight / 2);
+    EXPECT_LT(middle, 0.7f);
+    for (int x = 0; x < kWidth; ++x)
+        for (const int y : {0, kHeight - 1}) EXPECT_NEAR(ratio(x, y), middle, 0.02f) << x;
+    for (int y = 0; y < kHeight; ++y)
+        for (const int x : {0, kWidth - 1}) EXPECT_NEAR(ratio(x, y), middle, 0.02f) << y;
+}
+
 TEST(Rasterizer, SunlitGroundHasNoSpecks)
 {
     Stage stage;
@@ -246,6 +269,17 @@ TEST(Rasterizer, ABodyThatIsNowhereSpoilsNothing)
     const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     stage.add(makeTorus(1.0, 0.25, {16, 10}), {nowhere, Quat::Identity()}, kRed);
     EXPECT_EQ(stage.draw(camera).values, expected.values);
+}
+
+TEST(Rasterizer, ABodyThatIsNotBornCastsNoShadowAndDarkensNoGround)
+{
+    Stage stage = smallHeap(), more = smallHeap();
+    const Camera camera = lookingFrom({8, 5, 9});
+    // Above the heap, out of the picture, where both its maps would see it.
+    more.add(makeBox({6, 1, 6}, {1, 1, 1}), {Vec3(-1, 9, 1), Quat::Identity()}, kRed);
+    EXPECT_NE(more.draw(camera).values, stage.draw(camera).values);
+    more.scene.bodies.back().birthFrame = more.frame.frame + 1;
+    EXPECT_EQ(more.draw(camera).values, stage.draw(camera).values);
 }
 
 TEST(Rasterizer, AnEmptySceneIsAllSky)

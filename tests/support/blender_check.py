@@ -239,7 +239,10 @@ def write_alembic(path, expected):
 
 def check_camera(export, take):
     info = read_info(take)
-    open_export(export)
+    if pathlib.Path(export).is_dir():
+        blender_open.open_scene(blender_open.parse_options([export]))
+    else:
+        open_export(export)
     wanted = info["cameras"][0]
     cameras = [o for o in bpy.data.objects if o.type == "CAMERA"]
     if not cameras:

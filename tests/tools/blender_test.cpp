@@ -109,6 +109,7 @@ TEST_P(BlenderTest, AKeyedCameraMovesAsInTheShot)
                  "interpolate = \"linear\"");
     makeExport("", text);
     check("camera " + cacheAndTake());
+    check("camera " + test::quoted(take()) + " " + test::quoted(take()));
 }
 
 TEST_P(BlenderTest, AFastSpinnerBlursByTheAngleItTurns)

@@ -16,6 +16,7 @@
 
 #include "io/file_bytes.h"
 #include "io/take.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -96,36 +97,13 @@ using test::runScree;
 using test::TemporaryFolder;
 
 // Many short steps, so that a signal nearly always arrives inside a frame.
-constexpr const char* kShotText = R"(
-scree = 1
-[shot]
-name = "boxes"
-frames = "1001-1040"
-[solver]
-substeps = { min = 40, max = 256 }
-[material.wood]
-density = 650
-friction = 0.4
-restitution = 0.2
-[shape.block]
-box = { size = [1, 1, 1] }
-[[body]]
-name = "ground"
-plane = { point = [0, 0, 0], normal = [0, 1, 0] }
-material = "wood"
-motion = "static"
-[[body]]
-name = "low"
-shape = "block"
-material = "wood"
-position = [0, 0.55, 0]
-[[body]]
-name = "high"
-shape = "block"
-material = "wood"
-position = [0.3, 1.9, 0.1]
-rotation = [15, 0, 35]
-)";
+const std::string kShotText = test::shotTextOf(
+    {.name = "boxes",
+     .frames = "1001-1040",
+     .shotKeys = "[solver]\nsubsteps = { min = 40, max = 256 }",
+     .woodKeys = "friction = 0.4\nrestitution = 0.2\n"},
+    test::bodyText("low", "position = [0, 0.55, 0]") +
+        test::bodyText("high", "position = [0.3, 1.9, 0.1]\nrotation = [15, 0, 35]"));
 
 class ProgramTest : public testing::Test {
 protected:

@@ -10,6 +10,7 @@
 #include "io/take_reader.h"
 #include "render/png_writer.h"
 #include "tests/support/readers.h"
+#include "tests/support/small_shot.h"
 
 namespace scree::test {
 namespace {
@@ -17,40 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 
 // A stack, and a box that flies past it; two cameras, of which one pans.
-constexpr const char* kShotText = R"(
-scree = 1
-[shot]
-name = "looks"
-frames = "1001-1008"
-[material.wood]
-density = 650
-friction = 0.5
-color = [0.6, 0.3, 0.1]
-[shape.block]
-box = { size = [1, 1, 1] }
-[shape.lid]
+const std::string kShotText =
+    test::shotTextOf({.name = "looks",
+                      .frames = "1001-1008",
+                      .woodKeys = "friction = 0.5\ncolor = [0.6, 0.3, 0.1]\n"},
+                     test::bodyText("low", "position = [0, 0.5, 0]") +
+                         test::bodyText("high", "position = [0, 1.35, 0]", "lid") +
+                         test::bodyText("fast", "position = [-3, 3, 0]\nvelocity = [24, 0, 0]")) +
+    R"([shape.lid]
 box = { size = [0.7, 0.7, 0.7] }
-[[body]]
-name = "ground"
-plane = { point = [0, 0, 0], normal = [0, 1, 0] }
-material = "wood"
-motion = "static"
-[[body]]
-name = "low"
-shape = "block"
-material = "wood"
-position = [0, 0.5, 0]
-[[body]]
-name = "high"
-shape = "lid"
-material = "wood"
-position = [0, 1.35, 0]
-[[body]]
-name = "fast"
-shape = "block"
-material = "wood"
-position = [-3, 3, 0]
-velocity = [24, 0, 0]
 [[camera]]
 name = "still"
 eye = [0, 2, 9]

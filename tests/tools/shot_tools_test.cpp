@@ -7,36 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file_bytes.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
 namespace {
 
-constexpr const char* kShotText = R"(
-scree = 1
-[shot]
-name = "drop"
-frames = "1001-1006"
-[material.wood]
-density = 650
-[shape.block]
-box = { size = [0.4, 0.2, 0.4] }
-[[body]]
-name = "ground"
-plane = { point = [0, 0, 0], normal = [0, 1, 0] }
-material = "wood"
-motion = "static"
-[[body]]
-name = "low"
-shape = "block"
-material = "wood"
-position = [0, 0.15, 0]
-[[body]]
-name = "high"
-shape = "block"
-material = "wood"
-position = [0.02, 0.4, 0.03]
-)";
+const std::string kShotText =
+    test::shotTextOf({.name = "drop", .box = "[0.4, 0.2, 0.4]"},
+                     test::bodyText("low", "position = [0, 0.15, 0]") +
+                         test::bodyText("high", "position = [0.02, 0.4, 0.03]"));
 
 class ShotTools : public testing::Test {
 protected:
@@ -107,7 +87,18 @@ TEST_F(ShotTools, OverlapsAtTheStartAreAnErrorAWarningOrPushedApart)
 TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
 {
     const Outcome big = run("check drop.toml --estimate 0 --set shape.block.scale=500");
-    EXPECT_TRUE(contains(big.out, "200 m long: is shot.units right?")) << big.out;
+    EXPECT_TRUE(contains(big.out, "'low' is 200 m long and weighs 2.6e+06 t: are shot.units"))
+        << big.out;
+    EXPECT_TRUE(contains(big.out, "One unit is 1 m; in mm it would be 0.2 m long")) << big.out;
+    // A plate modelled in centimetres and read as metres.
+    const Outcome plate = run("check drop.toml --estimate 0 --set shape.block.box.size=[24,2,24]");
+    EXPECT_TRUE(contains(plate.out, "'low' is 24 m long")) << plate.out;
+    EXPECT_TRUE(contains(plate.out, "in cm it would be 0.24 m, in mm 0.024 m, in in 0.61 m long"))
+        << plate.out;
+    // And the other way round: metres read as millimetres.
+    const Outcome crumb = run("check drop.toml --estimate 0 --set shot.units=\\\"mm\\\"");
+    EXPECT_TRUE(contains(crumb.out, "'low' is 0.0004 m long")) << crumb.out;
+    EXPECT_FALSE(contains(run("check drop.toml --estimate 0").out, "shot.units"));
     const Outcome heavy = run("check drop.toml --estimate 0 --set shot.gravity=[0,-981,0]");
     EXPECT_TRUE(contains(heavy.out, "100 times the earth's")) << heavy.out;
     const Outcome away = run(

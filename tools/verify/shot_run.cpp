@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/dynamics/integrator.h"
+#include "core/scene/camera_motion.h"
 #include "io/build_world.h"
 #include "io/shot_parser.h"
 #include "io/shot_tree.h"
@@ -169,8 +170,7 @@ void addPicture(const Context& context, const ShotRun& run, const std::string& c
     if (!context.wantsPictures) return;
     const SceneDescription scene = describeScene(run.shot, run.world, kPlaneHalfWidth);
     const SceneCamera& from = run.shot.cameras.at(0);
-    const Vec3 up = run.shot.zUp ? Vec3::UnitZ() : Vec3::UnitY();
-    const Camera camera{from.eye, from.target, up, from.fovDegrees};
+    const Camera camera{from.eye, from.target, upOf(from, run.shot.zUp), from.fovDegrees};
     RasterSettings settings;
     settings.wireframe = isWireframe;
     Rasterizer rasterizer(scene, looksOf(run.shot, scene), settings);
