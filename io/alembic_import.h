@@ -2,7 +2,7 @@
 //
 // Read are PolyMesh objects (points, faces, texture coordinates) and Xform objects over time, also
 // where instances repeat them. Refused, because it would be seen: meshes whose points move, scale
-// that changes, subdivision surfaces, polygons no fan of triangles fills. Cameras are read without
+// that changes, subdivision surfaces, polygons no fan of triangles fills. Cameras come with
 // their zoom. Passed over: curves, points, lights, visibility, and everything in properties of the
 // user's own.
 #pragma once

@@ -155,10 +155,35 @@ double fovAt(const ImportedCamera& camera, double seconds)
     return before.fovDegrees + share * (after->fovDegrees - before.fovDegrees);
 }
 
-/// What a camera at a pose looks at: a metre away, since files do not say how far.
-CameraKey keyAt(const Pose& worldFromCamera, double frame, double fovDegrees)
+/// How far from its eye a camera's target is, which files do not say: as far as the middle of what
+/// moves, or else stands. Pictures take it for the scale of things, haze and near plane included.
+double distanceToAction(const Pose& worldFromCamera, const Shot& shot)
 {
-    return {frame, worldFromCamera.position, worldFromCamera * Vec3(0.0, 0.0, -1.0), fovDegrees,
+    constexpr double kNoBodies = 10.0;  // [m]
+    Vec3 moving = Vec3::Zero(), all = Vec3::Zero();
+    int movingCount = 0, count = 0;
+    for (const ShotBody& body : shot.bodies) {
+        if (body.plane) continue;
+        all += body.worldFromAsset.position;
+        ++count;
+        if (body.kind != BodyKind::dynamic) continue;
+        moving += body.worldFromAsset.position;
+        ++movingCount;
+    }
+    if (count == 0) return kNoBodies;
+    const Vec3 middle = movingCount > 0 ? Vec3(moving / movingCount) : Vec3(all / count);
+    const Vec3 way = middle - worldFromCamera.position;
+    // It may look past the action, but not at its own nose.
+    const double ahead = way.dot(worldFromCamera.orientation * -Vec3::UnitZ());
+    const double distance = std::max(ahead, 0.5 * way.norm());
+    return distance > 0.0 ? distance : kNoBodies;
+}
+
+/// Where a camera at a pose stands and what it looks at.
+CameraKey keyAt(const Pose& worldFromCamera, double frame, double fovDegrees, const Shot& shot)
+{
+    const Vec3 way(0.0, 0.0, -distanceToAction(worldFromCamera, shot));
+    return {frame, worldFromCamera.position, worldFromCamera * way, fovDegrees,
             worldFromCamera.orientation * Vec3::UnitY()};
 }
 
@@ -245,7 +270,7 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
         const double seconds = (frame - shot.firstFrame) / shot.framesPerSecond;
         const double fov = fovAt(*imported, seconds + placement.startSeconds());
-        camera.keys.push_back(keyAt(script.at(seconds), frame, fov));
+        camera.keys.push_back(keyAt(script.at(seconds), frame, fov, shot));
         if (!changes) break;
     }
     const CameraKey& first = camera.keys.front();

@@ -20,8 +20,8 @@ const std::vector<ShotKey> kLookKeys = {
      .excludes = "eye|target|fov|keys|orbit|interpolate",
      .help =
          "A glb, gltf, fbx or abc file, relative to the shot file, whose camera it is, with the "
-         "motion it has there; units, axes and times as in [[import]]. Pictures stand upright: "
-         "roll is not kept, nor is a zoom."},
+         "motion it has there; units, axes and times as in [[import]]. Roll is kept; so "
+         "is the zoom of an abc, while that of an fbx or a glTF extension is warned of."},
     {.path = "camera.node",
      .type = text,
      .help = "Which camera of the file: the first whose name fits, with * and ? for what may be "

@@ -229,19 +229,6 @@ void drawPlaneDepths(DepthMap& map, const PlaneSurface& plane, const Mat4& clipF
     }
 }
 
-void openBorder(DepthMap& map)
-{
-    const int last = map.size - 1;
-    const auto clear = [&](int x, int y) {
-        map.depths[static_cast<std::size_t>(y) * map.size + x] = 1.0f;
-    };
-    for (int k = 0; k <= last; ++k)
-        for (const int end : {0, last}) {
-            clear(k, end);
-            clear(end, k);
-        }
-}
-
 DepthBounds boundDepths(const DepthMap& map)
 {
     constexpr int kTile = DepthBounds::kTileTexels;

@@ -34,10 +34,6 @@ bool drawDepths(DepthMap& map, const ShadedMesh& mesh, const Mat4& clipFromAsset
 /// Draws an infinite plane that faces the light; any other is left out.
 void drawPlaneDepths(DepthMap& map, const PlaneSurface& plane, const Mat4& clipFromWorld);
 
-/// Makes the outermost texels empty, for readers that take the nearest texel of a map for what is
-/// beyond it.
-void openBorder(DepthMap& map);
-
 /// Least and greatest depth of every tile of a map and the tiles around it: where a point is nearer
 /// than the least or farther than the greatest, no texel within a tile's length needs to be asked.
 struct DepthBounds {

@@ -47,7 +47,7 @@ struct MapTexture {
 };
 
 /// Depths; reading them gives the share of neighbouring texels that are at least as deep as asked.
-/// Beyond the map the outermost texels go on: see openBorder().
+/// Beyond the map the outermost texels go on, which are empty or beside the picture: fitDepthMap().
 void uploadDepths(MapTexture& target, const DepthMap& map);
 void uploadBounds(MapTexture& target, const DepthBounds& bounds);
 

@@ -320,7 +320,6 @@ void Rasterizer::Context::drawSunDepths(const View& view)
 {
     clearDepths(depths_, view.sun.size);
     drawNearToFar(depths_, view.bodies, view.balls, view.sun.clipFromWorld, kSlopeBias);
-    openBorder(depths_);
     uploadDepths(sunDepths_, depths_);
     uploadBounds(sunBounds_, boundDepths(depths_));
 }

@@ -38,7 +38,8 @@ struct DepthMapFit {
 /// A map that holds every caster that can darken something the camera sees. The map has texels of
 /// `wantedTexel` or of whatever length `mostTexels` of them can cover everything with; its size
 /// grows in steps and its texels stay where they are in the world, so that shadows do not crawl
-/// while the heap changes shape. `margin` is kept free around the casters.
+/// while the heap changes shape. `margin` and at least a texel are kept free
+/// around the casters, but to the sides where the picture ends before them.
 DepthMapFit fitDepthMap(const Vec3& towardLight, const std::vector<Ball>& casters,
                         const Points& visible, double margin, double wantedTexel, int mostTexels);
 

@@ -11,6 +11,7 @@
 #include "io/camera_pose.h"
 #include "io/gltf_writer.h"
 #include "io/pov_writer.h"
+#include "io/take_info.h"
 #include "io/usd_writer.h"
 #include "tests/support/cast.h"
 #include "tests/support/readers.h"
@@ -146,6 +147,52 @@ TEST(CameraExport, EveryPovFileHasTheCameraOfItsFrame)
                               &eye.z()),
                   3);
         EXPECT_LT((eye - cameraAt(scene.cameras[0], frame, false).eye).norm(), 1e-9) << frame;
+    }
+}
+
+TEST(CameraOfATake, IsWhereTheScriptThatReadsTakesPutsIt)
+{
+    SceneCamera bent;
+    bent.name = "bent";
+    bent.keys = {{1001.0, {3, 4, 12}, {0, 2, -1}, 40.0, {0, 1, 0}},
+                 {1003.5, {9, 4, 6}, {0, 1, 0}, 20.0, {1, 1, 0}},
+                 {1009.0, {11, 2, 6}, {1, 1, 0}, 30.0, {1, 0, 0.5}},
+                 {1010.0, {10, 1, 6}, {2, 0, 0}, 31.0, {1, 0, 0}}};
+    SceneCamera orbit;
+    orbit.orbit = CameraOrbit{{0, 1, 0}, 8.0, 3.0, 30.0, 400.0, 1002.0, 1008.0};
+    SceneCamera still;
+    still.eye = {1, 2, 3};
+    TakeInfo info;
+    info.cameras = {bent, orbit, still};
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "take.json") << encodeTakeInfo(info);
+    std::ofstream(folder / "read.py") << R"(
+import json, sys
+sys.path.insert(0, sys.argv[2])
+from read_take import camera_at
+for camera in json.load(open(sys.argv[1]))["cameras"]:
+    for time in (1000, 1001, 1002.2, 1003.5, 1007.25, 1009.5, 1010, 1020):
+        eye, target, up, fov = camera_at(camera, time, "+y")
+        print(*eye, *target, *up, fov)
+)";
+    const test::CommandResult read = test::runCommand(
+        "/usr/bin/python3 " + test::quoted(folder / "read.py") + " " +
+        test::quoted(folder / "take.json") + " " + test::quoted(test::sourceFile("tools")));
+    ASSERT_EQ(read.exitCode, 0) << read.output;
+    std::istringstream numbers(read.output);
+    for (const SceneCamera& camera : info.cameras) {
+        for (const double time :
+             {1000.0, 1001.0, 1002.2, 1003.5, 1007.25, 1009.5, 1010.0, 1020.0}) {
+            Vec3 eye, target, up;
+            double fov = 0.0;
+            for (Vec3* v : {&eye, &target, &up}) numbers >> v->x() >> v->y() >> v->z();
+            numbers >> fov;
+            const SceneCamera now = cameraAt(camera, time, false);
+            EXPECT_LT((eye - now.eye).norm(), 1e-9) << camera.name << ' ' << time;
+            EXPECT_LT((target - now.target).norm(), 1e-9) << camera.name << ' ' << time;
+            EXPECT_LT((up - upOf(now, false)).norm(), 1e-9) << camera.name << ' ' << time;
+            EXPECT_NEAR(fov, now.fovDegrees, 1e-9) << camera.name << ' ' << time;
+        }
     }
 }
 

@@ -248,7 +248,11 @@ std::map<std::string, std::string> cleanFiles()
         " Model: 2, \"Model::t\", \"Mesh\" {\n  Version: 232\n }\n}\nConnections: {\n"
         " C: \"OO\",1,2\n C: \"OO\",2,0\n}\n";
     const test::TemporaryFolder folder;
-    const SceneDescription scene = test::sceneOf({test::bodyNamed("body")});
+    SceneDescription scene = test::sceneOf({test::bodyNamed("body")});
+    SceneCamera camera;
+    camera.keys = {{1.0, {0, 2, 9}, {0, 0, 0}, 40.0, {0, 1, 0}},
+                   {2.0, {4, 2, 9}, {0, 0, 0}, 20.0, {1, 1, 0}}};
+    scene.cameras = {camera};
     for (const std::string ending : {"glb", "abc"}) {
         const auto writer = makeFrameWriter(folder / ("t." + ending));
         writer->begin(scene, 1, 2);

@@ -67,18 +67,6 @@ TEST(DepthMap, NoEdgeBetweenTrianglesLeavesAGap)
     }
 }
 
-TEST(DepthMap, AnOpenBorderIsOneTexelWideAllRound)
-{
-    DepthMap map = mapOf(makeBox({8, 1, 8}, {1, 1, 1}));  // covers all of the map
-    openBorder(map);
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) {
-            const bool isBorder = x == 0 || y == 0 || x == kSize - 1 || y == kSize - 1;
-            EXPECT_EQ(map.depths[y * kSize + x] == 1.0f, isBorder) << x << ' ' << y;
-        }
-    }
-}
-
 TEST(DepthMap, PlanesReachEveryTexelAndFaceTheLight)
 {
     DepthMap map;

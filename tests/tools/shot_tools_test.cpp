@@ -89,7 +89,8 @@ TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
     const Outcome big = run("check drop.toml --estimate 0 --set shape.block.scale=500");
     EXPECT_TRUE(contains(big.out, "'low' is 200 m long and weighs 2.6e+06 t: are shot.units"))
         << big.out;
-    EXPECT_TRUE(contains(big.out, "One unit is 1 m; in mm it would be 0.2 m long")) << big.out;
+    EXPECT_TRUE(contains(big.out, "One unit is 1 m; in cm it would be 2 m, in mm 0.2 m long"))
+        << big.out;
     // A plate modelled in centimetres and read as metres.
     const Outcome plate = run("check drop.toml --estimate 0 --set shape.block.box.size=[24,2,24]");
     EXPECT_TRUE(contains(plate.out, "'low' is 24 m long")) << plate.out;
