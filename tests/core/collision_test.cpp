@@ -1,5 +1,4 @@
 // Fast against obvious: broad phase against all pairs, remembered samples against all samples.
-// [A7, A8, A12–A15]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ Vec3 drawVector(std::uint64_t i, std::uint64_t what, double size)
     return {unit(0), unit(1), unit(2)};
 }
 
-TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFinds)
+TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFinds)  // [A14]
 {
     for (std::uint64_t scene = 0; scene < 20; ++scene) {
         std::vector<Aabb> boxes;
@@ -61,7 +60,7 @@ void expectSameTouches(std::vector<Touch> fast, std::vector<Touch> plain, const 
     }
 }
 
-TEST(Interference, RememberedSamplesGiveTheSameTouchesBitForBitAsAllSamples)
+TEST(Interference, RememberedSamplesGiveTheSameTouchesBitForBitAsAllSamples)  // [A7, A12, A13]
 {
     const std::vector<std::shared_ptr<const Shape>> shapes = {
         buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10})), boxShape(Vec3::Ones(), 2),
@@ -95,7 +94,7 @@ TEST(Interference, RememberedSamplesGiveTheSameTouchesBitForBitAsAllSamples)
     EXPECT_GT(touching, 3000);
 }
 
-TEST(Interference, AnEdgeAcrossAnEdgeIsFoundAtItsDeepestPoint)
+TEST(Interference, AnEdgeAcrossAnEdgeIsFoundAtItsDeepestPoint)  // [A8]
 {
     const auto beam = boxShape({1.0, 0.1, 0.1}, 1);
     const Quat onEdge = exponentialMap({kPi / 4.0, 0.0, 0.0});
@@ -129,7 +128,7 @@ bool findsAnEdgeOfA(const Shape& a, const Shape& b, const Pose& worldFromAssetA,
     });
 }
 
-TEST(Interference, AnEdgeShortAgainstTheFieldOfALargeBodyWasNeverSampled)
+TEST(Interference, AnEdgeShortAgainstTheFieldOfALargeBodyWasNeverSampled)  // [A8]
 {
     // The edge of 0.2 m is two lattice steps long in this field; the search once began at the
     // second.
@@ -143,7 +142,7 @@ TEST(Interference, AnEdgeShortAgainstTheFieldOfALargeBodyWasNeverSampled)
                                {Vec3::Zero(), onEdge}));
 }
 
-TEST(Interference, AnEdgeCutIntoABodyUnseenBesideAVertexThatJustTouchedIt)
+TEST(Interference, AnEdgeCutIntoABodyUnseenBesideAVertexThatJustTouchedIt)  // [A8]
 {
     // A bar runs from half a millimetre above a cube's top face down through it and out of its
     // side.

@@ -1,5 +1,4 @@
-// Levels of graphs given as edges. Who rests on whom: scree verify E6.  [GBF03 “Contact Graph”],
-// [A37, A38]
+// Levels of graphs given as edges. Who rests on whom: scree verify E6.  [GBF03 “Contact Graph”]
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -9,7 +8,7 @@
 namespace scree {
 namespace {
 
-TEST(ContactGraph, AHundredThousandNodesInAChainNeedNoDeepStack)
+TEST(ContactGraph, AHundredThousandNodesInAChainNeedNoDeepStack)  // [A37]
 {
     const int count = 100000;
     std::vector<SupportEdge> edges;
@@ -22,7 +21,7 @@ TEST(ContactGraph, AHundredThousandNodesInAChainNeedNoDeepStack)
     EXPECT_EQ(levels.componentCount, count);
 }
 
-TEST(ContactGraph, ACycleIsOneComponentOneAboveWhatCarriesIt)
+TEST(ContactGraph, ACycleIsOneComponentOneAboveWhatCarriesIt)  // [A37, A38]
 {
     // 0 (fixed) → 1 → 2 → 3 → 1, 3 → 4; 5 → 6 → 5 floats.
     const std::vector<SupportEdge> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 1}, {3, 4}, {5, 6}, {6, 5}};

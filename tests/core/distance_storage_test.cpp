@@ -1,5 +1,5 @@
 // E21: the two storages of a distance field, and what blocks know without being sampled.
-// [A4, A10, A11]
+// [A10, A11]
 #include <gtest/gtest.h>
 
 #include <algorithm>

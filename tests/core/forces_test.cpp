@@ -1,4 +1,4 @@
-// Constant forces and force fields; groups; how materials combine.  [A27, A56, A57]
+// Constant forces and force fields; groups; how materials combine.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ void run(World& world, const StepSettings& settings, double seconds)
     for (int k = 0; k < std::lround(seconds / kDt); ++k) stepper.step(world, kDt);
 }
 
-TEST(Forces, ConstantForceAndTorqueAddTheirImpulse)
+TEST(Forces, ConstantForceAndTorqueAddTheirImpulse)  // [A56]
 {
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
@@ -53,7 +53,7 @@ World pressedCube(double sideways, double gap = 0.0)
     return world;
 }
 
-TEST(Forces, ABodyPressedByAForceRestsThoughItsRestitutionIsOne)
+TEST(Forces, ABodyPressedByAForceRestsThoughItsRestitutionIsOne)  // [A56]
 {
     World world = pressedCube(14.0);  // friction holds 15 N
     const World before = world;
@@ -61,7 +61,7 @@ TEST(Forces, ABodyPressedByAForceRestsThoughItsRestitutionIsOne)
     EXPECT_LE(largestVertexShift(before, world, 1), 1e-9);
 }
 
-TEST(Forces, WhatAForceBringsToTheFloorInOneStepIsFoundBeforeItIsThere)
+TEST(Forces, WhatAForceBringsToTheFloorInOneStepIsFoundBeforeItIsThere)  // [A56]
 {
     // The force takes the cube 0.5 mm in a step. Only a prediction that counts with it finds the
     // floor in time; found a step later, the cube arrives with a velocity and bounces.
@@ -166,7 +166,7 @@ World throwAt(const CollisionGroups& thrown, const CollisionGroups& target, doub
     return world;
 }
 
-TEST(CollisionGroups, OneThatDoesNotAcceptTheOtherIsEnoughToPassThrough)
+TEST(CollisionGroups, OneThatDoesNotAcceptTheOtherIsEnoughToPassThrough)  // [A57]
 {
     const CollisionGroups everything{.group = 2}, choosy{.group = 4, .collidesWith = 1};
     World met = throwAt(everything, everything), passed = throwAt(everything, choosy);
@@ -177,7 +177,7 @@ TEST(CollisionGroups, OneThatDoesNotAcceptTheOtherIsEnoughToPassThrough)
     EXPECT_EQ(passed.motion[0].velocity, Vec3(3.0, 0.0, 0.0));
 }
 
-TEST(CollisionGroups, ABodyUnmovedByAnotherPushesItAsIfInfinitelyHeavy)
+TEST(CollisionGroups, ABodyUnmovedByAnotherPushesItAsIfInfinitelyHeavy)  // [A57]
 {
     const CollisionGroups hero{.group = 2, .unmovedBy = 4}, debris{.group = 4};
     World world = throwAt(hero, debris);
@@ -190,7 +190,7 @@ TEST(CollisionGroups, ABodyUnmovedByAnotherPushesItAsIfInfinitelyHeavy)
     EXPECT_NEAR(world.motion[1].velocity.x(), heavy.motion[1].velocity.x(), 1e-6);
 }
 
-TEST(CollisionGroups, TwoUnmovedByEachOtherPassThrough)
+TEST(CollisionGroups, TwoUnmovedByEachOtherPassThrough)  // [A57]
 {
     const CollisionGroups one{.group = 2, .unmovedBy = 4}, other{.group = 4, .unmovedBy = 2};
     World world = throwAt(one, other);
@@ -214,7 +214,7 @@ double speedOnSlope(CombineRule rule, std::optional<double> pairFriction = {})
     return world.motion[1].velocity.norm();
 }
 
-TEST(CombineRules, DecideWhetherASlipperyBodySlidesOnARoughSlope)
+TEST(CombineRules, DecideWhetherASlipperyBodySlidesOnARoughSlope)  // [A27]
 {
     const double free = 9.8 * 0.5 * 0.5;
     EXPECT_NEAR(speedOnSlope(CombineRule::maximum), 0.0, 1e-9);

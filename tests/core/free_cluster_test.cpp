@@ -1,4 +1,4 @@
-// E18: a free cluster keeps its momenta, phase by phase; strict does not.  [A47, A60]
+// E18: a free cluster keeps its momenta, phase by phase.  [A47]
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// Impulses whose result is known by heart. Laws for any pair: scree verify E15.  [A29–A35]
+// Impulses whose result is known by heart. Laws for any pair: scree verify E15.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace scree {
 namespace {
 
-TEST(Impulses, EqualSpheresHeadOnExchangeTheirVelocities)
+TEST(Impulses, EqualSpheresHeadOnExchangeTheirVelocities)  // [A30]
 {
     const Mat3 k = 2.0 * Mat3::Identity();  // 1 kg each, struck through their centres
     const Vec3 u(3.0, 0.0, 0.0), n(-1.0, 0.0, 0.0);
@@ -18,7 +18,7 @@ TEST(Impulses, EqualSpheresHeadOnExchangeTheirVelocities)
     EXPECT_LE((contactImpulse(k, u, n, 0.0, 0.5).impulse - Vec3(-1.5, 0.0, 0.0)).norm(), 1e-12);
 }
 
-TEST(Impulses, AJammedRodIsNeitherPulledNorGivenEnergy)
+TEST(Impulses, AJammedRodIsNeitherPulledNorGivenEnergy)  // [A32, A33]
 {
     // A rod at 60° pushed into a floor of friction 3: the sliding formula would divide by less than
     // zero.
@@ -33,7 +33,7 @@ TEST(Impulses, AJammedRodIsNeitherPulledNorGivenEnergy)
     EXPECT_NEAR((u + k * j.impulse).dot(n), 0.0, 1e-12);
 }
 
-TEST(Impulses, WithoutSlipAndFrictionEnoughTheContactSticks)
+TEST(Impulses, WithoutSlipAndFrictionEnoughTheContactSticks)  // [A31, A32]
 {
     const Mat3 k = Mat3::Identity();
     const ContactImpulse j = contactImpulse(k, {0.3, -1.0, 0.0}, Vec3::UnitY(), 0.0, 0.5);

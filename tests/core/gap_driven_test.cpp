@@ -1,5 +1,4 @@
 // Method `scree` and what drives bodies: keyed motion, forces, groups, pairs of materials, births.
-// [A27, A54, A56, A57]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +39,7 @@ void runFrames(World& world, const StepSettings& settings, double seconds)
     for (int k = 0; k < std::lround(seconds / kDt); ++k) stepper.advanceFrame(world, kDt);
 }
 
-TEST(GapKeyed, APusherDrivesABoxBeforeItWithItsOwnSpeed)
+TEST(GapKeyed, APusherDrivesABoxBeforeItWithItsOwnSpeed)  // [A54]
 {
     World world;
     const MaterialId material = addMaterial(world, 0.3, 0.0);
@@ -57,7 +56,7 @@ TEST(GapKeyed, APusherDrivesABoxBeforeItWithItsOwnSpeed)
     EXPECT_NEAR(world.motion[box].velocity.x(), 2.0, 1e-3);
 }
 
-TEST(GapKeyed, ALiftCarriesABoxWithoutLagOrSinking)
+TEST(GapKeyed, ALiftCarriesABoxWithoutLagOrSinking)  // [A54]
 {
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
@@ -75,7 +74,7 @@ TEST(GapKeyed, ALiftCarriesABoxWithoutLagOrSinking)
     }
 }
 
-TEST(GapKeyed, ATurntableTakesABoxRoundWithIt)
+TEST(GapKeyed, ATurntableTakesABoxRoundWithIt)  // [A54]
 {
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
@@ -132,7 +131,7 @@ TEST(GapForces, FrictionHoldsAPressedBodyUpToCoulombsLimit)
     EXPECT_NEAR(pulled.motion[1].velocity.x(), (20.0 - 15.0) * 0.5, 1e-3);
 }
 
-TEST(GapForces, AFreeBodyUnderAForceFliesAParabolaAndATorqueSpinsItUp)
+TEST(GapForces, AFreeBodyUnderAForceFliesAParabolaAndATorqueSpinsItUp)  // [A56]
 {
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
@@ -150,7 +149,7 @@ TEST(GapForces, AFreeBodyUnderAForceFliesAParabolaAndATorqueSpinsItUp)
     EXPECT_LE(world.motion[body].orientation.angularDistance(turned), 1e-7);  // acos near 1
 }
 
-TEST(GapPairs, GroupsThatDoNotCollidePassThroughEachOther)
+TEST(GapPairs, GroupsThatDoNotCollidePassThroughEachOther)  // [A57]
 {
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
@@ -166,7 +165,7 @@ TEST(GapPairs, GroupsThatDoNotCollidePassThroughEachOther)
     EXPECT_LT(world.motion[2].position.y(), -3.0);
 }
 
-TEST(GapPairs, AnExceptionForTwoMaterialsReplacesTheRule)
+TEST(GapPairs, AnExceptionForTwoMaterialsReplacesTheRule)  // [A27]
 {
     World world;
     const MaterialId rough = addMaterial(world, 0.5, 0.0), ice = addMaterial(world, 0.5, 0.0);

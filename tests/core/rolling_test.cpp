@@ -1,5 +1,5 @@
 // Rolling and spinning friction beside what E9 and E3 of scree verify prove: lever arms, the cone,
-// the laws of a single impulse, curvature. [GBF03 “Rolling and Spinning Friction”], [A49–A51]
+// the laws of a single impulse, curvature. [GBF03 “Rolling and Spinning Friction”]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ Roll roll(const std::shared_ptr<const Shape>& ball, const RollingFriction& rolli
     return result;
 }
 
-TEST(E9RollingFriction, ALeverArmBrakesWithThatArmTimesTheWeight)
+TEST(E9RollingFriction, ALeverArmBrakesWithThatArmTimesTheWeight)  // [A49]
 {
     // Couple b m g against the inertia about the contact, (2/5 + 1) m R²: stops after w R² 7/(5 b
     // g).
@@ -74,7 +74,7 @@ TEST(E9RollingFriction, ALeverArmBrakesWithThatArmTimesTheWeight)
     EXPECT_NEAR(result.spinStop, spinStop, 0.01 * spinStop);
 }
 
-TEST(E9RollingFriction, TheCouplesNeverLeaveTheFrictionCone)
+TEST(E9RollingFriction, TheCouplesNeverLeaveTheFrictionCone)  // [A51]
 {
     // Braking at μ_r m g R = 49 m/s² would need five times the friction there is: what is applied
     // is halved until it fits, and the ball still stops without turning back or gaining energy.
@@ -99,7 +99,7 @@ PassInertia randomInertia(std::uint64_t sample, std::uint64_t which)
 }
 
 // A keyed body, or one that shock has frozen, keeps an inverse inertia that no impulse may see.
-TEST(E9RollingFriction, TheInertiaOfABodyThatCannotBeMovedDoesNotMatter)
+TEST(E9RollingFriction, TheInertiaOfABodyThatCannotBeMovedDoesNotMatter)  // [A51]
 {
     StickingContact contact;
     contact.inertiaS = randomInertia(0, 0);
@@ -122,7 +122,7 @@ TEST(E9RollingFriction, TheInertiaOfABodyThatCannotBeMovedDoesNotMatter)
 
 // Laws of the impulse with its couple for any two bodies, one of them immovable in every fifth
 // pair.
-TEST(E9RollingFriction, TenThousandRandomContactsStaySlowAndInTheConeAndGainNothing)
+TEST(E9RollingFriction, TenThousandRandomContactsStaySlowAndInTheConeAndGainNothing)  // [A49, A51]
 {
     int braked = 0;
     for (std::uint64_t sample = 0; sample < 10000; ++sample) {
@@ -220,7 +220,7 @@ TEST(E9bIncline, ALeverArmSlowsTheBallAndHoldsItAFifthAboveTheoreticalNeed)
     EXPECT_NEAR(slowed, 9.8 * (0.5 - 0.1 / 0.5 * std::sqrt(0.75)) / 1.4, 0.06 * slowed);
 }
 
-TEST(Curvature, OfASphereIsOneOverItsRadiusAndOfFlatFacesNone)
+TEST(Curvature, OfASphereIsOneOverItsRadiusAndOfFlatFacesNone)  // [A50]
 {
     const auto sphere = buildMeshShape("sphere", makeSphere(0.5, 4));
     for (int i = 0; i < 100; ++i) {
@@ -236,7 +236,7 @@ TEST(Curvature, OfASphereIsOneOverItsRadiusAndOfFlatFacesNone)
     EXPECT_NEAR(meanCurvature(*ring, inner), 0.5 * (4.0 - 4.0 / 3.0), 0.3);
 }
 
-TEST(Curvature, ScalesResistanceFromATenthToTenfold)
+TEST(Curvature, ScalesResistanceFromATenthToTenfold)  // [A50]
 {
     const auto sphere = exactSphere(0.5);
     const Shape& ball = *sphere;
@@ -247,7 +247,7 @@ TEST(Curvature, ScalesResistanceFromATenthToTenfold)
     EXPECT_EQ(curvatureFactor(-3.0, ball), 10.0);  // in a bowl of its own radius or hollower
 }
 
-TEST(Curvature, ScalingLeavesASphereOnAPlaneAsItIs)
+TEST(Curvature, ScalingLeavesASphereOnAPlaneAsItIs)  // [A50]
 {
     StepSettings plain = experimentSettings();
     plain.curvatureScaling = false;

@@ -1,4 +1,4 @@
-// E21: the distance field against exact primitives.  [A4–A6]
+// E21: the distance field against the mesh itself, cavities, walls too thin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ double plainDistance(const TriMesh& mesh, const Vec3& p)
     return angle > 2.0 * std::numbers::pi ? -nearest : nearest;
 }
 
-TEST(E21SignedDistance, ACavityIsOutsideAndWhatLiesInItIsInside)
+TEST(E21SignedDistance, ACavityIsOutsideAndWhatLiesInItIsInside)  // [A4]
 {
     // A ball of radius 1 with a cavity of 0.7, in which a ball of 0.3 lies.
     const TriMesh outer = makeSphere(1.0, 4), inner = makeSphere(0.3, 3);
@@ -79,7 +79,7 @@ TEST(E21SignedDistance, ACavityIsOutsideAndWhatLiesInItIsInside)
 
 /// OpenVDB keeps remnants of a band at the walls of a cavity, some voxels off: no distance can
 /// change by more than the way between two nodes.
-TEST(E21SignedDistance, DistancesAtTheWallsOfACavityChangeNoFasterThanTheWay)
+TEST(E21SignedDistance, DistancesAtTheWallsOfACavityChangeNoFasterThanTheWay)  // [A4]
 {
     TriMesh bottle = makeCylinder(1.0, 2.0, 20, 6);
     TriMesh hollow = makeCylinder(0.8, 1.6, 20, 6);
@@ -110,7 +110,7 @@ TEST(E21SignedDistance, DistancesAtTheWallsOfACavityChangeNoFasterThanTheWay)
     EXPECT_LE(worst, 1.001 * layout.spacing);
 }
 
-TEST(E21SignedDistance, ANonconvexMeshAgreesWithEveryTriangleAskedOneByOne)
+TEST(E21SignedDistance, ANonconvexMeshAgreesWithEveryTriangleAskedOneByOne)  // [A4]
 {
     const auto shape = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
     const double h = shape->distance.spacing();
@@ -124,7 +124,7 @@ TEST(E21SignedDistance, ANonconvexMeshAgreesWithEveryTriangleAskedOneByOne)
     }
 }
 
-TEST(E21SignedDistance, APointThatCrossesAFaceGetsThatFaceHoweverNearTheEdge)
+TEST(E21SignedDistance, APointThatCrossesAFaceGetsThatFaceHoweverNearTheEdge)  // [A6]
 {
     const auto shape = buildMeshShape("cube", makeBox(Vec3::Ones(), {2, 2, 2}));
     for (double fromEdge : {5e-4, 1e-4, 1e-5}) {
@@ -135,7 +135,7 @@ TEST(E21SignedDistance, APointThatCrossesAFaceGetsThatFaceHoweverNearTheEdge)
     }
 }
 
-TEST(E21SignedDistance, AWallTooThinForTheLargestFieldIsRefusedWithWhatItNeeds)
+TEST(E21SignedDistance, AWallTooThinForTheLargestFieldIsRefusedWithWhatItNeeds)  // [A4]
 {
     try {
         buildMeshShape("sheet", makeBox({1.0, 0.001, 1.0}, {1, 1, 1}));

@@ -1,5 +1,4 @@
 // What the phases of a step promise each other: one prediction, one graph, a full report.
-// [A20, A48, A58]
 #include <gtest/gtest.h>
 
 #include <algorithm>
