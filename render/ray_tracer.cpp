@@ -135,6 +135,7 @@ private:
     std::vector<ShadedMesh> meshes_;         // empty for planes
     std::vector<PlaneSurface> planeMeshes_;  // parallel to meshes_
     std::vector<std::size_t> bodyMesh_;
+    std::vector<int> birthFrames_;  // parallel to bodyMesh_
     std::vector<Mat3> turns_;  // of the bodies in the present picture
     std::vector<RTCScene> meshScenes_;
     RTCScene scene_ = nullptr;
@@ -176,6 +177,7 @@ RayTracer::Tracer::Tracer(const SceneDescription& scene, const std::vector<Look>
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
         const std::size_t mesh = scene.bodies[body].mesh;
         bodyMesh_.push_back(mesh);
+        birthFrames_.push_back(scene.bodies[body].birthFrame);
         instances_.push_back(nullptr);
         if (meshes_[mesh].indices.empty()) continue;
         instances_[body] = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -199,7 +201,7 @@ void RayTracer::Tracer::place(const SceneFrame& frame, const Vec3& origin)
     for (std::size_t body = 0; body < bodyMesh_.size(); ++body) {
         if (!instances_[body]) continue;
         const Pose& pose = frame.worldFromAsset[body];
-        if (!isFinite(pose)) {
+        if (frame.frame < birthFrames_[body] || !isFinite(pose)) {
             rtcDisableGeometry(instances_[body]);
             rtcCommitGeometry(instances_[body]);
             continue;

@@ -108,6 +108,19 @@ TEST(Engines, AWrongLightAMissingBodyAndAnInsideOutMeshAreSeen)
     EXPECT_GT(worstBlock(rays, traced(missing)), 5.0 * kStoredTolerance);
 }
 
+TEST(Engines, NeitherShowsABodyBeforeItsBirthNorItsShadow)
+{
+    // Happened: rays showed all bodies of an emitter from the first frame on.
+    test::PreviewScene unborn = heap(), missing = heap();
+    unborn.scene.bodies.back().birthFrame = unborn.frame.frame + 1;
+    missing.frame.worldFromAsset.back().position.setConstant(
+        std::numeric_limits<double>::quiet_NaN());
+    EXPECT_NE(rasterized(heap()).values, rasterized(unborn).values);
+    EXPECT_EQ(rasterized(missing).values, rasterized(unborn).values);
+    EXPECT_NE(traced(heap()).values, traced(unborn).values);
+    EXPECT_EQ(traced(missing).values, traced(unborn).values);
+}
+
 TEST(Engines, BothDrawTheSameScene)
 {
     // Light within a heap is estimated by one and sampled by the other; everything else is the
