@@ -245,18 +245,19 @@ TEST_F(RenderOptions, IdAndLevelsTellBodiesApartByTheirColour)
 
 TEST_F(RenderOptions, ACameraThatMovesBlursWhatStands)
 {
-    // The stack is in the middle for both cameras, and what flies has left it behind.
+    // The stack is in the middle for both cameras, which see nearly the same, and what flies is not
+    // there yet, though its shadow is.
     const auto blurOfStack = [&](const std::string& camera) {
-        EXPECT_EQ(render("--frames 1007 --camera " + camera).exitCode, 0);
-        const Image sharp = picture(1007);
-        EXPECT_EQ(render("--frames 1007 --motion-blur 4 --camera " + camera).exitCode, 0);
-        const Image blurred = picture(1007);
+        EXPECT_EQ(render("--frames 1002 --camera " + camera).exitCode, 0);
+        const Image sharp = picture(1002);
+        EXPECT_EQ(render("--frames 1002 --motion-blur 4 --camera " + camera).exitCode, 0);
+        const Image blurred = picture(1002);
         float sum = 0.0f;
         for (int y = 40; y < 75; ++y)
             for (int x = 60; x < 100; ++x) sum += (sharp.at(x, y) - blurred.at(x, y)).norm();
         return sum;
     };
-    EXPECT_GT(blurOfStack("pan"), 4.0f * blurOfStack("still"));
+    EXPECT_GT(blurOfStack("pan"), 3.0f * blurOfStack("still"));
 }
 
 TEST_F(RenderOptions, ACameraOfAFileThatHangsUpsideDownTurnsThePicture)
