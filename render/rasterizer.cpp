@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <mutex>
 #include <string>
 
 #include "core/base/check.h"
@@ -70,7 +71,11 @@ class Rasterizer::Context {
 public:
     Context(const SceneDescription& scene, const std::vector<Look>& looks,
             const RasterSettings& settings);
-    ~Context() { OSMesaDestroyContext(mesa_); }
+    ~Context()
+    {
+        const std::lock_guard lock(mesaLock());
+        OSMesaDestroyContext(mesa_);
+    }
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
@@ -121,6 +126,17 @@ private:
     void drawPicture(const View& view);
     void averagePoints();
     Image readPicture();
+    int useContext();
+    Image drawWithMesa(const View& view, int width, int height);
+
+    /// OSMesa's contexts share a screen, and drawing in one while another uploads textures crashed
+    /// (Mesa 22.3; a shot of 500 rings whose maps change their size, one run in two). So one at a
+    /// time calls it; it draws with several threads, and maps are drawn and PNGs packed meanwhile.
+    static std::mutex& mesaLock()
+    {
+        static std::mutex lock;
+        return lock;
+    }
 
     RasterSettings settings_;
     /// A body that is born, with a pose made of numbers.
@@ -157,6 +173,7 @@ Rasterizer::Context::Context(const SceneDescription& scene, const std::vector<Lo
     pointsPerEdge_ = settings.samples == 4 ? 2 : 1;
     up_ = upOf(scene);
     towardSun_ = sunOf(scene, settings);
+    const std::lock_guard lock(mesaLock());
     openMesa();
     makePrograms();
     uploadScene(scene);
@@ -266,6 +283,7 @@ void Rasterizer::Context::placeBodies(const View& view, int width, int height)
         appendInstance(instances[view.placed[i].mesh], pose.orientation.toRotationMatrix(),
                        pose.position, looks_[view.placed[i].body]);
     }
+    const std::lock_guard lock(mesaLock());
     for (std::size_t mesh = 0; mesh < meshes_.size(); ++mesh)
         if (!meshes_[mesh].bodies.empty()) uploadInstances(meshes_[mesh], instances[mesh]);
 }
@@ -320,8 +338,10 @@ void Rasterizer::Context::drawSunDepths(const View& view)
 {
     clearDepths(depths_, view.sun.size);
     drawNearToFar(depths_, view.bodies, view.balls, view.sun.clipFromWorld, kSlopeBias);
+    const DepthBounds bounds = boundDepths(depths_);
+    const std::lock_guard lock(mesaLock());
     uploadDepths(sunDepths_, depths_);
-    uploadBounds(sunBounds_, boundDepths(depths_));
+    uploadBounds(sunBounds_, bounds);
 }
 
 /// Depths seen from above, then their moments under a narrow and a wide blur.
@@ -333,7 +353,9 @@ void Rasterizer::Context::drawSkyHeights(const View& view)
         if (plane.normal.dot(view.camera.eye - plane.point) > 0.0)  // else it is not seen either
             drawPlaneDepths(depths_, plane, view.sky.clipFromWorld);
     const DepthMoments near = blurred(momentsOf(depths_), 1);
-    uploadMoments(heights_, near, blurred(near, kWideBlurStride));
+    const DepthMoments wide = blurred(near, kWideBlurStride);
+    const std::lock_guard lock(mesaLock());
+    uploadMoments(heights_, near, wide);
 }
 
 /// Selects a program and tells it of lights and maps.
@@ -412,15 +434,37 @@ Image Rasterizer::Context::readPicture()
     return fromOpenGl(width, height, bytes_);
 }
 
-Image Rasterizer::Context::draw(const SceneFrame& frame, const Camera& camera, int width,
-                                int height)
+/// Makes the context that of this thread; the longest edge of a target.
+int Rasterizer::Context::useContext()
 {
-    SCREE_CHECK(frame.worldFromAsset.size() == looks_.size(), "a frame of another scene");
+    const std::lock_guard lock(mesaLock());
     if (!OSMesaMakeCurrent(mesa_, mesaWindow_.data(), GL_UNSIGNED_BYTE, 4, 4))
         failInOpenGl("cannot use its context");
     GLint largest = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-    largest /= pointsPerEdge_;
+    return largest;
+}
+
+/// Everything for which maps and bodies must be uploaded.
+Image Rasterizer::Context::drawWithMesa(const View& view, int width, int height)
+{
+    const std::lock_guard lock(mesaLock());
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    resizePicture(picture_, width, height, pointsPerEdge_);
+    drawPicture(view);
+    if (pointsPerEdge_ > 1) averagePoints();
+    Image image = readPicture();
+    const GLenum error = glGetError();
+    SCREE_CHECK(error == GL_NO_ERROR, "OpenGL error " + std::to_string(error));
+    return image;
+}
+
+Image Rasterizer::Context::draw(const SceneFrame& frame, const Camera& camera, int width,
+                                int height)
+{
+    SCREE_CHECK(frame.worldFromAsset.size() == looks_.size(), "a frame of another scene");
+    const GLint largest = useContext() / pointsPerEdge_;
     if (width < 1 || height < 1 || width > largest || height > largest)
         throw Error(ErrorKind::usage, "a picture of " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels cannot be drawn; the " +
@@ -429,16 +473,9 @@ Image Rasterizer::Context::draw(const SceneFrame& frame, const Camera& camera, i
 
     const View view = measure(frame, camera, static_cast<double>(width) / height);
     placeBodies(view, pointsPerEdge_ * width, pointsPerEdge_ * height);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
     drawSunDepths(view);
     drawSkyHeights(view);
-    resizePicture(picture_, width, height, pointsPerEdge_);
-    drawPicture(view);
-    if (pointsPerEdge_ > 1) averagePoints();
-    Image image = readPicture();
-    const GLenum error = glGetError();
-    SCREE_CHECK(error == GL_NO_ERROR, "OpenGL error " + std::to_string(error));
+    Image image = drawWithMesa(view, width, height);
     if (pointsPerEdge_ == 1 && settings_.smoothEdges) smoothEdges(image);
     return image;
 }

@@ -19,8 +19,8 @@ struct RasterSettings : StageSettings {
 };
 
 /// The number of threads is threadCount() when the first Rasterizer of the process is made, unless
-/// the environment says otherwise (LP_NUM_THREADS). Several may draw at once, each in a thread of
-/// its own, and use processors better than one after the other.
+/// the environment says otherwise (LP_NUM_THREADS). Several may be used at once, each in a
+/// thread of its own: OpenGL draws for one at a time, all else they do side by side.
 class Rasterizer : public PictureEngine {
 public:
     /// `looks` is parallel to scene.bodies. Throws Error{internal} when there is no OpenGL 3.3.
