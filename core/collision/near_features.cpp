@@ -1,9 +1,12 @@
 #include "core/collision/near_features.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "core/math/lanes.h"
 
 namespace scree {
 namespace {
@@ -41,23 +44,74 @@ double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
     return atLeast;
 }
 
-/// Bounding spheres of the edges of a shape, one array a coordinate.
-struct EdgeSpheres {
-    std::vector<double> x, y, z, radius;
-
-    void assign(const ContactFeatures& features, const std::vector<std::int32_t>& chosen)
-    {
-        for (std::vector<double>* list : {&x, &y, &z, &radius}) list->resize(chosen.size());
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            const ConvexEdge& edge = features.edges()[chosen[i]];
-            radius[i] = 0.5 * edge.length;
-            const Vec3 middle = edge.start + radius[i] * edge.direction;
-            x[i] = middle.x();
-            y[i] = middle.y();
-            z[i] = middle.z();
-        }
-    }
+/// One edge, or four.
+template <class Number, class Vector>
+struct FacingEdges {
+    Vector middle, direction, intoFace[2], outward;
+    Number half;  // of the length [m]
 };
+using EdgeLanes = FacingEdges<Lanes, Lanes3>;
+
+Lanes3 everywhere(const Vec3& v)
+{
+    return Lanes3::of(v, v, v, v);
+}
+
+/// Edges of the second shape, four abreast.
+void fillLanes(const ContactFeatures& features, const std::vector<std::int32_t>& chosen,
+               std::vector<EdgeLanes>& lanes)
+{
+    constexpr double kNowhere = 1e100;
+    lanes.resize((chosen.size() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < lanes.size() * kLanes; ++i) {
+        EdgeLanes& four = lanes[i / kLanes];
+        const int lane = static_cast<int>(i % kLanes);
+        if (i >= chosen.size()) {
+            four.middle.set(lane, Vec3::Constant(kNowhere));
+            continue;
+        }
+        const ConvexEdge& edge = features.edges()[chosen[i]];
+        const double half = 0.5 * edge.length;
+        four.half[lane] = half;
+        four.middle.set(lane, edge.start + half * edge.direction);
+        four.direction.set(lane, edge.direction);
+        for (int k : {0, 1}) four.intoFace[k].set(lane, edge.intoFace[k]);
+        four.outward.set(lane, edge.outward);
+    }
+}
+
+EdgeLanes inAllLanes(const RelativePair& pair, const ConvexEdge& edge)
+{
+    const double half = 0.5 * edge.length;
+    const auto turned = [&](const Vec3& v) { return everywhere(pair.rotation * v); };
+    return {everywhere(pair * Vec3(edge.start + half * edge.direction)),
+            turned(edge.direction),
+            {turned(edge.intoFace[0]), turned(edge.intoFace[1])},
+            turned(edge.outward),
+            lanesOf(half)};
+}
+
+/// Which of four edges can come to touch one of the first shape while nothing moves by more than
+/// `farthest` - no point, and no direction by more than `turn` [rad]: those that are near, and whose
+/// common normal either supports (edgeSupports), give or take that turn. Most edges beside each
+/// other never can.
+unsigned mayFace(const EdgeLanes& ofA, const EdgeLanes& ofB, double farthest, double turn)
+{
+    const Lanes3 between = ofB.middle - ofA.middle;
+    const Lanes far = ofA.half + ofB.half + farthest;
+    const Lanes3 normal = cross(ofA.direction, ofB.direction);  // not unit; turns by `turn` at most
+    const Lanes slack = kSupportSlack * sqrtOf(dot(normal, normal));
+    const Lanes ofB0 = dot(ofB.intoFace[0], normal), ofB1 = dot(ofB.intoFace[1], normal);
+    const Lanes ofA0 = dot(ofA.intoFace[0], normal), ofA1 = dot(ofA.intoFace[1], normal);
+    const Lanes out = dot(ofB.outward, normal);
+    const Lanes slackB = slack + (1.0 + kSupportSlack) * turn;
+    const Lanes slackA = slack + (2.0 + kSupportSlack) * turn;
+    const LaneMask isOut = (out >= -turn) & (maxOf(ofB0, ofB1) <= slackB) &
+                           (maxOf(-ofA0, -ofA1) <= slackA);
+    const LaneMask isOutReversed = (out <= turn) & (maxOf(-ofB0, -ofB1) <= slackB) &
+                                   (maxOf(ofA0, ofA1) <= slackA);
+    return bitsOf((dot(between, between) <= far * far) & (isOut | isOutReversed));
+}
 
 /// Edges of the first shape that may come within `clearance` of the second, by index.
 void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::int32_t>& near)
@@ -205,31 +259,26 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
 {
     if (pair.first.features.edges().empty() || pair.second.features.edges().empty()) return;
     thread_local std::vector<std::int32_t> nearA, nearB;
-    thread_local EdgeSpheres ofB;
-    thread_local std::vector<double> excess;
+    thread_local std::vector<EdgeLanes> ofB;
     findEdgesNear(pair, clearance_, nearA);
     if (nearA.empty()) return;
     findEdgesNear(back, clearance_, nearB);
-    ofB.assign(pair.second.features, nearB);
+    fillLanes(pair.second.features, nearB, ofB);
     const double deepest = deepestEdges(pair), end = way_ + window_;
     const double farthest = std::max(reach, deepest) + window_;
-    const std::size_t count = nearB.size();
-    excess.resize(count);
+    const double turn = window_ / std::max(pair.first.boundingRadius, pair.second.boundingRadius);
     for (std::int32_t e : nearA) {
         const ConvexEdge& edge = pair.first.features.edges()[e];
         const Segment segment = placed(pair, edge);
-        const double half = 0.5 * edge.length;
-        const Vec3 middle = segment.start + half * segment.direction;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double dx = ofB.x[i] - middle.x(), dy = ofB.y[i] - middle.y();
-            const double dz = ofB.z[i] - middle.z(), far = ofB.radius[i] + half + farthest;
-            excess[i] = dx * dx + dy * dy + dz * dz - far * far;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            if (excess[i] > 0.0) continue;
-            NearEdges edges{0.0, 0.0, e, nearB[i]};
-            look(segment, pair.second.features.edges()[nearB[i]], deepest, edges);
-            if (edges.farUntil - end < reach || edges.outsideUntil <= end) edges_.push_back(edges);
+        const EdgeLanes ofA = inAllLanes(pair, edge);
+        for (std::size_t four = 0; four < ofB.size(); ++four) {
+            for (unsigned bits = mayFace(ofA, ofB[four], farthest, turn); bits; bits &= bits - 1) {
+                const std::int32_t other = nearB[four * kLanes + std::countr_zero(bits)];
+                NearEdges edges{0.0, 0.0, e, other};
+                look(segment, pair.second.features.edges()[other], deepest, edges);
+                if (edges.farUntil - end < reach || edges.outsideUntil <= end)
+                    edges_.push_back(edges);
+            }
         }
     }
 }

@@ -15,6 +15,15 @@ using Lanes = double __attribute__((vector_size(8 * kLanes)));
 
 inline constexpr Lanes kNoLanes = {0.0, 0.0, 0.0, 0.0};
 
+/// What comparing lanes says: all bits of a lane, or none.
+using LaneMask = decltype(kNoLanes > kNoLanes);
+
+/// Bit i tells of lane i.
+inline unsigned bitsOf(LaneMask mask)
+{
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+}
+
 inline Lanes lanesOf(double value)
 {
     return Lanes{value, value, value, value};
