@@ -1,31 +1,9 @@
 #include "core/geometry/distance_nodes.h"
 
 namespace scree {
-namespace {
-
-/// Trilinear between corner[0], corner[nx], … at a place within 0 … 1 along each axis.
-double betweenCorners(const float* corner, std::size_t dx, std::size_t dy, std::size_t dz,
-                      const Vec3& f)
+double DistanceNodes::interpolateInBrick(const Place& place) const
 {
-    const auto alongX = [&](std::size_t offset) {
-        const double a = corner[offset], b = corner[offset + dx];
-        return a + f.x() * (b - a);
-    };
-    const double y0 = alongX(0) + f.y() * (alongX(dy) - alongX(0));
-    const double y1 = alongX(dz) + f.y() * (alongX(dz + dy) - alongX(dz));
-    return y0 + f.z() * (y1 - y0);
-}
-
-}  // namespace
-
-double DistanceNodes::interpolate(const Vec3& pointInside) const
-{
-    const Place place = placeOf(pointInside);
     const auto [i, j, k] = place.cell;
-    if (storage == FieldStorage::dense) {
-        const std::size_t nx = layout.count[0], nxy = nx * layout.count[1];
-        return betweenCorners(values.data() + i + nx * j + nxy * k, 1, nx, nxy, place.fraction);
-    }
     const FieldBlock& block = blockOf(place.cell);
     const float* first = values.data() + block.first;
     const std::array<int, 3> inBlock = {i % kBlockCells, j % kBlockCells, k % kBlockCells};

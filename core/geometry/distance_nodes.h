@@ -54,6 +54,19 @@ inline double refinementBandOf(double spacing)
     return 1.01 * kHalfDiagonal * spacing;
 }
 
+/// Trilinear between corner[0], corner[dx], … at a place within 0 … 1 along each axis.
+inline double betweenCorners(const float* corner, std::size_t dx, std::size_t dy, std::size_t dz,
+                             const Vec3& f)
+{
+    const auto alongX = [&](std::size_t offset) {
+        const double a = corner[offset], b = corner[offset + dx];
+        return a + f.x() * (b - a);
+    };
+    const double y0 = alongX(0) + f.y() * (alongX(dy) - alongX(0));
+    const double y1 = alongX(dz) + f.y() * (alongX(dz + dy) - alongX(dz));
+    return y0 + f.z() * (y1 - y0);
+}
+
 /// One block of cells. All of it is outside where low > 0 and inside where high < 0; only in the
 /// others does a sign ask for more.
 struct FieldBlock {
@@ -131,10 +144,18 @@ struct DistanceNodes {
     }
 
     /// The trilinear value at a point of the domain [m].
-    double interpolate(const Vec3& pointInside) const;
+    double interpolate(const Place& place) const
+    {
+        if (storage != FieldStorage::dense) return interpolateInBrick(place);
+        const auto [i, j, k] = place.cell;
+        const std::size_t nx = layout.count[0], nxy = nx * layout.count[1];
+        return betweenCorners(values.data() + i + nx * j + nxy * k, 1, nx, nxy, place.fraction);
+    }
 
     /// What a coarse block says at a node that belongs to it [m].
     double interpolateCoarse(std::size_t block, const std::array<int, 3>& node) const;
+
+    double interpolateInBrick(const Place& place) const;
 
     std::size_t byteCount() const
     {

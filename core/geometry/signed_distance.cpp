@@ -85,11 +85,6 @@ void SignedDistance::buildFaces(const TriMesh& mesh)
     }
 }
 
-const FieldBlock& SignedDistance::blockAround(const Vec3& pointInDomain) const
-{
-    return field_.nodes.blockOf(field_.nodes.placeOf(pointInDomain).cell);
-}
-
 std::span<const std::uint32_t> SignedDistance::facesOfCell(const Vec3& pointInDomain) const
 {
     return field_.nearest.of(field_.nodes, field_.nodes.placeOf(pointInDomain).cell);
@@ -99,7 +94,7 @@ double SignedDistance::gridValue(const Vec3& point) const
 {
     if (solid_) return solid_->value(point);
     const Vec3 inside = clamped(point);
-    const double phi = field_.nodes.interpolate(inside);
+    const double phi = field_.nodes.interpolate(field_.nodes.placeOf(inside));
     if (inside == point) return phi;
     return phi + (point - inside).norm();
 }
@@ -115,8 +110,10 @@ double SignedDistance::lowerBound(const Vec3& point) const
 {
     if (solid_) return solid_->value(point);
     if (domain_.distanceTo(point) > 0.0) return surfaceBox_.distanceTo(point);
-    const double phi = gridValue(point);
-    return std::abs(phi) < band_ ? exact(point) : phi - blockAround(point).slack;
+    const DistanceNodes& nodes = field_.nodes;
+    const DistanceNodes::Place place = nodes.placeOf(point);
+    const double phi = nodes.interpolate(place);
+    return std::abs(phi) < band_ ? exact(point) : phi - nodes.blockOf(place.cell).slack;
 }
 
 bool SignedDistance::isClearOf(const Vec3& point, double radius) const
@@ -124,10 +121,12 @@ bool SignedDistance::isClearOf(const Vec3& point, double radius) const
     if (solid_) return solid_->value(point) > radius;
     if (surfaceBox_.distanceTo(point) > radius) return true;
     // Far from the surface the block knows without being sampled.  [A10, A11]
-    const FieldBlock& block = blockAround(clamped(point));
+    const DistanceNodes& nodes = field_.nodes;
+    const DistanceNodes::Place place = nodes.placeOf(clamped(point));
+    const FieldBlock& block = nodes.blockOf(place.cell);
     if (block.low - block.slack > radius) return true;
     if (block.high + block.slack < radius) return false;
-    return lowerBound(point) > radius;
+    return nodes.interpolate(place) - block.slack > radius;
 }
 
 SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point) const

@@ -108,7 +108,6 @@ private:
     {
         return point.cwiseMax(domain_.min).cwiseMin(domain_.max);
     }
-    const FieldBlock& blockAround(const Vec3& pointInDomain) const;
     std::span<const std::uint32_t> facesOfCell(const Vec3& pointInDomain) const;
     Closest closestInCell(const Vec3& point) const;
     static double signedValue(const Closest& closest, const Vec3& point);
