@@ -123,12 +123,9 @@ void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::
     };
     features.edgeTree().visit(isClear, [&](std::uint32_t e) {
         const ConvexEdge& edge = features.edges()[e];
-        const double quarter = 0.25 * edge.length;
-        if (isClear(edge.start + quarter * edge.direction, quarter) &&
-            isClear(edge.start + 3.0 * quarter * edge.direction, quarter)) {
-            return;
-        }
-        near.push_back(static_cast<std::int32_t>(e));
+        const double half = 0.5 * edge.length;
+        if (!isClear(edge.start + half * edge.direction, half))
+            near.push_back(static_cast<std::int32_t>(e));
     });
     std::sort(near.begin(), near.end());
 }
