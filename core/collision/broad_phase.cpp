@@ -7,6 +7,9 @@
 namespace scree {
 namespace {
 
+/// How much larger the boxes are made, on every side. Only time depends on it.
+constexpr double kRoom = 0.1;  // of the longest edge
+
 constexpr double kMostCells = 64.0;  // a body over more cells goes to the list of large ones
 
 struct CellRange {
@@ -49,20 +52,44 @@ std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
 const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxes,
                                                    const std::vector<BodyMass>& mass)
 {
+    bool isKnown = roomy_.size() == boxes.size();
+    for (std::size_t i = 0; i < boxes.size() && isKnown; ++i) {
+        isKnown = roomy_[i].contains(boxes[i]) && mass[i].isMovable() == (isMovable_[i] != 0);
+    }
+    if (!isKnown) {
+        roomy_.clear();
+        isMovable_.clear();
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const double edge = boxes[i].longestEdge();
+            roomy_.push_back(std::isfinite(edge) ? boxes[i].grown(kRoom * edge) : boxes[i]);
+            isMovable_.push_back(mass[i].isMovable());
+        }
+        findRoomyPairs(mass);
+    }
     pairs_.clear();
+    for (BodyPair pair : roomyPairs_) {
+        if (boxes[pair.a].overlaps(boxes[pair.b])) pairs_.push_back(pair);
+    }
+    return pairs_;
+}
+
+void BroadPhase::findRoomyPairs(const std::vector<BodyMass>& mass)
+{
+    const std::vector<Aabb>& boxes = roomy_;
+    roomyPairs_.clear();
     entries_.clear();
     large_.clear();
     edges_.clear();
     const auto report = [&](BodyId a, BodyId b) {
         if (!mass[a].isMovable() && !mass[b].isMovable()) return;
         if (!boxes[a].overlaps(boxes[b])) return;
-        pairs_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
+        roomyPairs_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
     };
 
     for (const Aabb& box : boxes) {
         if (const double edge = box.longestEdge(); std::isfinite(edge)) edges_.push_back(edge);
     }
-    if (edges_.empty()) return pairs_;
+    if (edges_.empty()) return;
     const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(edges_.size() / 2);
     std::nth_element(edges_.begin(), middle, edges_.end());
     const double cellSize = std::max(2.0 * *middle, 1e-12);
@@ -111,8 +138,7 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
         }
     }
 
-    std::sort(pairs_.begin(), pairs_.end());
-    return pairs_;
+    std::sort(roomyPairs_.begin(), roomyPairs_.end());
 }
 
 }  // namespace scree

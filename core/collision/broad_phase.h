@@ -1,5 +1,8 @@
 // Candidate pairs from boxes: a uniform grid for most bodies, a list for the few that are huge.
 // [A14]
+//
+// Boxes move little from step to step, so the search is for boxes that are somewhat larger, and
+// serves until one leaves its own. The answer never depends on when that was.
 #pragma once
 
 #include <array>
@@ -30,6 +33,11 @@ private:
         std::uint64_t cell;
         BodyId body;
     };
+    void findRoomyPairs(const std::vector<BodyMass>& mass);
+
+    std::vector<Aabb> roomy_;      // the boxes of the last search
+    std::vector<char> isMovable_;  // then
+    std::vector<BodyPair> roomyPairs_;
     std::vector<Entry> entries_;
     std::vector<std::array<std::int64_t, 3>> firstCells_;  // of each body
     std::vector<BodyId> large_;

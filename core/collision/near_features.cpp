@@ -92,9 +92,9 @@ EdgeLanes inAllLanes(const RelativePair& pair, const ConvexEdge& edge)
 }
 
 /// Which of four edges can come to touch one of the first shape while nothing moves by more than
-/// `farthest` - no point, and no direction by more than `turn` [rad]: those that are near, and whose
-/// common normal either supports (edgeSupports), give or take that turn. Most edges beside each
-/// other never can.
+/// `farthest` - no point, and no direction by more than `turn` [rad]: those that are near, and
+/// whose common normal either supports (edgeSupports), give or take that turn. Most edges beside
+/// each other never can.
 unsigned mayFace(const EdgeLanes& ofA, const EdgeLanes& ofB, double farthest, double turn)
 {
     const Lanes3 between = ofB.middle - ofA.middle;
@@ -106,10 +106,10 @@ unsigned mayFace(const EdgeLanes& ofA, const EdgeLanes& ofB, double farthest, do
     const Lanes out = dot(ofB.outward, normal);
     const Lanes slackB = slack + (1.0 + kSupportSlack) * turn;
     const Lanes slackA = slack + (2.0 + kSupportSlack) * turn;
-    const LaneMask isOut = (out >= -turn) & (maxOf(ofB0, ofB1) <= slackB) &
-                           (maxOf(-ofA0, -ofA1) <= slackA);
-    const LaneMask isOutReversed = (out <= turn) & (maxOf(-ofB0, -ofB1) <= slackB) &
-                                   (maxOf(ofA0, ofA1) <= slackA);
+    const LaneMask isOut =
+        (out >= -turn) & (maxOf(ofB0, ofB1) <= slackB) & (maxOf(-ofA0, -ofA1) <= slackA);
+    const LaneMask isOutReversed =
+        (out <= turn) & (maxOf(-ofB0, -ofB1) <= slackB) & (maxOf(ofA0, ofA1) <= slackA);
     return bitsOf((dot(between, between) <= far * far) & (isOut | isOutReversed));
 }
 

@@ -32,6 +32,7 @@ constexpr double kTogether = 0.01;
 struct Impacts {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
     double earliest = std::numeric_limits<double>::infinity();
+    std::int64_t changedAt = 0;  // the visit of a pair that changed it last
 };
 
 struct Impact {
@@ -48,7 +49,8 @@ public:
           dt_(dt),
           slowest_(slowestApproach(settings, dt)),
           scratch_(scratch),
-          impacts_(scratch.bodies.size())
+          impacts_(scratch.bodies.size()),
+          doneAt_(scratch.pairs.size(), 0)
     {
         scratch.impactImpulses.assign(scratch.isWatched ? scratch.rows.size() : 0, Vec3::Zero());
     }
@@ -59,10 +61,8 @@ public:
         for (int sweep = 0; sweep < settings_.collisionIterations; ++sweep) {
             const std::int64_t before = counts.total();
             // There and back: a blow runs along a row of touching bodies whichever way it lies.
-            for (std::size_t i : scratch_.order) resolvePair(scratch_.pairs[i], counts);
-            for (std::size_t p = scratch_.order.size(); p-- > 0;) {
-                resolvePair(scratch_.pairs[scratch_.order[p]], counts);
-            }
+            for (std::size_t i : scratch_.order) visit(i, counts);
+            for (std::size_t p = scratch_.order.size(); p-- > 0;) visit(scratch_.order[p], counts);
             if (counts.total() == before) return counts;
         }
         ++loopsAtTheirCap;
@@ -103,7 +103,18 @@ private:
         return true;
     }
 
-    void resolvePair(const GapPair& pair, ImpulseCounts& counts)
+    /// Most pairs are not hit, and stay so until a blow comes to one of their bodies.
+    void visit(std::size_t p, ImpulseCounts& counts)
+    {
+        const GapPair& pair = scratch_.pairs[p];
+        const auto [a, b] = pair.bodies;
+        const std::int64_t changedAt = std::max(impacts_[a].changedAt, impacts_[b].changedAt);
+        if (doneAt_[p] > changedAt) return;
+        if (resolvePair(pair, counts)) doneAt_[p] = ++visits_;
+    }
+
+    /// True when nothing is left to be hit.
+    bool resolvePair(const GapPair& pair, ImpulseCounts& counts)
     {
         for (int n = 0; n < settings_.collisionPairImpulses; ++n) {
             hits_.clear();
@@ -111,7 +122,7 @@ private:
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 if (impactOf(scratch_.rows[r], impact)) hits_.push_back(impact);
             }
-            if (hits_.empty()) return;
+            if (hits_.empty()) return true;
             keepFirst();
             for (const Impact& hit : hits_) hit.row->wasHit = true;
             if (hits_.size() == 1) {
@@ -120,6 +131,7 @@ private:
                 applyTogether(counts);
             }
         }
+        return false;
     }
 
     /// Of all places that would be hit, those that are hit first: what would follow may not, once
@@ -213,6 +225,7 @@ private:
         impacts.velocity += dv;
         impacts.spin += dw;
         impacts.earliest = std::min(impacts.earliest, time);
+        impacts.changedAt = visits_;
         body.shift = -impacts.earliest * impacts.velocity;
         body.turn = -impacts.earliest * impacts.spin;
     }
@@ -221,6 +234,8 @@ private:
     double dt_, slowest_;
     GapScratch& scratch_;
     std::vector<Impacts> impacts_;
+    std::int64_t visits_ = 0;           // that ended with nothing left to be hit
+    std::vector<std::int64_t> doneAt_;  // the last of them, of each pair; 0: none
     std::vector<Impact> hits_;
     std::vector<GapRow> rows_;
 };
