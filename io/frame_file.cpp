@@ -231,9 +231,9 @@ void addState(FrameEncoder& encoder, const FrameState& state)
 void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
 {
     if (memory.dt == 0.0) return;
-    std::vector<std::int32_t> bodies, still;
+    std::vector<std::int32_t> bodies, still, nearby;
     std::vector<std::int64_t> features;
-    std::vector<double> place, force, position, orientation, pull;
+    std::vector<double> place, force, position, orientation, pull, nearPosition, nearOrientation;
     for (const RememberedContact& contact : memory.contacts) {
         bodies.insert(bodies.end(), {contact.a, contact.b});
         features.push_back(std::bit_cast<std::int64_t>(contact.feature));
@@ -241,10 +241,13 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
         append(force, contact.force);
     }
     for (const BodyRest& rest : memory.rest) {
-        still.insert(still.end(), {rest.stillFrames, rest.isAsleep});
-        append(position, rest.position);
-        append(orientation, rest.orientation);
+        still.insert(still.end(), {rest.still.frames, rest.isAsleep});
+        append(position, rest.still.position);
+        append(orientation, rest.still.orientation);
         append(pull, rest.pull);
+        nearby.push_back(rest.nearby.frames);
+        append(nearPosition, rest.nearby.position);
+        append(nearOrientation, rest.nearby.orientation);
     }
     encoder.add<double>("memory.dt", 1, {memory.dt});
     encoder.add("memory.bodies", 2, bodies);
@@ -255,6 +258,9 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
     encoder.add("rest.position", 3, position);
     encoder.add("rest.orientation", 4, orientation);
     encoder.add("rest.pull", 3, pull);
+    encoder.add("rest.nearby", 1, nearby);
+    encoder.add("rest.nearby_position", 3, nearPosition);
+    encoder.add("rest.nearby_orientation", 4, nearOrientation);
 }
 
 /// Poses and velocities of one or more samples, sample after sample.
@@ -348,9 +354,21 @@ void readMemory(const FrameDecoder& decoder, std::uint64_t bodyCount, ContactMem
     const auto position = decoder.read<double>("rest.position", bodyCount, 3);
     const auto orientation = decoder.read<double>("rest.orientation", bodyCount, 4);
     const auto pull = decoder.read<double>("rest.pull", bodyCount, 3);
+    memory.rest.resize(bodyCount);
     for (std::size_t i = 0; i < bodyCount; ++i) {
-        memory.rest.push_back({vectorAt(position, i), quaternionAt(orientation, i),
-                               vectorAt(pull, i), still[2 * i], still[2 * i + 1] != 0});
+        BodyRest& rest = memory.rest[i];
+        rest.still = {vectorAt(position, i), quaternionAt(orientation, i), still[2 * i]};
+        rest.pull = vectorAt(pull, i);
+        rest.isAsleep = still[2 * i + 1] != 0;
+    }
+    // Takes of before there was such a thing begin to count anew.
+    if (decoder.rowsOf("rest.nearby") == 0) return;
+    const auto nearby = decoder.read<std::int32_t>("rest.nearby", bodyCount, 1);
+    const auto nearPosition = decoder.read<double>("rest.nearby_position", bodyCount, 3);
+    const auto nearOrientation = decoder.read<double>("rest.nearby_orientation", bodyCount, 4);
+    for (std::size_t i = 0; i < bodyCount; ++i) {
+        memory.rest[i].nearby = {vectorAt(nearPosition, i), quaternionAt(nearOrientation, i),
+                                 nearby[i]};
     }
 }
 

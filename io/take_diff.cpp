@@ -56,10 +56,16 @@ std::optional<double> firstOffset(const FrameState& a, const FrameState& b)
     return std::nullopt;
 }
 
-bool isSame(const BodyRest& a, const BodyRest& b)
+bool isSame(const Stay& a, const Stay& b)
 {
     return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
-           a.pull == b.pull && a.stillFrames == b.stillFrames && a.isAsleep == b.isAsleep;
+           a.frames == b.frames;
+}
+
+bool isSame(const BodyRest& a, const BodyRest& b)
+{
+    return isSame(a.still, b.still) && isSame(a.nearby, b.nearby) && a.pull == b.pull &&
+           a.isAsleep == b.isAsleep;
 }
 
 bool isSame(const RememberedContact& a, const RememberedContact& b)

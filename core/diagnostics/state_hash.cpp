@@ -27,7 +27,8 @@ std::uint64_t stateHash(const World& world)
         hash = hashBytes(contact.force.data(), sizeof(Vec3), hash);
     }
     for (const BodyRest& rest : world.contactMemory.rest) {
-        const std::array<std::int32_t, 2> still = {rest.stillFrames, rest.isAsleep};
+        const std::array<std::int32_t, 3> still = {rest.still.frames, rest.nearby.frames,
+                                                   rest.isAsleep};
         hash = hashBytes(still.data(), sizeof still, hash);
     }
     const std::array<std::int64_t, 2> steps = {world.clock.frame, world.clock.subStep};

@@ -1,6 +1,7 @@
 #include "core/dynamics/sleep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/collision/broad_phase.h"
@@ -16,17 +17,45 @@ namespace {
 constexpr double kStill = 1e-4;
 constexpr std::int32_t kStillFrames = 12;
 
+/// What has stayed within this share of its size of one place for kSettleWait loses its motion by
+/// and by, 1/e of it in kSettleTime; both times in √(size / acceleration), a third of a second for
+/// that ring, so that a tower takes as long to fall as it should.
+constexpr double kNearby = 0.05;
+constexpr double kSettleWait = 6.0, kSettleTime = 1.5;
+
 bool isStepped(const World& world, BodyId body)
 {
     return world.mass[body].isMovable() && !world.contactMemory.isAsleep(body);
 }
 
 /// Upper bound of how far a point of the body has come from where it was.
-double travelled(const World& world, BodyId body, const BodyRest& rest)
+double travelled(const World& world, BodyId body, const Stay& since)
 {
     const BodyMotion& motion = world.motion[body];
-    const double turned = 2.0 * (motion.orientation * rest.orientation.conjugate()).vec().norm();
-    return (motion.position - rest.position).norm() + turned * world.shapeOf(body).boundingRadius;
+    const double turned = 2.0 * (motion.orientation * since.orientation.conjugate()).vec().norm();
+    return (motion.position - since.position).norm() + turned * world.shapeOf(body).boundingRadius;
+}
+
+/// One more frame within `share` of its size of the place, or a new place.
+void goOn(const World& world, BodyId body, double share, Stay& stay)
+{
+    if (travelled(world, body, stay) <= share * world.shapeOf(body).boundingRadius) {
+        ++stay.frames;
+    } else {
+        stay = {world.motion[body].position, world.motion[body].orientation, 0};
+    }
+}
+
+/// A ring that leans on two others and rocks loses next to nothing at each swing: nothing in a
+/// world of rigid bodies takes that energy, and one such ring keeps a whole heap awake.
+void settle(World& world, BodyId body, double acceleration, const Stay& nearby)
+{
+    if (acceleration == 0.0) return;
+    const double unit = std::sqrt(world.shapeOf(body).boundingRadius / acceleration);
+    if (nearby.frames * world.frameDuration < kSettleWait * unit) return;
+    const double kept = 1.0 / (1.0 + world.frameDuration / (kSettleTime * unit));
+    world.motion[body].velocity *= kept;
+    world.motion[body].angularMomentum *= kept;
 }
 
 /// Wakes every sleeping body that lies with one of `roots`, through contacts that carried.
@@ -45,7 +74,7 @@ void wakeWith(World& world, std::vector<BodyId> roots)
         BodyRest& rest = world.contactMemory.rest[i];
         if (!rest.isAsleep || !wakes[sets.find(i)]) continue;
         rest.isAsleep = false;
-        rest.stillFrames = 0;
+        rest.still.frames = 0;
     }
 }
 
@@ -94,8 +123,8 @@ void sleepFromTheStart(World& world, const StepSettings& settings,
     world.contactMemory.rest.resize(world.bodyCount());
     for (const BodyId body : bodies) {
         const BodyMotion& motion = world.motion[body];
-        world.contactMemory.rest[body] = {motion.position, motion.orientation,
-                                          forces[body].acceleration, kStillFrames, true};
+        const Stay here{motion.position, motion.orientation, kStillFrames};
+        world.contactMemory.rest[body] = {here, here, forces[body].acceleration, true};
     }
     world.contactMemory.contacts = contactsOfSleepers(world);
 }
@@ -107,33 +136,34 @@ void fallAsleep(World& world, GapScratch& scratch)
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (!isStepped(world, body)) continue;
-        if (travelled(world, body, rest[i]) <= kStill * world.shapeOf(body).boundingRadius) {
-            ++rest[i].stillFrames;
-            continue;
-        }
-        rest[i].position = world.motion[i].position;
-        rest[i].orientation = world.motion[i].orientation;
-        rest[i].stillFrames = 0;
+        goOn(world, body, kStill, rest[i].still);
+        goOn(world, body, kNearby, rest[i].nearby);
     }
 
     // A set sleeps when all of it is still and nothing that moves by a script carries it.
     DisjointSets sets(world.bodyCount());
-    std::vector<char> isRestless(world.bodyCount(), 0);
+    std::vector<char> isCarried(world.bodyCount(), 0), isDrivenSet(world.bodyCount(), 0),
+        isRestless(world.bodyCount(), 0);
     for (const GapRow& row : scratch.rows) {
         if (row.impulse.x() == 0.0) continue;
         const auto a = static_cast<std::size_t>(row.a), b = static_cast<std::size_t>(row.b);
+        isCarried[a] = isCarried[b] = 1;
         if (isStepped(world, row.a) && isStepped(world, row.b)) sets.join(a, b);
-    }
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        if (isStepped(world, static_cast<BodyId>(i)) && rest[i].stillFrames < kStillFrames)
-            isRestless[sets.find(i)] = 1;
     }
     for (const GapRow& row : scratch.rows) {
         if (row.impulse.x() == 0.0) continue;
         for (const auto& [carrier, carried] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}}) {
             if (isDriven(scratch.bodies[carrier]))
-                isRestless[sets.find(static_cast<std::size_t>(carried))] = 1;
+                isDrivenSet[sets.find(static_cast<std::size_t>(carried))] = 1;
         }
+    }
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (!isStepped(world, body)) continue;
+        const std::size_t set = sets.find(i);
+        if (rest[i].still.frames < kStillFrames || isDrivenSet[set]) isRestless[set] = 1;
+        if (isCarried[i] && !isDrivenSet[set])
+            settle(world, body, scratch.forces[i].acceleration.norm(), rest[i].nearby);
     }
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         if (!isStepped(world, static_cast<BodyId>(i)) || isRestless[sets.find(i)]) continue;

@@ -1,6 +1,8 @@
 // Sleep by result: bodies that the full step leaves where they are need not be stepped.
 // [algorithm 14]
 //
+// Nor need what rocks in its place for long be let rock for good: it loses its motion by and by.
+//
 // No velocity decides. A set of touching bodies falls asleep when over kStillFrames frames every
 // one of them has stayed within kStill of its size of one place; it then has exactly no motion, and
 // costs nothing but its box. It wakes as a whole when something comes closer than its gaps allow,
@@ -18,8 +20,8 @@ namespace scree {
 void sleepFromTheStart(World& world, const StepSettings& settings,
                        const std::vector<BodyId>& bodies);
 
-/// At the end of a frame: notes who has moved and puts to sleep what has not. `scratch` holds the
-/// rows of the last step.
+/// At the end of a frame: notes who has moved, calms what rocks in its place, and puts to sleep
+/// what has not moved at all. `scratch` holds the rows of the last step.
 void fallAsleep(World& world, GapScratch& scratch);
 
 /// Before a step: wakes what forces no longer leave alone.

@@ -17,12 +17,18 @@ struct RememberedContact {
     Vec3 force = Vec3::Zero();  ///< on A, world [N]
 };
 
+/// A place that a body has not left for some frames.
+struct Stay {
+    Vec3 position = Vec3::Zero();         ///< where it was when it was last seen to leave [m]
+    Quat orientation = Quat::Identity();  ///< likewise
+    std::int32_t frames = 0;
+};
+
 /// Since when a body has not moved, and whether it sleeps.
 struct BodyRest {
-    Vec3 position = Vec3::Zero();         ///< where it was when it was last seen to move [m]
-    Quat orientation = Quat::Identity();  ///< likewise
-    Vec3 pull = Vec3::Zero();             ///< what acted on it when it fell asleep [m/s²]
-    std::int32_t stillFrames = 0;
+    Stay still;                ///< it does not move at all
+    Stay nearby;               ///< it may rock, but goes nowhere
+    Vec3 pull = Vec3::Zero();  ///< what acted on it when it fell asleep [m/s²]
     bool isAsleep = false;
 };
 

@@ -198,6 +198,34 @@ TEST(GapMethod, AHeapComesToSleepToTheSameBitsOnAnyThreadsAndAcrossACut)
     EXPECT_GE(asleep, 12);
 }
 
+/// A plank balanced on a fixed ball rocks for ever. Answers its largest angular speed in the last
+/// second [rad/s].
+double rockingOfAPlank(bool mayRest, double spin, int frames)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.9, 0.0);
+    addBody(world, exactSphere(0.5), material, {Vec3::Zero(), Quat::Identity()}, 0.0);
+    addBody(world, boxShape({1.0, 0.1, 1.0}, 2), material, {Vec3(0.0, 0.55, 0.0), Quat::Identity()},
+            1.0, Vec3::Zero(), Vec3(0.0, 0.0, spin));
+    StepSettings settings = screeSettings();
+    settings.sleep = mayRest;
+    Stepper stepper(settings);
+    double fastest = 0.0;
+    for (int f = 0; f < frames; ++f) {
+        stepper.advanceFrame(world, kFrame);
+        const double now = angularVelocityOf(world, 1).norm();
+        if (f >= frames - 24) fastest = std::max(fastest, now);
+    }
+    return fastest;
+}
+
+TEST(GapMethod, WhatRocksInItsPlaceComesToRestAndWhatGoesFartherDoesNot)
+{
+    EXPECT_GE(rockingOfAPlank(false, 0.06, 240), 0.02);
+    EXPECT_EQ(rockingOfAPlank(true, 0.06, 240), 0.0);
+    EXPECT_GE(rockingOfAPlank(true, 1.0, 240), 0.3);
+}
+
 TEST(GapMethod, SleepersWakeAndMoveWhenStruckAndOnlyThen)
 {
     World world = makeStack(3, 1.0, 0.0);
