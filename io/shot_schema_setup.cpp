@@ -96,7 +96,8 @@ const std::vector<ShotKey> kSolverKeys = {
      .byDefault = "true",
      .help = "Bodies that the whole step leaves where they are fall asleep together: no motion at "
              "all, and no cost. They wake when something is about to touch them or a force "
-             "changes. Method \"scree\" only."},
+             "changes. What rocks in its place for some seconds and goes nowhere is calmed, so "
+             "that it does not keep a heap awake. Method \"scree\" only."},
     {.path = "solver.contact_sweeps",
      .type = integer,
      .unit = "sweeps",
