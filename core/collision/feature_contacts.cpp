@@ -13,7 +13,6 @@ namespace {
 /// Where the lines of two edges are closest.
 struct Crossing {
     Vec3 onFirst, onSecond, normal;    // normal not oriented
-    double alongFirst, alongSecond;    // from the start of either edge [m]
     double beyondFirst, beyondSecond;  // how far past the ends of either edge, ≤ 0 within [m]
 };
 
@@ -27,9 +26,8 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
     const double alongA = dA.dot(between), alongB = dB.dot(between);
     const double s = (cosine * alongB - alongA) / sineSquared;
     const double t = (alongB - cosine * alongA) / sineSquared;
-    return Crossing{
-        startA + s * dA,           startB + t * dB,          dA.cross(dB).normalized(), s, t,
-        std::max(-s, s - lengthA), std::max(-t, t - lengthB)};
+    return Crossing{startA + s * dA, startB + t * dB, dA.cross(dB).normalized(),
+                    std::max(-s, s - lengthA), std::max(-t, t - lengthB)};
 }
 
 /// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
@@ -43,15 +41,30 @@ bool crossesInNotch(const RelativePair& pair, const Crossing& at, double gap)
            (at.beyondSecond <= 0.0 || pair.second.distance.value(at.onSecond) < 0.0);
 }
 
-/// Whether an edge that lies `depth` inside another along n, the way out at that edge, has a much
-/// shorter way out through one of the faces beside it. A cube that stands on a face of another,
-/// deep below its rim only because it stands far from it, leaves by the face it stands on.
-bool leavesByFace(const Vec3& faceNormal, const Vec3& n, double depth, const Vec3& direction,
-                  double along, double length)
+/// Whether what lies `depth` inside the second shape along n, the way out where two edges cross,
+/// has a much shorter way out through a face beside the edge of the second: neither that end of the
+/// edge of the first nor any corner in the second is nearly as deep under it. A cube that stands on
+/// another is deep below its rim only because it stands far from it; it leaves by what it stands
+/// on.
+bool leavesByFace(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
+                  const Vec3& n, double depth)
 {
-    const double dip = direction.dot(faceNormal);
-    const double inside = dip < 0.0 ? length - along : along;  // of the edge, on its deeper side
-    return depth * n.dot(faceNormal) + inside * std::abs(dip) < 0.5 * depth;
+    const Points& points = pair.first.features.points();
+    for (const Vec3& face : ofSecond.faceNormal) {
+        if (n.dot(face) > 0.5) continue;
+        const auto isDeep = [&](int corner, bool mustBeInside) {
+            const Vec3 p = pair * points.col(corner);
+            return face.dot(ofSecond.start - p) >= 0.5 * depth &&
+                   (!mustBeInside || pair.second.distance.value(p) < 0.0);
+        };
+        if (isDeep(ofFirst.ends[0], false) || isDeep(ofFirst.ends[1], false)) continue;
+        const std::vector<std::int32_t>& corners = pair.first.features.corners();
+        if (std::none_of(corners.begin(), corners.end(),
+                         [&](std::int32_t corner) { return isDeep(corner, true); })) {
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -141,13 +154,9 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     const double nearer = std::min(n.dot(b.faceNormal[0]), n.dot(b.faceNormal[1]));
     const double expected = gap * std::max(nearer, 0.0);
     if (pair.second.distance.value(at->onFirst) > 0.5 * expected) return {};
-    const Vec3 dA = pair.rotation * a.direction;
-    for (int k : {0, 1}) {
-        const Vec3 ofA = pair.rotation * a.faceNormal[k];
-        if (leavesByFace(b.faceNormal[k], n, -gap, dA, at->alongFirst, a.length) ||
-            leavesByFace(ofA, -n, -gap, b.direction, at->alongSecond, b.length)) {
-            return {};
-        }
+    if (leavesByFace(pair, a, b, n, -gap) ||
+        leavesByFace(pair.reversed(), b, a, pair.rotation.transpose() * -n, -gap)) {
+        return {};
     }
     return FeatureContact{at->onFirst, n, gap};
 }
