@@ -54,6 +54,67 @@ private:
     std::vector<char> isHeld_;
 };
 
+/// The motion of the bodies that a level's solve may move, so that it can be undone. Held bodies
+/// are as heavy as the world: what is wedged between two of them that close cannot obey both, and
+/// each sweep throws it harder. What shock adds beyond a fall of one step is such a throw.
+class LevelMotion {
+public:
+    LevelMotion(const GapScratch& scratch, const std::vector<std::size_t>& rows)
+    {
+        std::vector<BodyId> movers;
+        for (std::size_t r : rows) {
+            const GapRow& row = scratch.rows[r];
+            if (row.movesA) movers.push_back(row.a);
+            if (row.movesB) movers.push_back(row.b);
+        }
+        std::sort(movers.begin(), movers.end());
+        movers.erase(std::unique(movers.begin(), movers.end()), movers.end());
+        for (BodyId body : movers) {
+            const GapBody& b = scratch.bodies[body];
+            before_.push_back({body, b.velocity, b.spin, b.inverseInertia.inverse()});
+        }
+        energy_ = energy(scratch);
+    }
+
+    bool isThrown(const GapScratch& scratch, double dt) const
+    {
+        double fall = 0.0;
+        for (const Before& before : before_) {
+            const GapBody& b = scratch.bodies[before.body];
+            fall += 0.5 * (dt * b.pull).squaredNorm() / b.inverseMass;
+        }
+        return energy(scratch) > 2.0 * energy_ + fall;
+    }
+
+    void restore(GapScratch& scratch) const
+    {
+        for (const Before& before : before_) {
+            scratch.bodies[before.body].velocity = before.velocity;
+            scratch.bodies[before.body].spin = before.spin;
+        }
+    }
+
+private:
+    struct Before {
+        BodyId body;
+        Vec3 velocity, spin;
+        Mat3 inertia;
+    };
+    double energy(const GapScratch& scratch) const
+    {
+        double sum = 0.0;
+        for (const Before& before : before_) {
+            const GapBody& b = scratch.bodies[before.body];
+            sum += 0.5 *
+                   (b.velocity.squaredNorm() / b.inverseMass + b.spin.dot(before.inertia * b.spin));
+        }
+        return sum;
+    }
+
+    std::vector<Before> before_;
+    double energy_ = 0.0;  // [J]
+};
+
 void solveRows(GapScratch& scratch, const std::vector<std::size_t>& rows, double enough)
 {
     for (int sweep = 0; sweep < kLevelSweeps; ++sweep) {
@@ -204,11 +265,15 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
             const double visible = visibleSpeed(world, settings, dt, scratch, scratch.rows[r]);
             enough = std::max(enough, kWellBelow * visible);
         }
+        const LevelMotion before(scratch, rows);
         solveRows(scratch, rows, enough);
+        const bool isThrown = before.isThrown(scratch, dt);
+        if (isThrown) before.restore(scratch);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             GapRow& row = scratch.rows[rows[i]];
             const Vec3 withShock = row.worldImpulse();
             row.impulse = remembered[i];
+            if (isThrown) continue;
             const Vec3 extra = withShock - row.worldImpulse();
             if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra);
             if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra);
