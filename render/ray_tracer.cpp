@@ -136,7 +136,7 @@ private:
     std::vector<PlaneSurface> planeMeshes_;  // parallel to meshes_
     std::vector<std::size_t> bodyMesh_;
     std::vector<int> birthFrames_;  // parallel to bodyMesh_
-    std::vector<Mat3> turns_;  // of the bodies in the present picture
+    std::vector<Mat3> turns_;       // of the bodies in the present picture
     std::vector<RTCScene> meshScenes_;
     RTCScene scene_ = nullptr;
     std::vector<RTCGeometry> instances_;  // parallel to the bodies; null for planes
