@@ -56,7 +56,8 @@ private:
 
 /// The motion of the bodies that a level's solve may move, so that it can be undone. Held bodies
 /// are as heavy as the world: what is wedged between two of them that close cannot obey both, and
-/// each sweep throws it harder. What shock adds beyond a fall of one step is such a throw.
+/// each sweep throws it harder. More than twice the energy there was and that of a step's fall is
+/// such a throw.
 class LevelMotion {
 public:
     LevelMotion(const GapScratch& scratch, const std::vector<std::size_t>& rows)
