@@ -28,10 +28,11 @@ namespace {
 constexpr int kLargestEdge = 16384;
 constexpr double kLineWidth = 0.9;  // of the wireframe [pixels]
 
-/// AVX2 on every machine, for equal bits; our own threads share the rays out.
+/// AVX2 on every machine and trees built on one thread, for equal bits; our own threads share the
+/// rays out.
 RTCDevice sharedDevice()
 {
-    static const RTCDevice device = rtcNewDevice("threads=1,isa=avx2,max_isa=avx2");
+    static const RTCDevice device = rtcNewDevice("isa=avx2,max_isa=avx2");
     SCREE_CHECK(device != nullptr, "Embree cannot make a device");
     return device;
 }
@@ -168,7 +169,7 @@ RayTracer::Tracer::Tracer(const SceneDescription& scene, const std::vector<Look>
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(meshScenes_.back(), geometry);
         rtcReleaseGeometry(geometry);
-        rtcCommitScene(meshScenes_.back());
+        onOneThread([&] { rtcCommitScene(meshScenes_.back()); });
     }
     typicalRadius_ = typicalRadius(scene, radii);
 
@@ -217,7 +218,7 @@ void RayTracer::Tracer::place(const SceneFrame& frame, const Vec3& origin)
         rtcSetGeometryTransform(instances_[body], 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows.data());
         rtcCommitGeometry(instances_[body]);
     }
-    rtcCommitScene(scene_);
+    onOneThread([&] { rtcCommitScene(scene_); });
 }
 
 RayTracer::Tracer::View RayTracer::Tracer::measure(const SceneFrame& frame, const Camera& camera,

@@ -3,8 +3,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
 namespace scree {
@@ -39,6 +42,31 @@ void parallelFor(std::size_t count, std::size_t grain,
         tbb::blocked_range<std::size_t>(0, count, grain),
         [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); },
         tbb::simple_partitioner());
+}
+
+void parallelInOrder(const WorkOrder& order, const std::function<void(std::size_t item)>& work)
+{
+    if (chosenThreads == 1) {
+        for (std::size_t item = 0; item < order.size(); ++item) work(item);
+        return;
+    }
+    std::vector<std::atomic<std::uint8_t>> waitsFor(order.size());
+    std::vector<std::uint32_t> first;
+    for (std::uint32_t item = 0; item < order.size(); ++item) {
+        waitsFor[item] = order.predecessors[item];
+        if (order.predecessors[item] == 0) first.push_back(item);
+    }
+    tbb::parallel_for_each(first, [&](std::uint32_t item, tbb::feeder<std::uint32_t>& feeder) {
+        work(item);
+        for (const std::uint32_t follower : order.followers[item]) {
+            if (follower != WorkOrder::kNone && --waitsFor[follower] == 0) feeder.add(follower);
+        }
+    });
+}
+
+void onOneThread(const std::function<void()>& work)
+{
+    tbb::task_arena(1).execute(work);
 }
 
 }  // namespace scree

@@ -1,8 +1,11 @@
 // Work shared by threads, with results that do not depend on how many there are.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace scree {
 
@@ -15,5 +18,24 @@ int threadCount();
 /// then any number of threads gives the same bits.
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Items of work in an order of which only part matters: some must follow others, and the bits are
+/// those of one after the other as long as they do.
+struct WorkOrder {
+    /// Up to two items, later ones, that must follow each directly; kNone where there is none.
+    std::vector<std::array<std::uint32_t, 2>> followers;
+    std::vector<std::uint8_t> predecessors;  ///< how many name each as a follower
+
+    static constexpr std::uint32_t kNone = ~0u;
+    std::size_t size() const { return followers.size(); }
+};
+
+/// Calls work(item) once for every item, after all that it must follow.
+void parallelInOrder(const WorkOrder& order, const std::function<void(std::size_t item)>& work);
+
+/// Runs `work` without letting it share itself out: for libraries whose results depend on how many
+/// threads they use. Told to use one thread themselves, some of them (Embree) tie the whole process
+/// to one.
+void onOneThread(const std::function<void()>& work);
 
 }  // namespace scree

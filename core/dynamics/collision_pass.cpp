@@ -55,8 +55,7 @@ CollisionVisit beginVisit(const World& world, const PairRecord& pair, const Step
 /// Impulses at contacts found once: whichever is deepest among those that still approach, until
 /// each has been seen to separate. One that separates is dropped for good.  [A25]
 void resolveLagged(World& world, const StepSettings& settings, double dt, PairRecord& pair,
-                   StepScratch& scratch, Placing placing, ImpulseCounts& counts,
-                   std::int64_t& loopsAtTheirCap)
+                   StepScratch& scratch, Placing placing, PassTally& tally)
 {
     constexpr std::size_t kImpulsesPerSample = 10;
     const CollisionVisit visit = beginVisit(world, pair, scratch, placing);
@@ -80,11 +79,11 @@ void resolveLagged(World& world, const StepSettings& settings, double dt, PairRe
         std::erase_if(contacts, separates);
         if (contacts.empty()) break;
         if (left-- == 0) {
-            ++loopsAtTheirCap;
+            ++tally.loopsAtTheirCap;
             break;
         }
         applyContact(world, settings, pair, contacts.front(), frames, visit.inertia,
-                     pair.restitution, counts);
+                     pair.restitution, tally.impulses);
         isMoved = true;
     }
     if (isMoved) noteImpulse(world, settings, dt, pair.bodies, scratch);
@@ -92,8 +91,7 @@ void resolveLagged(World& world, const StepSettings& settings, double dt, PairRe
 
 /// Re-evolves the pair after every impulse until nothing is both interfering and approaching. [A24]
 void resolveReevolving(World& world, const StepSettings& settings, double dt, PairRecord& pair,
-                       StepScratch& scratch, Placing placing, ImpulseCounts& counts,
-                       std::int64_t& loopsAtTheirCap)
+                       StepScratch& scratch, Placing placing, PassTally& tally)
 {
     std::vector<Touch> touches;
     for (int n = 0; n < settings.collisionPairImpulses; ++n) {
@@ -103,20 +101,19 @@ void resolveReevolving(World& world, const StepSettings& settings, double dt, Pa
         std::sort(touches.begin(), touches.end(), isDeeper);
         const bool applied =
             applyDeepest(world, settings, pair, {visit.placed, visit.now, visit.placed},
-                         visit.inertia, pair.restitution, dt, touches, counts);
+                         visit.inertia, pair.restitution, dt, touches, tally.impulses);
         if (!applied) return;
         noteImpulse(world, settings, dt, pair.bodies, scratch);
     }
-    ++loopsAtTheirCap;
+    ++tally.loopsAtTheirCap;
 }
 
 void resolvePair(World& world, const StepSettings& settings, double dt, PairRecord& pair,
-                 StepScratch& scratch, Placing placing, ImpulseCounts& counts,
-                 std::int64_t& loopsAtTheirCap)
+                 StepScratch& scratch, Placing placing, PassTally& tally)
 {
     const bool isLagged = settings.collision == CollisionVariant::lagged;
     (isLagged ? resolveLagged : resolveReevolving)(world, settings, dt, pair, scratch, placing,
-                                                   counts, loopsAtTheirCap);
+                                                   tally);
 }
 
 void findInterference(const World& world, const StepSettings& settings, StepScratch& scratch)
@@ -148,47 +145,50 @@ void findLoneFalls(const World& world, StepScratch& scratch)
     });
 }
 
+/// All visits of one iteration: pairs that interfere with both bodies falling, else those that do
+/// with one.
+PassTally resolveInterfering(World& world, const StepSettings& settings, double dt,
+                             StepScratch& scratch, bool withLoneFalls)
+{
+    std::vector<PairVisit> visits;
+    for (const std::size_t i : scratch.pairOrder) {
+        const PairRecord& pair = scratch.pairs[i];
+        const bool falls = withLoneFalls && (pair.aFallsOnB || pair.bFallsOnA);
+        if (pair.interferesNow || falls) visits.push_back({i});
+    }
+    const WorkOrder order = orderOf(world, scratch, visits);
+    return visitPairs<PassTally>(
+        visits, order, scratch, [&](const PairVisit&, PairRecord& pair, PassTally& tally) {
+            const auto resolve = [&](Placing placing) {
+                resolvePair(world, settings, dt, pair, scratch, placing, tally);
+            };
+            if (pair.interferesNow) return resolve(Placing::bothFall);
+            if (pair.aFallsOnB) resolve(Placing::aFalls);
+            if (pair.bFallsOnA) resolve(Placing::bFalls);
+        });
+}
+
 }  // namespace
 
-ImpulseCounts resolveCollisions(World& world, const StepSettings& settings, double dt,
-                                StepScratch& scratch, std::int64_t& loopsAtTheirCap)
+PassTally resolveCollisions(World& world, const StepSettings& settings, double dt,
+                            StepScratch& scratch)
 {
-    ImpulseCounts counts;
+    PassTally sum;
     for (int iteration = 1; iteration < settings.collisionIterations; ++iteration) {
         widenPairs(world, settings, dt, scratch);
         findInterference(world, settings, scratch);
-        const std::int64_t before = counts.total();
-        for (std::size_t i : scratch.pairOrder) {
-            PairRecord& pair = scratch.pairs[i];
-            if (!pair.interferesNow) continue;
-            resolvePair(world, settings, dt, pair, scratch, Placing::bothFall, counts,
-                        loopsAtTheirCap);
-        }
-        if (counts.total() == before) break;
+        const PassTally tally = resolveInterfering(world, settings, dt, scratch, false);
+        sum += tally;
+        if (tally.impulses.total() == 0) break;
     }
 
     widenPairs(world, settings, dt, scratch);
     findInterference(world, settings, scratch);
     findLoneFalls(world, scratch);
     // Switched off, collisions are still found: contact wants to know them.
-    if (settings.collisionIterations == 0) return counts;
-    for (std::size_t i : scratch.pairOrder) {
-        PairRecord& pair = scratch.pairs[i];
-        if (pair.interferesNow) {
-            resolvePair(world, settings, dt, pair, scratch, Placing::bothFall, counts,
-                        loopsAtTheirCap);
-            continue;
-        }
-        if (pair.aFallsOnB) {
-            resolvePair(world, settings, dt, pair, scratch, Placing::aFalls, counts,
-                        loopsAtTheirCap);
-        }
-        if (pair.bFallsOnA) {
-            resolvePair(world, settings, dt, pair, scratch, Placing::bFalls, counts,
-                        loopsAtTheirCap);
-        }
-    }
-    return counts;
+    if (settings.collisionIterations > 0)
+        sum += resolveInterfering(world, settings, dt, scratch, true);
+    return sum;
 }
 
 }  // namespace scree

@@ -2,13 +2,13 @@
 // [GBF03 “Collisions”], [A22–A24, A26]
 #pragma once
 
-#include "core/dynamics/scratch.h"
+#include "core/dynamics/pair_visits.h"
 
 namespace scree {
 
 /// Applies collision impulses to world.motion and records in scratch.pairs which pairs have
 /// interfered at all (isTouched).
-ImpulseCounts resolveCollisions(World& world, const StepSettings& settings, double dt,
-                                StepScratch& scratch, std::int64_t& loopsAtTheirCap);
+PassTally resolveCollisions(World& world, const StepSettings& settings, double dt,
+                            StepScratch& scratch);
 
 }  // namespace scree

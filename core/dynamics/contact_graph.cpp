@@ -4,10 +4,10 @@
 #include "core/dynamics/contact_graph.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "core/base/parallel.h"
-#include "core/dynamics/disjoint_sets.h"
 
 namespace scree {
 namespace {
@@ -49,33 +49,6 @@ void depthFirst(const Adjacency& graph, std::uint32_t root, std::vector<char>& s
         if (seen[next]) continue;
         seen[next] = 1;
         stack.push_back({next, graph.start[next]});
-    }
-}
-
-/// Cuts one level's pairs into islands. Islands keep the order of their first pairs.
-void cutIntoIslands(const World& world, const StepScratch& scratch, ContactLevel& level)
-{
-    DisjointSets sets(world.bodyCount());
-    for (std::size_t i : level.pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        if (world.mass[a].isMovable() && world.mass[b].isMovable()) sets.join(a, b);
-    }
-    const auto islandOf = [&](std::size_t i) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        return sets.find(world.mass[a].isMovable() ? a : b);
-    };
-    std::vector<std::size_t> firstPlace(world.bodyCount(), level.pairs.size());
-    for (std::size_t place = 0; place < level.pairs.size(); ++place) {
-        std::size_t& first = firstPlace[islandOf(level.pairs[place])];
-        first = std::min(first, place);
-    }
-    std::stable_sort(level.pairs.begin(), level.pairs.end(), [&](std::size_t p, std::size_t q) {
-        return firstPlace[islandOf(p)] < firstPlace[islandOf(q)];
-    });
-    for (std::size_t place = 1; place <= level.pairs.size(); ++place) {
-        const bool ends = place == level.pairs.size() ||
-                          islandOf(level.pairs[place]) != islandOf(level.pairs[place - 1]);
-        if (ends) level.islandEnds.push_back(place);
     }
 }
 
@@ -172,7 +145,6 @@ std::vector<ContactLevel> pairsByLevel(const World& world, const StepScratch& sc
         const int level = std::max(graph.level[pair.bodies.a], graph.level[pair.bodies.b]);
         levels[level].pairs.push_back(i);
     }
-    for (ContactLevel& level : levels) cutIntoIslands(world, scratch, level);
     return levels;
 }
 
@@ -225,6 +197,27 @@ GraphLevels computeLevels(std::size_t nodeCount, std::span<const SupportEdge> ed
         result.isSupported[n] = supported[result.component[n]];
     }
     return result;
+}
+
+std::vector<PairVisit> visitsUpward(const std::vector<ContactLevel>& levels, int iterations)
+{
+    std::vector<PairVisit> visits;
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        for (int l = 1; l <= iterations; ++l) {
+            for (const std::size_t pair : levels[level].pairs)
+                visits.push_back({pair, static_cast<int>(level), l});
+        }
+    }
+    return visits;
+}
+
+FrozenBodies::FrozenBodies(const std::vector<ContactLevel>& levels, std::size_t bodyCount)
+    : frozenFrom_(bodyCount, std::numeric_limits<int>::max())
+{
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        for (const BodyId body : levels[level].supportedBodies)
+            frozenFrom_[body] = static_cast<int>(level) + 1;
+    }
 }
 
 ContactGraph buildContactGraph(const World& world, const StepSettings& settings, double dt,

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/dynamics/scratch.h"
+#include "core/dynamics/pair_visits.h"
 
 namespace scree {
 
@@ -28,11 +28,9 @@ struct GraphLevels {
 GraphLevels computeLevels(std::size_t nodeCount, std::span<const SupportEdge> edges,
                           std::span<const char> isFixed);
 
-/// One level's work: pairs in processing order, cut into islands that share no movable body, so
-/// that islands may run at once and the bits stay those of running one after the other.
+/// One level's work.
 struct ContactLevel {
-    std::vector<std::size_t> pairs;       ///< indices into StepScratch::pairs, island by island
-    std::vector<std::size_t> islandEnds;  ///< where each island ends in `pairs`
+    std::vector<std::size_t> pairs;       ///< indices into StepScratch::pairs, in processing order
     std::vector<BodyId> supportedBodies;  ///< movable bodies of the level that shock freezes
     int bodies = 0;                       ///< movable bodies of the level
 };
@@ -48,6 +46,20 @@ struct ContactGraph {
     std::vector<ContactLevel> contact;  ///< pairs that rest and may be processed (set P)
     std::vector<ContactLevel> overlap;  ///< all touching pairs, by the levels of push-out
     std::int64_t contactPairs = 0;
+};
+
+/// Up the levels, each as often as `iterations` says, from iteration 1.
+std::vector<PairVisit> visitsUpward(const std::vector<ContactLevel>& levels, int iterations);
+
+/// Which bodies are frozen while a level is worked on: those that finished levels support.
+/// [A45, A52]
+class FrozenBodies {
+public:
+    FrozenBodies(const std::vector<ContactLevel>& levels, std::size_t bodyCount);
+    bool isFrozen(BodyId body, int level) const { return frozenFrom_[body] <= level; }
+
+private:
+    std::vector<int> frozenFrom_;  // level, per body
 };
 
 /// Fills the falls of every pair with the present velocities, which have not felt

@@ -4,34 +4,24 @@
 // stack.  [A39]
 #include "core/dynamics/contact_pass.h"
 
-#include <algorithm>
-#include <numeric>
-
-#include "core/base/parallel.h"
 #include "core/dynamics/contact_point.h"
 
 namespace scree {
 namespace {
 
-/// How the pairs of a level are worked on in one sweep.
+/// How pairs are worked on in one sweep.
 struct Sweep {
     double restitution = 0.0;
-    int levelIterations = 1;
     int pairImpulses = 1;
-    const std::vector<char>* isFrozen = nullptr;  // per body; null: none
+    const FrozenBodies* frozen = nullptr;  // null: none
 };
 
-struct Tally {
-    ImpulseCounts impulses;
-    std::int64_t loopsAtTheirCap = 0;
-};
-
-void resolvePair(World& world, const StepSettings& settings, double dt, PairRecord& pair,
-                 StepScratch& scratch, const Sweep& sweep, Tally& tally)
+void resolvePair(World& world, const StepSettings& settings, double dt, int level, PairRecord& pair,
+                 StepScratch& scratch, const Sweep& sweep, PassTally& tally)
 {
     const auto [a, b] = pair.bodies;
     const auto inertiaOf = [&](BodyId body) {
-        const bool isFrozen = sweep.isFrozen && (*sweep.isFrozen)[body];
+        const bool isFrozen = sweep.frozen && sweep.frozen->isFrozen(body, level);
         return heldIf(isFrozen, scratch.inertia[body]);
     };
     const PairInertia inertia{scratch.inertia[a].inverseInertia, scratch.inertia[b].inverseInertia,
@@ -62,33 +52,6 @@ void resolvePair(World& world, const StepSettings& settings, double dt, PairReco
     ++tally.loopsAtTheirCap;
 }
 
-/// All iterations of one level; islands run at once, each in its own order.
-Tally resolveLevel(World& world, const StepSettings& settings, double dt, const ContactLevel& level,
-                   StepScratch& scratch, const Sweep& sweep)
-{
-    std::vector<Tally> tallies(level.islandEnds.size());
-    parallelFor(tallies.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t island = begin; island < end; ++island) {
-            Tally& tally = tallies[island];
-            const std::size_t first = island == 0 ? 0 : level.islandEnds[island - 1];
-            for (int l = 0; l < sweep.levelIterations; ++l) {
-                const std::int64_t before = tally.impulses.total();
-                for (std::size_t place = first; place < level.islandEnds[island]; ++place) {
-                    resolvePair(world, settings, dt, scratch.pairs[level.pairs[place]], scratch,
-                                sweep, tally);
-                }
-                if (tally.impulses.total() == before) break;
-            }
-        }
-    });
-    Tally sum;
-    for (const Tally& tally : tallies) {
-        sum.impulses += tally.impulses;
-        sum.loopsAtTheirCap += tally.loopsAtTheirCap;
-    }
-    return sum;
-}
-
 void predictAll(const World& world, const StepSettings& settings, double dt, StepScratch& scratch)
 {
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
@@ -98,40 +61,40 @@ void predictAll(const World& world, const StepSettings& settings, double dt, Ste
 
 }  // namespace
 
-ImpulseCounts resolveContacts(World& world, const ContactGraph& graph, const StepSettings& settings,
-                              double dt, StepScratch& scratch, std::int64_t& loopsAtTheirCap)
+PassTally resolveContacts(World& world, const ContactGraph& graph, const StepSettings& settings,
+                          double dt, StepScratch& scratch)
 {
     predictAll(world, settings, dt, scratch);
     for (std::size_t i = 0; i < scratch.pairCount; ++i) scratch.pairs[i].quiet = {};
-    ImpulseCounts counts;
+    const std::vector<PairVisit> visits = visitsUpward(graph.contact, settings.levelIterations);
+    const WorkOrder order = orderOf(world, scratch, visits);
+    PassTally sum;
     for (int k = 1; k <= settings.contactIterations; ++k) {
         const Sweep sweep{-1.0 + static_cast<double>(k) / settings.contactIterations,
-                          settings.levelIterations, settings.pairImpulses};
-        const std::int64_t before = counts.total();
-        for (const ContactLevel& level : graph.contact) {
-            const Tally tally = resolveLevel(world, settings, dt, level, scratch, sweep);
-            counts += tally.impulses;
-            loopsAtTheirCap += tally.loopsAtTheirCap;
-        }
-        if (counts.total() == before) break;
+                          settings.pairImpulses};
+        const PassTally tally = visitPairs<PassTally>(
+            visits, order, scratch,
+            [&](const PairVisit& visit, PairRecord& pair, PassTally& ofVisit) {
+                resolvePair(world, settings, dt, visit.level, pair, scratch, sweep, ofVisit);
+            });
+        sum += tally;
+        if (tally.impulses.total() == 0) break;
     }
-    return counts;
+    return sum;
 }
 
-ImpulseCounts propagateShock(World& world, const ContactGraph& graph, const StepSettings& settings,
-                             double dt, StepScratch& scratch, std::int64_t& loopsAtTheirCap)
+PassTally propagateShock(World& world, const ContactGraph& graph, const StepSettings& settings,
+                         double dt, StepScratch& scratch)
 {
     predictAll(world, settings, dt, scratch);
-    ImpulseCounts counts;
-    std::vector<char> isFrozen(world.bodyCount(), 0);
-    const Sweep sweep{0.0, settings.levelIterations, settings.shockPairImpulses, &isFrozen};
-    for (const ContactLevel& level : graph.contact) {
-        const Tally tally = resolveLevel(world, settings, dt, level, scratch, sweep);
-        counts += tally.impulses;
-        loopsAtTheirCap += tally.loopsAtTheirCap;
-        for (BodyId body : level.supportedBodies) isFrozen[body] = 1;
-    }
-    return counts;
+    const FrozenBodies frozen(graph.contact, world.bodyCount());
+    const Sweep sweep{0.0, settings.shockPairImpulses, &frozen};
+    const std::vector<PairVisit> visits = visitsUpward(graph.contact, settings.levelIterations);
+    return visitPairs<PassTally>(visits, orderOf(world, scratch, visits), scratch,
+                                 [&](const PairVisit& visit, PairRecord& pair, PassTally& ofVisit) {
+                                     resolvePair(world, settings, dt, visit.level, pair, scratch,
+                                                 sweep, ofVisit);
+                                 });
 }
 
 }  // namespace scree

@@ -10,12 +10,12 @@ namespace scree {
 
 /// Sweeps whose restitution rises from −1 + 1/n to 0, so that bodies slow down gradually and the
 /// weight of a heap is felt all the way down.  [A41–A43]
-ImpulseCounts resolveContacts(World& world, const ContactGraph& graph, const StepSettings& settings,
-                              double dt, StepScratch& scratch, std::int64_t& loopsAtTheirCap);
+PassTally resolveContacts(World& world, const ContactGraph& graph, const StepSettings& settings,
+                          double dt, StepScratch& scratch);
 
 /// One sweep upward with restitution 0; after each level its supported bodies cannot be moved any
 /// more. [A45–A47]
-ImpulseCounts propagateShock(World& world, const ContactGraph& graph, const StepSettings& settings,
-                             double dt, StepScratch& scratch, std::int64_t& loopsAtTheirCap);
+PassTally propagateShock(World& world, const ContactGraph& graph, const StepSettings& settings,
+                         double dt, StepScratch& scratch);
 
 }  // namespace scree

@@ -43,12 +43,12 @@ void move(BodyMotion& motion, const Push& push)
 }
 
 /// One push at the deepest overlap of the pair. False when nothing overlaps.
-bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen, double fraction,
+bool pushOnce(World& world, PairRecord& pair, const PairVisit& visit, const FrozenBodies& frozen,
               const StepSettings& settings, PushOutTally& tally)
 {
     const auto [a, b] = pair.bodies;
     const auto inertiaOf = [&](BodyId body) {
-        return heldIf(isFrozen[body],
+        return heldIf(frozen.isFrozen(body, visit.level),
                       passInertia(world.mass[body], world.motion[body].orientation));
     };
     const PassInertia inertiaA = heldIf(pair.aIsHeld, inertiaOf(a));
@@ -71,6 +71,7 @@ bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen,
     const Mat3 k = collisionMatrix(inertiaS, contact.rS) + collisionMatrix(inertiaF, contact.rF);
     const Eigen::LLT<Mat3> cholesky(k);
     if (cholesky.info() != Eigen::Success) return false;
+    const double fraction = static_cast<double>(visit.iteration) / settings.pushOutLevelIterations;
     const Vec3 impulse = cholesky.solve(-fraction * deepest->phi * contact.normal);
 
     Push ofS = pushFrom(inertiaS, contact.rS, impulse);
@@ -98,34 +99,16 @@ bool pushOnce(World& world, PairRecord& pair, const std::vector<char>& isFrozen,
 PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const StepSettings& settings,
                               StepScratch& scratch)
 {
-    std::vector<char> isFrozen(world.bodyCount(), 0);
-    PushOutTally tally;
-    for (const ContactLevel& level : graph.overlap) {
-        std::vector<PushOutTally> tallies(level.islandEnds.size());
-        parallelFor(tallies.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t island = begin; island < end; ++island) {
-                const std::size_t first = island == 0 ? 0 : level.islandEnds[island - 1];
-                for (int l = 1; l <= settings.pushOutLevelIterations; ++l) {
-                    const double fraction =
-                        static_cast<double>(l) / settings.pushOutLevelIterations;
-                    for (std::size_t place = first; place < level.islandEnds[island]; ++place) {
-                        PairRecord& pair = scratch.pairs[level.pairs[place]];
-                        for (int n = 0; n < settings.pushOutPairImpulses; ++n) {
-                            if (!pushOnce(world, pair, isFrozen, fraction, settings,
-                                          tallies[island]))
-                                break;
-                        }
-                    }
-                }
+    const FrozenBodies frozen(graph.overlap, world.bodyCount());
+    const std::vector<PairVisit> visits =
+        visitsUpward(graph.overlap, settings.pushOutLevelIterations);
+    return visitPairs<PushOutTally>(
+        visits, orderOf(world, scratch, visits), scratch,
+        [&](const PairVisit& visit, PairRecord& pair, PushOutTally& tally) {
+            for (int n = 0; n < settings.pushOutPairImpulses; ++n) {
+                if (!pushOnce(world, pair, visit, frozen, settings, tally)) break;
             }
         });
-        for (const PushOutTally& island : tallies) {
-            tally.pushes += island.pushes;
-            tally.cut += island.cut;
-        }
-        for (BodyId body : level.supportedBodies) isFrozen[body] = 1;
-    }
-    return tally;
 }
 
 DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch)

@@ -10,6 +10,13 @@ namespace scree {
 struct PushOutTally {
     std::int64_t pushes = 0;
     std::int64_t cut = 0;  ///< longer than half the inner thickness, or turning more than 0.1 rad
+
+    PushOutTally& operator+=(const PushOutTally& other)
+    {
+        pushes += other.pushes;
+        cut += other.cut;
+        return *this;
+    }
 };
 
 /// Pushes apart level by level, a growing fraction of the depth at a time; finished levels stay

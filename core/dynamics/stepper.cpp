@@ -173,13 +173,16 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     scratch.isWatched = observer_ != nullptr;
     shuffleOrder(world, settings_.seed);
     beginStep(world, settings_, dt, scratch);
+    const auto note = [&report](const PassTally& tally, ImpulseCounts& impulses) {
+        impulses = tally.impulses;
+        report.loopsAtTheirCap += tally.loopsAtTheirCap;
+    };
 
     // Collisions are found at predicted positions but change velocities that have not yet felt
     // gravity. A block at rest is therefore never mistaken for one that just landed.
     {
         const PhaseTimer timer(report, Phase::collision);
-        report.collisionImpulses =
-            resolveCollisions(world, settings_, dt, scratch, report.loopsAtTheirCap);
+        note(resolveCollisions(world, settings_, dt, scratch), report.collisionImpulses);
     }
     findNonFinite(world, Phase::collision, report);
 
@@ -191,14 +194,12 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     addForces(world, scratch.forces, dt);
     {
         const PhaseTimer timer(report, Phase::contact);
-        report.contactImpulses =
-            resolveContacts(world, graph, settings_, dt, scratch, report.loopsAtTheirCap);
+        note(resolveContacts(world, graph, settings_, dt, scratch), report.contactImpulses);
     }
     findNonFinite(world, Phase::contact, report);
     if (settings_.shockPropagation) {
         const PhaseTimer timer(report, Phase::shock);
-        report.shockImpulses =
-            propagateShock(world, graph, settings_, dt, scratch, report.loopsAtTheirCap);
+        note(propagateShock(world, graph, settings_, dt, scratch), report.shockImpulses);
     }
     findNonFinite(world, Phase::shock, report);
     {

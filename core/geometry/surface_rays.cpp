@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/base/parallel.h"
 #include "core/geometry/triangle_distance.h"
 
 namespace scree {
 namespace {
 
-/// One device for the process: AVX2 everywhere (the baseline of the build), no threads of its own.
+/// One device for the process: AVX2 everywhere, the baseline of the build. Never with threads=1,
+/// which ties all of the process to one thread; trees are built on one by onOneThread.
 RTCDevice sharedDevice()
 {
-    static const RTCDevice device = rtcNewDevice("threads=1,isa=avx2,max_isa=avx2");
+    static const RTCDevice device = rtcNewDevice("isa=avx2,max_isa=avx2");
     return device;
 }
 
@@ -78,7 +80,7 @@ SurfaceRays::SurfaceRays(const TriMesh& mesh) : scene_(std::make_unique<Scene>()
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_->scene, geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_->scene);
+    onOneThread([&] { rtcCommitScene(scene_->scene); });
 }
 
 std::optional<SurfaceRays::Hit> SurfaceRays::firstHit(const Vec3& origin, const Vec3& direction,

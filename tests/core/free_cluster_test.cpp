@@ -73,18 +73,17 @@ Drifts driftsOf(const StepSettings& settings, int steps, double dt)
         before = now;
     };
     for (int k = 0; k < steps; ++k) {
-        std::int64_t caps = 0;
         findPairs(world, settings, dt, scratch);
         beginStep(world, settings, dt, scratch);
         before = momentaOf(world);
-        resolveCollisions(world, settings, dt, scratch, caps);
+        resolveCollisions(world, settings, dt, scratch);
         note(kCollision);
         const ContactGraph graph = buildContactGraph(world, settings, dt, scratch);
         addForces(world, scratch.forces, dt);
         before = momentaOf(world);
-        resolveContacts(world, graph, settings, dt, scratch, caps);
+        resolveContacts(world, graph, settings, dt, scratch);
         note(kContact);
-        propagateShock(world, graph, settings, dt, scratch, caps);
+        propagateShock(world, graph, settings, dt, scratch);
         note(kShock);
         advancePositions(world, settings, dt);
         note(kPosition);

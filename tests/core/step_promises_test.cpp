@@ -76,12 +76,11 @@ TEST(ContactGraph, BuiltOnceServesContactAndShockWhichTouchNoOtherPair)  // [A48
     World world = makeColumns();
     const StepSettings settings = experimentSettings();
     StepScratch scratch;
-    std::int64_t capped = 0;
     int impulses = 0;
     for (int k = 0; k < 10; ++k) {
         findPairs(world, settings, kDt, scratch);
         beginStep(world, settings, kDt, scratch);
-        resolveCollisions(world, settings, kDt, scratch, capped);
+        resolveCollisions(world, settings, kDt, scratch);
         const ContactGraph graph = buildContactGraph(world, settings, kDt, scratch);
         std::set<std::size_t> inGraph;
         for (const ContactLevel& level : graph.contact) {
@@ -93,8 +92,8 @@ TEST(ContactGraph, BuiltOnceServesContactAndShockWhichTouchNoOtherPair)  // [A48
         EXPECT_EQ(static_cast<std::int64_t>(inGraph.size()), graph.contactPairs);
         for (std::size_t i = 0; i < scratch.pairCount; ++i) scratch.pairs[i].isWatched = true;
         addGravity(world, settings, kDt);
-        resolveContacts(world, graph, settings, kDt, scratch, capped);
-        propagateShock(world, graph, settings, kDt, scratch, capped);
+        resolveContacts(world, graph, settings, kDt, scratch);
+        propagateShock(world, graph, settings, kDt, scratch);
         for (std::size_t i = 0; i < scratch.pairCount; ++i) {
             if (scratch.pairs[i].impulses.empty()) continue;
             ++impulses;

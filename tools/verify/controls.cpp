@@ -15,12 +15,11 @@ void resolveAfterGravity(World& world, const StepSettings& settings, double dt)
     StepSettings here = settings;
     here.gravity.setZero();
     StepScratch scratch;
-    std::int64_t capped = 0;
     findPairs(world, here, dt, scratch);
     beginStep(world, here, dt, scratch);
-    resolveCollisions(world, here, dt, scratch, capped);
+    resolveCollisions(world, here, dt, scratch);
     const ContactGraph graph = buildContactGraph(world, here, dt, scratch);
-    resolveContacts(world, graph, here, dt, scratch, capped);
+    resolveContacts(world, graph, here, dt, scratch);
 }
 
 }  // namespace

@@ -28,10 +28,9 @@ SceneGraph graphOf(World world, std::uint64_t seed = 1)
     settings.seed = seed;
     const double dt = 1.0 / 240.0;
     StepScratch scratch;
-    std::int64_t capped = 0;
     findPairs(world, settings, dt, scratch);
     beginStep(world, settings, dt, scratch);
-    resolveCollisions(world, settings, dt, scratch, capped);
+    resolveCollisions(world, settings, dt, scratch);
     SceneGraph result{buildContactGraph(world, settings, dt, scratch), {}};
     for (const ContactLevel& level : result.graph.contact) {
         for (std::size_t i : level.pairs) {

@@ -42,10 +42,9 @@ Blow heaviestBlow(World& world, const StepSettings& settings, double dt, bool re
 {
     StepScratch scratch;
     scratch.isWatched = true;
-    std::int64_t capped = 0;
     findPairs(world, settings, dt, scratch);
     beginStep(world, settings, dt, scratch);
-    resolveCollisions(world, settings, dt, scratch, capped);
+    resolveCollisions(world, settings, dt, scratch);
     std::vector<double> byCollision(scratch.pairCount);
     std::vector<char> isRegistered(scratch.pairCount);
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
@@ -55,7 +54,7 @@ Blow heaviestBlow(World& world, const StepSettings& settings, double dt, bool re
     }
     const ContactGraph graph = buildContactGraph(world, settings, dt, scratch);
     addGravity(world, settings, dt);
-    resolveContacts(world, graph, settings, dt, scratch, capped);
+    resolveContacts(world, graph, settings, dt, scratch);
     double weight = 0.0;
     for (const BodyMass& mass : world.mass) {
         if (mass.isMovable()) weight += settings.gravity.norm() * dt / mass.inverseMass;
