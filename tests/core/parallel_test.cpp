@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "core/geometry/primitives.h"
 #include "core/geometry/surface_rays.h"
@@ -34,6 +37,34 @@ TEST(Parallel, BothThreadsWorkAlsoAfterRaysHaveBeenCastAtAMesh)
     const SurfaceRays rays(makeBox(Vec3::Ones(), {1, 1, 1}));
     EXPECT_TRUE(rays.firstHit({0.0, 0.0, 3.0}, {0.0, 0.0, -1.0}, 10.0, SurfaceRays::Facing::any));
     EXPECT_EQ(rangesAtOnce(), 2);
+    setThreadCount(1);
+}
+
+// A chain on every tenth item, and each item also on the one before it in its half.
+TEST(Parallel, WorkInOrderIsDoneOnceAndNeverBeforeWhatItFollows)
+{
+    setThreadCount(4);
+    constexpr std::uint32_t kItems = 4000;
+    WorkOrder order{std::vector(kItems, std::array{WorkOrder::kNone, WorkOrder::kNone}),
+                    std::vector<std::uint8_t>(kItems, 0)};
+    for (std::uint32_t i = 0; i < kItems; ++i) {
+        const std::array<std::uint32_t, 2> later = {i + 10, i + 2};
+        for (int f = 0; f < 2; ++f) {
+            if (later[f] >= kItems) continue;
+            order.followers[i][f] = later[f];
+            ++order.predecessors[later[f]];
+        }
+    }
+    std::vector<std::atomic<int>> done(kItems);
+    std::atomic<int> tooEarly = 0;
+    parallelInOrder(order, [&](std::size_t i) {
+        for (const std::size_t before : {i - 10, i - 2}) {
+            if (before < kItems && done[before] != 1) ++tooEarly;
+        }
+        ++done[i];
+    });
+    EXPECT_EQ(tooEarly, 0);
+    EXPECT_TRUE(std::all_of(done.begin(), done.end(), [](const auto& n) { return n == 1; }));
     setThreadCount(1);
 }
 
