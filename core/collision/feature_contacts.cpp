@@ -161,20 +161,4 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     return FeatureContact{at->onFirst, n, gap};
 }
 
-bool isBall(const Shape& shape)
-{
-    const ExactSolid* solid = shape.distance.solid();
-    return solid && solid->form() == ExactSolid::Form::sphere;
-}
-
-std::optional<FeatureContact> faceBall(const RelativePair& pair, double reach)
-{
-    const double radius = pair.first.distance.solid()->half().x();
-    const SignedDistance& field = pair.second.distance;
-    const double gap = field.value(pair.translation) - radius;
-    if (gap >= reach) return {};
-    const Vec3 n = field.gridGradient(pair.translation).normalized();
-    return FeatureContact{pair.translation - radius * n, n, gap};
-}
-
 }  // namespace scree
