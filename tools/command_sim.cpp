@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
 
 #include "core/base/parallel.h"
 #include "core/diagnostics/state_hash.h"
+#include "core/dynamics/start_check.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
 #include "io/distance_cache.h"
@@ -169,6 +171,7 @@ private:
             stoppedIn_ = frame;
             return;
         }
+        lookAtPoses(frame, stats.report);
         take_->writeFrame(world_, stats, subframes_->samples(), lastStep());
         subframes_->begin(world_, {});
         warnOfOverlap(frame, stats.report);
@@ -238,6 +241,22 @@ private:
                          std::to_string(world_.births.size()) +
                          " emitted bodies never came, because their places were taken (" +
                          std::to_string(waiting) + " still waited at the last frame)");
+    }
+
+    /// A step knows overlaps by the contacts it found, and is silent about what it did not find. So
+    /// every two seconds of the shot, and in its last frame, the poses are looked at afresh: the
+    /// points of every body in the field of every other.
+    void lookAtPoses(int frame, FrameReport& report) const
+    {
+        const int every = std::max(1, static_cast<int>(std::lround(2.0 * shot_.framesPerSecond)));
+        if ((frame - shot_.firstFrame) % every != 0 && frame != shot_.lastFrame) return;
+        const std::vector<StartOverlap> deeper =
+            findStartOverlaps(world_, report.worstOverlapRatio);
+        if (deeper.empty()) return;
+        report.worstOverlapRatio = deeper.front().ratio;
+        report.sum.deepestAfterPushOut = deeper.front().depth;
+        report.sum.deepestA = deeper.front().a;
+        report.sum.deepestB = deeper.front().b;
     }
 
     /// Every breach is in stats.jsonl; here each grade is told once when it happens, so that a

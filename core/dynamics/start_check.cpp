@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/contact_graph.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
@@ -38,6 +40,61 @@ double depthOf(const World& world, BodyId a, BodyId b)
     for (const Touch& touch : touches) depth = std::max(depth, -touch.phi);
     return depth;
 }
+
+/// Points of a shape half its thickness below every corner of its mesh, in the object frame.
+Points pointsInside(const Shape& shape)
+{
+    const TriMesh& mesh = shape.mesh;
+    Points normals = Points::Zero(3, mesh.points.cols());
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        const Vec3 normal = (b - a).cross(c - a);
+        for (int k = 0; k < 3; ++k) normals.col(mesh.triangles(k, f)) += normal;
+    }
+    Points inside = mesh.points;
+    for (Eigen::Index v = 0; v < inside.cols(); ++v) {
+        inside.col(v) -= 0.5 * shape.innerThickness * normals.col(v).normalized();
+    }
+    return inside;
+}
+
+/// How deep bodies are in each other whose surfaces tell nothing: where a body stands in the place
+/// of its copy, or flush with it, every corner lies on the other's surface. Asks the points inside
+/// of both; a ball about such a point that fits into both is a lower bound.
+class InnerDepth {
+public:
+    explicit InnerDepth(const World& world) : world_(world)
+    {
+        for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+            const auto [known, isNew] = points_.try_emplace(&world.shapeOf(body));
+            if (isNew) known->second = pointsInside(*known->first);
+        }
+    }
+
+    double operator()(BodyId a, BodyId b) const { return std::max(ofFirst(a, b), ofFirst(b, a)); }
+
+private:
+    double ofFirst(BodyId first, BodyId second) const
+    {
+        const Shape& shape = world_.shapeOf(first);
+        const Shape& other = world_.shapeOf(second);
+        const Pose otherFromWorld = inverse(world_.motion[second].worldFromBody());
+        const Pose otherFromFirst = otherFromWorld * world_.motion[first].worldFromBody();
+        double deepest = 0.0;
+        if (other.distance.isClearOf(otherFromFirst.position, shape.boundingRadius)) return deepest;
+        for (const auto& point : points_.at(&shape).colwise()) {
+            const double depth = -other.distance.value(otherFromFirst * Vec3(point));
+            if (depth <= deepest) continue;
+            deepest = std::max(deepest, std::min(depth, -shape.distance.value(point)));
+        }
+        return deepest;
+    }
+
+    const World& world_;
+    std::map<const Shape*, Points> points_;
+};
 
 double smallerEdge(const World& world, BodyId a, BodyId b)
 {
@@ -130,13 +187,22 @@ private:
 
 std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRatio)
 {
-    std::vector<StartOverlap> overlaps;
     BroadPhase broadPhase;
-    for (const BodyPair& pair : broadPhase.findPairs(boxesOf(world), world.mass)) {
-        if (!mayCollide(world, pair)) continue;
-        const double depth = depthOf(world, pair.a, pair.b);
-        const double ratio = depth / smallerEdge(world, pair.a, pair.b);
-        if (ratio > leastRatio) overlaps.push_back({pair.a, pair.b, depth, ratio});
+    std::vector<BodyPair> pairs = broadPhase.findPairs(boxesOf(world), world.mass);
+    std::erase_if(pairs, [&](const BodyPair& pair) { return !mayCollide(world, pair); });
+    const InnerDepth innerDepth(world);
+    std::vector<double> depths(pairs.size());
+    parallelFor(pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [a, b] = pairs[i];
+            depths[i] = std::max(depthOf(world, a, b), innerDepth(a, b));
+        }
+    });
+    std::vector<StartOverlap> overlaps;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto [a, b] = pairs[i];
+        const double ratio = depths[i] / smallerEdge(world, a, b);
+        if (ratio > leastRatio) overlaps.push_back({a, b, depths[i], ratio});
     }
     std::stable_sort(overlaps.begin(), overlaps.end(),
                      [](const auto& p, const auto& q) { return p.ratio > q.ratio; });

@@ -52,6 +52,25 @@ private:
     MaterialId material_ = 0;
 };
 
+// Every corner of either lies on the surface of the other: by those alone nothing overlaps.
+TEST_F(StartCheck, ABodyInThePlaceOfItsCopyOrFlushWithItOverlaps)
+{
+    const BodyId one = add("one", {0, 1, 0});
+    const BodyId copy = add("copy", {0, 1, 0});
+    std::vector<StartOverlap> overlaps = findStartOverlaps(world, 0.01);
+    ASSERT_EQ(overlaps.size(), 1u);
+    EXPECT_EQ(overlaps[0].a, one);
+    EXPECT_EQ(overlaps[0].b, copy);
+    EXPECT_NEAR(overlaps[0].depth, 0.5, 1e-9);
+    // Moved along one edge: what they share still has their width.
+    world.motion[copy].position.x() = 0.3;
+    overlaps = findStartOverlaps(world, 0.01);
+    ASSERT_EQ(overlaps.size(), 1u);
+    EXPECT_GE(overlaps[0].depth, 0.3);
+    world.motion[copy].position.x() = 1.0;
+    EXPECT_TRUE(findStartOverlaps(world, 1e-9).empty());
+}
+
 TEST_F(StartCheck, OverlapsAreListedByDepthAndTouchingIsNone)
 {
     const BodyId ground = addGround();
