@@ -1,211 +1,88 @@
 // Symbols: phi signed distance of a sample to the other body, tau contour value, h node spacing of
-//          the field, t position along an edge in lattice steps of at most 2 h.
+//          the field.
 #include "core/collision/interference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/collision/edge_depth.h"
 #include "core/collision/moving_samples.h"
-#include "core/collision/relative_pose.h"
 
 namespace scree {
 namespace {
 
-/// Lattice step along an edge in units of h, a sixth of the thinnest wall: a body that an edge can
-/// cut between two lattice points is found by the golden section that follows.
-constexpr double kStep = 2.0;
+/// Ways and bounds are sums of rounded terms; this share of them covers it.
+constexpr double kRounding = 1e-12;
 
-/// An edge speaks for itself only where it is deeper than its nearer end by this fraction of h;
-/// less than that its vertex says already.
-///
-/// Departs from A8, which samples an edge whenever both ends are outside and never otherwise. Of
-/// the edges of a stack of aligned cubes some always lie outside by micrometres, and sampled they
-/// push it about at 1 cm/s; and a ring whose vertex just touches another may cut into it with the
-/// edge beside, unsampled, by 17 mm.
-constexpr double kDeeperThanEnds = 0.1;
+/// The bound of an edge is found anew when the pair has moved by this fraction of h since.
+constexpr double kStale = 0.02;
 
-/// Depth that varies less than this fraction of h along an edge is "flat on flat".  [A8]
-constexpr double kFlatDepth = 1e-3;
-
-/// An edge seen from the field: fixed lattice points, so that skipping some never changes the rest.
-struct EdgeInField {
-    Vec3 start, alongStep;  // one lattice step
-    int steps;              // lattice points 0 … steps, the ends are vertices
-    double stepLength;
-
-    Vec3 at(double t) const { return start + t * alongStep; }
-};
-
-EdgeInField placeEdge(const SurfaceSamples& samples, std::int32_t edge,
-                      const FieldFromSamples& pose, const SignedDistance& field)
-{
-    const auto [a, b] = samples.edges[edge];
-    const Vec3 start = pose * samples.vertices.col(a);
-    const Vec3 end = pose * samples.vertices.col(b);
-    const double length = samples.edgeLengths[edge];
-    const int steps = std::max(2, static_cast<int>(std::ceil(length / (kStep * field.spacing()))));
-    return {start, (end - start) / steps, steps, length / steps};
-}
-
-/// How many lattice steps can be skipped when nothing below `wanted` is within reach of phi.
-int stepsToSkip(double phi, double wanted, double stepLength)
-{
-    const double steps = (phi - wanted) / stepLength;
-    return steps > 1.0 ? static_cast<int>(std::min(steps, 1e6)) : 1;
-}
-
-struct EdgeDepth {
-    double t, phi;
-};
-
-/// Value and slope per lattice step of the field at a point of the edge.
-struct EdgeSlope {
-    double t, phi, slope;
-};
-
-EdgeSlope slopeAt(const SignedDistance& field, const EdgeInField& edge, double t)
-{
-    const SignedDistance::Sloped sloped = field.sloped(edge.at(t));
-    return {t, sloped.value, sloped.gradient.dot(edge.alongStep)};
-}
-
-/// The deepest point near lattice point k, where the field is taken as convex along the edge:
-/// tangents from both sides meet below the minimum, and where they meet is the next guess. For a
-/// crossing of two edges, whose depth is piecewise linear, two guesses do.
-EdgeDepth deepestNear(const SignedDistance& field, const EdgeInField& edge, int k, double tolerance)
-{
-    EdgeSlope low = slopeAt(field, edge, k);
-    EdgeSlope high = low;
-    if (low.slope < 0.0) {
-        high = slopeAt(field, edge, k + 1.0);
-        if (high.slope <= 0.0) return {high.t, high.phi};
-    } else {
-        low = slopeAt(field, edge, k - 1.0);
-        if (low.slope >= 0.0) return {low.t, low.phi};
-    }
-    EdgeDepth best = low.phi <= high.phi ? EdgeDepth{low.t, low.phi} : EdgeDepth{high.t, high.phi};
-    for (int i = 0; i < 10; ++i) {
-        const double width = high.t - low.t;
-        double t = low.t + (high.phi - low.phi - high.slope * width) / (low.slope - high.slope);
-        const double bound = low.phi + low.slope * (t - low.t);
-        if (best.phi - bound <= tolerance) break;
-        t = std::clamp(t, low.t + 0.01 * width, high.t - 0.01 * width);
-        const EdgeSlope middle = slopeAt(field, edge, t);
-        if (middle.phi < best.phi) best = {middle.t, middle.phi};
-        (middle.slope < 0.0 ? low : high) = middle;
-    }
-    return best;
-}
-
-/// Appends the samples of one edge: its deepest point, or, where the depth is flat, the middle and
-/// the ends of the flat part.
-/// `atLeast` is what is known of the depth beforehand: nothing along the edge is below it.
-void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double tau, double atLeast,
-                std::vector<EdgeDepth>& found)
-{
-    const double phiStart = field.value(edge.start), phiEnd = field.value(edge.at(edge.steps));
-    const double limit =
-        std::min(tau, std::min(phiStart, phiEnd) - kDeeperThanEnds * field.spacing());
-    // Quick reject: distance is 1-Lipschitz along the edge.
-    const double length = edge.stepLength * edge.steps;
-    if (std::max(atLeast, 0.5 * (phiStart + phiEnd - length)) >= limit) return;
-
-    double bestPhi = limit + edge.stepLength;
-    int best = -1;
-    for (int k = stepsToSkip(phiStart, bestPhi, edge.stepLength); k < edge.steps;) {
-        const double phi = field.value(edge.at(k));
-        if (phi < bestPhi) {
-            bestPhi = phi;
-            best = k;
-        }
-        k += stepsToSkip(phi, bestPhi, edge.stepLength);
-    }
-    if (best < 0) return;
-    const EdgeDepth deepest = deepestNear(field, edge, best, 1e-4 * field.spacing());
-    if (deepest.phi >= limit) return;
-
-    const double flat = kFlatDepth * field.spacing();
-    const auto isAsDeep = [&](int k) {
-        return k > 0 && k < edge.steps && std::abs(field.value(edge.at(k)) - deepest.phi) < flat;
-    };
-    int low = best, high = best;
-    if (std::abs(bestPhi - deepest.phi) < flat) {
-        while (isAsDeep(low - 1)) --low;
-        while (isAsDeep(high + 1)) ++high;
-    }
-    if (high - low < 2) {
-        found.push_back(deepest);
-        return;
-    }
-    for (double t : {0.5 * (low + high), static_cast<double>(low), static_cast<double>(high)}) {
-        const double phi = field.value(edge.at(t));
-        if (phi < limit) found.push_back({t, phi});
-    }
-}
-
-/// A lower bound of the field along the edge, exact to h/8 or above `enough`: where two points at
-/// distance s have values p and q, nothing between them is below (p + q − s)/2.
-double lowerBoundAlong(const SignedDistance& field, const EdgeInField& edge, double enough)
-{
-    const double finest = 0.125 * field.spacing() / edge.stepLength;  // in lattice steps
-    double bound = std::numeric_limits<double>::infinity();
-    double t = 0.0, phi = field.value(edge.start);
-    while (t < edge.steps) {
-        const double step = std::max(finest, (phi - enough) / edge.stepLength);
-        const double next = std::min(t + step, static_cast<double>(edge.steps));
-        const double phiNext = field.value(edge.at(next));
-        bound = std::min(bound, 0.5 * (phi + phiNext - (next - t) * edge.stepLength));
-        t = next;
-        phi = phiNext;
-    }
-    return bound;
-}
-
-struct OneWay {
-    const Shape& sampled;
-    const Shape& field;
-    FieldFromSamples pose;
-    bool sampleOnA;
-};
+constexpr double kRootTwo = 1.41421356237309504880;
 
 std::array<OneWay, 2> bothWays(const PlacedPair& pair)
 {
     return {
-        OneWay{*pair.shapeA, *pair.shapeB, relativePose(pair.worldFromB, pair.worldFromA), true},
-        OneWay{*pair.shapeB, *pair.shapeA, relativePose(pair.worldFromA, pair.worldFromB), false}};
+        OneWay{pair.shapeA, pair.shapeB, relativePose(pair.worldFromB, pair.worldFromA), true},
+        OneWay{pair.shapeB, pair.shapeA, relativePose(pair.worldFromA, pair.worldFromB), false}};
 }
 
-void touchVertex(const OneWay& way, std::int32_t v, double tau, std::vector<Touch>& touches)
+std::optional<Touch> touchOfVertex(const OneWay& way, std::int32_t v, double phi, double tau)
 {
-    const Vec3 p = way.sampled.samples.vertices.col(v);
-    const double phi = way.field.distance.value(way.pose * p);
-    if (phi < tau) touches.push_back({phi, v, way.sampleOnA, p});
+    if (phi >= tau) return std::nullopt;
+    return Touch{phi, v, way.sampleOnA, way.sampled->samples.vertices.col(v)};
 }
 
-void touchEdge(const OneWay& way, std::int32_t e, double tau, double atLeast,
-               std::vector<Touch>& touches)
+double distanceOfVertex(const OneWay& way, std::int32_t v)
 {
-    const SurfaceSamples& samples = way.sampled.samples;
-    const EdgeInField edge = placeEdge(samples, e, way.pose, way.field.distance);
+    return way.field->distance.value(way.pose * way.sampled->samples.vertices.col(v));
+}
+
+double lowerBoundOfVertex(const OneWay& way, std::int32_t v)
+{
+    return way.field->distance.lowerBound(way.pose * way.sampled->samples.vertices.col(v));
+}
+
+/// An edge of one body placed in the field of the other.
+struct PlacedEdge {
+    EdgeInField line;
+    double phiStart;
+    double limit;       // below it a point of the edge is a sample
+    double lowerBound;  // of the whole edge, from its ends alone
+};
+
+PlacedEdge placeEdge(const OneWay& way, std::int32_t e, double tau)
+{
+    const SignedDistance& field = way.field->distance;
+    const EdgeInField line = placeEdge(way.sampled->samples, e, way.pose, field);
+    const double phiStart = field.value(line.start), phiEnd = field.value(line.at(line.steps));
+    // Distance is 1-Lipschitz along the edge.
+    return {line, phiStart, edgeLimit(field, phiStart, phiEnd, tau),
+            0.5 * (phiStart + phiEnd - line.length())};
+}
+
+/// The samples of an edge that can have some.
+template <typename Add>
+void touchEdge(const OneWay& way, std::int32_t e, const PlacedEdge& edge, Add&& add)
+{
+    const SurfaceSamples& samples = way.sampled->samples;
     thread_local std::vector<EdgeDepth> found;
     found.clear();
-    sampleEdge(way.field.distance, edge, tau, atLeast, found);
+    sampleEdge(way.field->distance, edge.line, edge.phiStart, edge.limit, found);
     const auto [a, b] = samples.edges[e];
     const auto firstId = static_cast<std::int32_t>(samples.vertices.cols()) + 3 * e;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const double s = found[i].t / edge.steps;
+        const double s = found[i].t / edge.line.steps;
         const Vec3 p =
             samples.vertices.col(a) + s * (samples.vertices.col(b) - samples.vertices.col(a));
-        touches.push_back({found[i].phi, firstId + static_cast<std::int32_t>(i), way.sampleOnA, p});
+        add(Touch{found[i].phi, firstId + static_cast<std::int32_t>(i), way.sampleOnA, p});
     }
 }
 
 /// Edges against a plane are left to their end points: along an edge the distance is linear.
 bool samplesEdges(const OneWay& way)
 {
-    return !way.field.isPlane;
+    return !way.field->isPlane;
 }
 
 bool boundingSpheresMeet(const PlacedPair& pair, double clearance)
@@ -216,13 +93,36 @@ bool boundingSpheresMeet(const PlacedPair& pair, double clearance)
 }
 
 /// The touches of samples that move; nothing is remembered of these.
-void findMovingOnes(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
+void findMovingOnes(const std::array<OneWay, 2>& ways, double tau, std::vector<Touch>& touches)
 {
-    if (!pair.shapeA->samplesMove && !pair.shapeB->samplesMove) return;
-    for (const OneWay& way : bothWays(pair)) {
-        if (!way.sampled.samplesMove) continue;
-        findMovingTouches(way.sampled, way.field, way.pose, tau, way.sampleOnA, touches);
+    for (const OneWay& way : ways) {
+        if (!way.sampled->samplesMove) continue;
+        findMovingTouches(*way.sampled, *way.field, way.pose, tau, way.sampleOnA, touches);
     }
+}
+
+bool isShallower(const Touch& p, const Touch& q)
+{
+    return isDeeper(q, p);
+}
+
+/// The direction in which the samples are those of the smaller body.
+std::size_t smallerOf(const PlacedPair& pair)
+{
+    if (pair.shapeA->isPlane) return 1;
+    if (pair.shapeB->isPlane) return 0;
+    return pair.shapeA->boundingRadius <= pair.shapeB->boundingRadius ? 0 : 1;
+}
+
+/// How far points near the smaller body can have moved in the frame of either: those of its own,
+/// and those of the other within `around` of it. Points farther away come nearer by no more than
+/// its centre moves.
+double travel(const OneWay& smaller, const FieldFromSamples& past, double around)
+{
+    const FieldFromSamples& now = smaller.pose;
+    const double chord = (now.rotation - past.rotation).norm() / kRootTwo;  // of the unit circle
+    const double moved = (now.translation - past.translation).norm();
+    return moved + chord * (smaller.sampled->boundingRadius + around);
 }
 
 }  // namespace
@@ -234,128 +134,139 @@ double contourValue(const Shape& a, const Shape& b)
     return 1e-6 * std::min(diagonalA, diagonalB);
 }
 
-void Proximity::reset(double margin)
+void Proximity::lookAt(const OneWay& way, double clearance)
 {
-    margin_ = margin;
-    isKnown_ = false;
+    const SignedDistance& field = way.field->distance;
+    const SurfaceSamples& samples = way.sampled->samples;
+    const auto isClear = [&](const Vec3& centre, double radius) {
+        return field.isClearOf(way.pose * centre, radius + clearance);
+    };
+    const auto consider = [&](double atLeast, std::uint32_t index, bool isEdge) {
+        if (atLeast >= clearance) return;
+        candidates_.push_back(
+            {atLeast, -1.0, 0.0, static_cast<std::int32_t>(index), 0, isEdge, way.sampleOnA});
+    };
+    samples.vertexTree.visit(isClear, [&](std::uint32_t v) {
+        consider(lowerBoundOfVertex(way, static_cast<std::int32_t>(v)), v, false);
+    });
+    if (!samplesEdges(way)) return;
+    samples.edgeTree.visit(isClear, [&](std::uint32_t e) {
+        const EdgeInField edge = placeEdge(samples, static_cast<std::int32_t>(e), way.pose, field);
+        consider(lowerBoundAlong(field, edge, clearance), e, true);
+    });
 }
 
-bool Proximity::isEmpty() const
+void Proximity::place(const PlacedPair& pair, double tau)
 {
-    return ofA_.vertices.empty() && ofA_.edges.empty() && ofB_.vertices.empty() &&
-           ofB_.edges.empty();
-}
+    const std::size_t smaller = smallerOf(pair);
+    const FieldFromSamples before = ways_[smaller].pose;
+    ways_ = bothWays(pair);
+    tau_ = tau;
+    found_.clear();
+    findMovingOnes(ways_, tau, found_);
+    std::make_heap(found_.begin(), found_.end(), isShallower);
 
-double Proximity::lookAgainIfMoved(const PlacedPair& pair, double tau)
-{
-    const std::array<OneWay, 2> ways = bothWays(pair);
-    if (isKnown_) {
-        // No point of either body has moved farther in the other's frame than this. A plane has no
-        // points, and a body's points move in its frame as they do in the world.
-        const FieldFromSamples& now = ways[0].pose;
-        const auto reach = [](const Shape& shape, double lever) {
-            return shape.isPlane ? 0.0 : shape.boundingRadius + lever;
-        };
-        const double turned = (now.rotation - rotation_).norm();
-        const double moved = (now.translation - translation_).norm();
-        const double travel =
-            moved + turned * std::max(reach(*pair.shapeA, 0.0),
-                                      reach(*pair.shapeB, now.translation.norm()));
-        if (travel <= margin_) return travel;
+    const double around = 2.0 * (tau + margin_);
+    if (isKnown_ && travel(ways_[smaller], lookedAt_, around) <= margin_) {
+        way_ += travel(ways_[smaller], before, around) * (1.0 + kRounding) + kRounding * margin_;
+        ++placing_;
+        return;
     }
     isKnown_ = true;
-    rotation_ = ways[0].pose.rotation;
-    translation_ = ways[0].pose.translation;
-    for (NearSamples* near : {&ofA_, &ofB_}) {
-        near->vertices.clear();
-        near->edges.clear();
+    margin_ = nextMargin_;
+    lookedAt_ = ways_[smaller].pose;
+    way_ = 0.0;
+    candidates_.clear();
+    if (boundingSpheresMeet(pair, tau + margin_)) {
+        for (const OneWay& way : ways_) lookAt(way, tau + margin_);
     }
-
-    const double clearance = tau + margin_;
-    if (!boundingSpheresMeet(pair, clearance)) return 0.0;
-    for (const OneWay& way : ways) {
-        NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
-        const SignedDistance& field = way.field.distance;
-        const auto isClear = [&](const Vec3& centre, double radius) {
-            return field.isClearOf(way.pose * centre, radius + clearance);
-        };
-        way.sampled.samples.vertexTree.visit(isClear, [&](std::uint32_t v) {
-            const double atLeast = field.lowerBound(way.pose * way.sampled.samples.vertices.col(v));
-            if (atLeast < clearance)
-                near.vertices.push_back({atLeast, static_cast<std::int32_t>(v)});
-        });
-        if (samplesEdges(way)) {
-            way.sampled.samples.edgeTree.visit(isClear, [&](std::uint32_t e) {
-                const auto id = static_cast<std::int32_t>(e);
-                const EdgeInField edge = placeEdge(way.sampled.samples, id, way.pose, field);
-                const double atLeast = lowerBoundAlong(field, edge, clearance);
-                if (atLeast < clearance) near.edges.push_back({atLeast, id});
-            });
-        }
-        for (std::vector<NearSample>* samples : {&near.vertices, &near.edges}) {
-            std::sort(
-                samples->begin(), samples->end(), [](const NearSample& p, const NearSample& q) {
-                    return p.atLeast < q.atLeast || (p.atLeast == q.atLeast && p.index < q.index);
-                });
-        }
-    }
-    return 0.0;
+    placing_ = 1;
+    lowestKey_ = 0.0;
 }
 
-void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
+void Proximity::add(const Touch& touch)
 {
-    findMovingOnes(pair, tau, touches);
-    const double moved = lookAgainIfMoved(pair, tau);
-    const double reach = tau + moved;
-    if (isEmpty()) return;
-    for (const OneWay& way : bothWays(pair)) {
-        const NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
-        for (const NearSample& v : near.vertices) {
-            if (v.atLeast >= reach) break;
-            touchVertex(way, v.index, tau, touches);
-        }
-        for (const NearSample& e : near.edges) {
-            if (e.atLeast >= reach) break;
-            touchEdge(way, e.index, tau, e.atLeast - moved, touches);
+    found_.push_back(touch);
+    std::push_heap(found_.begin(), found_.end(), isShallower);
+}
+
+void Proximity::evaluateEdge(const OneWay& way, Candidate& candidate)
+{
+    if (way_ <= candidate.silentUntil) return;
+    const PlacedEdge edge = placeEdge(way, candidate.index, tau_);
+    double atLeast = std::max(candidate.key - way_, edge.lowerBound);
+    const SignedDistance& field = way.field->distance;
+    if (atLeast < edge.limit && way_ > candidate.boundAt + kStale * field.spacing()) {
+        atLeast = lowerBoundAlong(field, edge.line, tau_ + margin_);
+        candidate.boundAt = way_;
+    }
+    candidate.key = atLeast + way_;
+    if (atLeast < edge.limit)
+        return touchEdge(way, candidate.index, edge, [&](const Touch& touch) { add(touch); });
+    // The limit may rise and the bound fall by what the pair moves.
+    candidate.silentUntil = way_ + 0.5 * (atLeast - edge.limit);
+}
+
+void Proximity::evaluate(Candidate& candidate)
+{
+    const OneWay& way = ways_[candidate.isOfA ? 0 : 1];
+    if (candidate.isEdge) return evaluateEdge(way, candidate);
+    const double phi = distanceOfVertex(way, candidate.index);
+    const SignedDistance& field = way.field->distance;
+    const bool isExact = field.solid() || std::abs(phi) < field.refinementBand();
+    candidate.key = way_ + (isExact ? phi : lowerBoundOfVertex(way, candidate.index));
+    if (const auto touch = touchOfVertex(way, candidate.index, phi, tau_)) add(*touch);
+}
+
+std::optional<Touch> Proximity::next()
+{
+    if (lowestKey_ - way_ < tau_) {
+        lowestKey_ = std::numeric_limits<double>::infinity();
+        for (Candidate& candidate : candidates_) {
+            const double atLeast = candidate.key - way_;
+            const bool matters =
+                atLeast < tau_ && (found_.empty() || atLeast <= found_.front().phi);
+            if (matters && candidate.seenIn != placing_) {
+                candidate.seenIn = placing_;
+                evaluate(candidate);
+            }
+            lowestKey_ = std::min(lowestKey_, candidate.key);
         }
     }
+    if (found_.empty()) return std::nullopt;
+    const Touch deepest = found_.front();
+    std::pop_heap(found_.begin(), found_.end(), isShallower);
+    found_.pop_back();
+    return deepest;
 }
 
 bool Proximity::interferes(const PlacedPair& pair, double tau)
 {
-    thread_local std::vector<Touch> touches;
-    touches.clear();
-    findMovingOnes(pair, tau, touches);
-    if (!touches.empty()) return true;
-    const double moved = lookAgainIfMoved(pair, tau);
-    const double reach = tau + moved;
-    if (isEmpty()) return false;
-    for (const OneWay& way : bothWays(pair)) {
-        const NearSamples& near = way.sampleOnA ? ofA_ : ofB_;
-        for (const NearSample& v : near.vertices) {
-            if (v.atLeast >= reach) break;
-            touchVertex(way, v.index, tau, touches);
-            if (!touches.empty()) return true;
-        }
-        for (const NearSample& e : near.edges) {
-            if (e.atLeast >= reach) break;
-            touchEdge(way, e.index, tau, e.atLeast - moved, touches);
-            if (!touches.empty()) return true;
-        }
-    }
-    return false;
+    place(pair, tau);
+    return next().has_value();
+}
+
+void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
+{
+    place(pair, tau);
+    while (const auto touch = next()) touches.push_back(*touch);
 }
 
 void findTouchesPlainly(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
 {
-    findMovingOnes(pair, tau, touches);
-    for (const OneWay& way : bothWays(pair)) {
-        const SurfaceSamples& samples = way.sampled.samples;
-        for (std::int32_t v = 0; v < samples.vertices.cols(); ++v)
-            touchVertex(way, v, tau, touches);
+    const std::array<OneWay, 2> ways = bothWays(pair);
+    findMovingOnes(ways, tau, touches);
+    for (const OneWay& way : ways) {
+        const SurfaceSamples& samples = way.sampled->samples;
+        for (std::int32_t v = 0; v < samples.vertices.cols(); ++v) {
+            const double phi = distanceOfVertex(way, v);
+            if (const auto touch = touchOfVertex(way, v, phi, tau)) touches.push_back(*touch);
+        }
         if (!samplesEdges(way)) continue;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(samples.edges.size()); ++e) {
-            touchEdge(way, e, tau, -std::numeric_limits<double>::infinity(), touches);
+            const PlacedEdge edge = placeEdge(way, e, tau);
+            if (edge.lowerBound >= edge.limit) continue;
+            touchEdge(way, e, edge, [&](const Touch& touch) { touches.push_back(touch); });
         }
     }
 }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "core/collision/ball_contacts.h"
 #include "core/math/lanes.h"
 
 namespace scree {
@@ -323,12 +322,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
 
     if (isBall(shapeA) || isBall(shapeB)) {
         const bool isA = isBall(shapeA);
-        thread_local std::vector<BallContact> found;
-        findBallContacts(isA ? pair : back, reach, found);
-        for (const BallContact& ball : found) {
-            const std::uint64_t feature = featureId(Kind::ball, ball.place[0], ball.place[1]);
-            list.add((isA ? ofA : ofB)(feature, ball.contact));
-        }
+        const auto contact = faceBall(isA ? pair : back, reach);
+        if (contact) list.add((isA ? ofA : ofB)(featureId(Kind::ball, isA ? 0 : 1), *contact));
         return;
     }
 

@@ -61,7 +61,6 @@ void resolveLagged(World& world, const StepSettings& settings, double dt, PairRe
     const CollisionVisit visit = beginVisit(world, pair, scratch, placing);
     std::vector<Touch> touches;
     pair.proximity.findTouches(visit.placed, pair.tau, touches);
-    std::sort(touches.begin(), touches.end(), isDeeper);
     const ContactFrames frames{visit.placed, visit.now, visit.placed};
     std::vector<ContactPoint> contacts;
     for (const Touch& touch : touches) {
@@ -93,15 +92,12 @@ void resolveLagged(World& world, const StepSettings& settings, double dt, PairRe
 void resolveReevolving(World& world, const StepSettings& settings, double dt, PairRecord& pair,
                        StepScratch& scratch, Placing placing, PassTally& tally)
 {
-    std::vector<Touch> touches;
     for (int n = 0; n < settings.collisionPairImpulses; ++n) {
         const CollisionVisit visit = beginVisit(world, pair, scratch, placing);
-        touches.clear();
-        pair.proximity.findTouches(visit.placed, pair.tau, touches);
-        std::sort(touches.begin(), touches.end(), isDeeper);
+        pair.proximity.place(visit.placed, pair.tau);
         const bool applied =
             applyDeepest(world, settings, pair, {visit.placed, visit.now, visit.placed},
-                         visit.inertia, pair.restitution, dt, touches, tally.impulses);
+                         visit.inertia, pair.restitution, dt, tally.impulses);
         if (!applied) return;
         noteImpulse(world, settings, dt, pair.bodies, scratch);
     }

@@ -54,12 +54,9 @@ void depthFirst(const Adjacency& graph, std::uint32_t root, std::vector<char>& s
 
 double deepestPhi(PairRecord& pair, const PlacedPair& placed)
 {
-    thread_local std::vector<Touch> touches;
-    touches.clear();
-    pair.proximity.findTouches(placed, pair.tau, touches);
-    double deepest = pair.tau;
-    for (const Touch& touch : touches) deepest = std::min(deepest, touch.phi);
-    return deepest;
+    pair.proximity.place(placed, pair.tau);
+    const std::optional<Touch> deepest = pair.proximity.next();
+    return deepest ? deepest->phi : pair.tau;
 }
 
 /// Whether the fall of one body takes it clearly away from one it overlaps.

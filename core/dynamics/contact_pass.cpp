@@ -34,15 +34,12 @@ void resolvePair(World& world, const StepSettings& settings, double dt, int leve
 
     const PlacedPair now =
         placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
-    thread_local std::vector<Touch> touches;
     for (int n = 0; n < sweep.pairImpulses; ++n) {
-        touches.clear();
         const PlacedPair predicted =
             placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
-        pair.proximity.findTouches(predicted, pair.tau, touches);
-        std::sort(touches.begin(), touches.end(), isDeeper);
+        pair.proximity.place(predicted, pair.tau);
         const bool applied = applyDeepest(world, settings, pair, {now, now, predicted}, inertia,
-                                          sweep.restitution, dt, touches, tally.impulses);
+                                          sweep.restitution, dt, tally.impulses);
         if (!applied) {
             pair.quiet = stampOf(pair, scratch);
             return;

@@ -169,11 +169,11 @@ void applyContact(World& world, const StepSettings& settings, PairRecord& pair,
 
 bool applyDeepest(World& world, const StepSettings& settings, PairRecord& pair,
                   const ContactFrames& frames, const PairInertia& inertia, double restitution,
-                  double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts)
+                  double dt, ImpulseCounts& counts)
 {
     const double slowest = slowestApproach(settings, dt);
-    for (const Touch& touch : deepestFirst) {
-        const ContactPoint contact = placeContact(world, pair, touch, frames, inertia.ownInverseA,
+    while (const std::optional<Touch> touch = pair.proximity.next()) {
+        const ContactPoint contact = placeContact(world, pair, *touch, frames, inertia.ownInverseA,
                                                   inertia.ownInverseB, settings);
         if (contact.u.dot(contact.normal) >= -slowest) continue;
         applyContact(world, settings, pair, contact, frames, inertia, restitution, counts);

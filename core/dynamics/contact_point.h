@@ -53,9 +53,10 @@ void applyContact(World& world, const StepSettings& settings, PairRecord& pair,
                   const ContactPoint& contact, const ContactFrames& frames,
                   const PairInertia& inertia, double restitution, ImpulseCounts& counts);
 
-/// Applies the impulse of the deepest touch that approaches. False when there is none.
+/// Applies the impulse of the deepest touch of the pair as placed (Proximity::place) that
+/// approaches. False when there is none.
 bool applyDeepest(World& world, const StepSettings& settings, PairRecord& pair,
                   const ContactFrames& frames, const PairInertia& inertia, double restitution,
-                  double dt, const std::vector<Touch>& deepestFirst, ImpulseCounts& counts);
+                  double dt, ImpulseCounts& counts);
 
 }  // namespace scree

@@ -55,13 +55,11 @@ bool pushOnce(World& world, PairRecord& pair, const PairVisit& visit, const Froz
     const PassInertia inertiaB = heldIf(pair.bIsHeld, inertiaOf(b));
     if (!inertiaA.isMovable() && !inertiaB.isMovable()) return false;
 
-    thread_local std::vector<Touch> touches;
-    touches.clear();
     const Pose poseA = world.motion[a].worldFromBody(), poseB = world.motion[b].worldFromBody();
     const PlacedPair now = placePair(world, pair, poseA, poseB);
-    pair.proximity.findTouches(now, pair.tau, touches);
-    const auto deepest = std::min_element(touches.begin(), touches.end(), isDeeper);
-    if (deepest == touches.end() || deepest->phi >= 0.0) return false;
+    pair.proximity.place(now, pair.tau);
+    const std::optional<Touch> deepest = pair.proximity.next();
+    if (!deepest || deepest->phi >= 0.0) return false;
 
     const ContactPoint contact =
         placeContact(world, pair, *deepest, {now, now, now}, inertiaA.inverseInertia,
@@ -114,17 +112,15 @@ PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const Ste
 DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch)
 {
     parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
-        thread_local std::vector<Touch> touches;
         for (std::size_t i = begin; i < end; ++i) {
             PairRecord& pair = scratch.pairs[i];
             pair.depth = 0.0;
             if (!pair.isTouched) continue;
-            touches.clear();
-            pair.proximity.findTouches(
-                placePair(world, pair, world.motion[pair.bodies.a].worldFromBody(),
-                          world.motion[pair.bodies.b].worldFromBody()),
-                pair.tau, touches);
-            for (const Touch& touch : touches) pair.depth = std::max(pair.depth, -touch.phi);
+            pair.proximity.place(placePair(world, pair, world.motion[pair.bodies.a].worldFromBody(),
+                                           world.motion[pair.bodies.b].worldFromBody()),
+                                 pair.tau);
+            if (const auto deepest = pair.proximity.next())
+                pair.depth = std::max(0.0, -deepest->phi);
         }
     });
     DeepestOverlap result;

@@ -71,10 +71,31 @@ const std::vector<BodyPair>& findCandidates(const World& world, StepScratch& scr
     return scratch.candidates;
 }
 
-void describePair(const World& world, const StepSettings& settings, BodyPair bodies,
-                  PairRecord& record)
+/// One record for each of the pairs found; those that had one keep it and what it remembers.
+template <class OnNew>
+void layOutPairs(const std::vector<BodyPair>& found, StepScratch& scratch, const OnNew& onNew)
 {
-    record.bodies = bodies;
+    std::swap(scratch.pairs, scratch.formerPairs);
+    if (scratch.pairs.size() < found.size()) scratch.pairs.resize(found.size());
+    std::size_t former = 0;  // both lists are sorted
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        while (former < scratch.pairCount && scratch.formerPairs[former].bodies < found[i])
+            ++former;
+        PairRecord& record = scratch.pairs[i];
+        if (former < scratch.pairCount && scratch.formerPairs[former].bodies == found[i]) {
+            std::swap(record, scratch.formerPairs[former++]);
+            continue;
+        }
+        record.bodies = found[i];
+        record.proximity.forget();
+        onNew(record);
+    }
+    scratch.pairCount = found.size();
+}
+
+void describePair(const World& world, const StepSettings& settings, PairRecord& record)
+{
+    const BodyPair bodies = record.bodies;
     record.tau = contourValue(world.shapeOf(bodies.a), world.shapeOf(bodies.b));
     const PairSurface surface = surfaceOf(world, settings, bodies);
     record.friction = surface.friction;
@@ -94,7 +115,7 @@ double speedOfSurface(const World& world, BodyId body)
            world.shapeOf(body).boundingRadius;
 }
 
-/// How far a pair may move before it looks for near samples again: a little more than it will move
+/// How far a pair may move before it looks for near samples again: what it will move in a few steps
 /// if nothing happens. Only a matter of speed.
 double lookMargin(const World& world, const StepSettings& settings, BodyPair bodies, double dt)
 {
@@ -106,13 +127,13 @@ double lookMargin(const World& world, const StepSettings& settings, BodyPair bod
         return shape.isPlane ? std::numeric_limits<double>::infinity() : shape.innerThickness;
     };
     const double thinner = std::min(thickness(bodies.a), thickness(bodies.b));
-    return std::max(1e-3 * thinner, 2.0 * dt * (speed + dt * settings.gravity.norm()));
+    return std::max(1e-3 * thinner, 8.0 * dt * (speed + dt * settings.gravity.norm()));
 }
 
 void beginPair(const World& world, const StepSettings& settings, double dt, bool isWatched,
                PairRecord& pair)
 {
-    pair.proximity.reset(lookMargin(world, settings, pair.bodies, dt));
+    pair.proximity.setMargin(lookMargin(world, settings, pair.bodies, dt));
     pair.isWatched = isWatched;
     pair.impulses.clear();
     pair.depth = 0.0;
@@ -160,11 +181,9 @@ void findPairs(const World& world, const StepSettings& settings, double remainin
         scratch.sweptBoxes[b] =
             sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
     }
-    const auto& found = findCandidates(world, scratch);
-    scratch.pairCount = found.size();
-    if (scratch.pairs.size() < found.size()) scratch.pairs.resize(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        describePair(world, settings, found[i], scratch.pairs[i]);
+    layOutPairs(findCandidates(world, scratch), scratch, [](PairRecord&) {});
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        describePair(world, settings, scratch.pairs[i]);
     }
 }
 
@@ -221,20 +240,10 @@ void widenPairs(const World& world, const StepSettings& settings, double dt, Ste
     }
     if (!isWider) return;
 
-    // Old and new list are both sorted and the new one contains the old one.
-    const auto& found = findCandidates(world, scratch);
-    std::vector<PairRecord> wider(std::max(found.size(), scratch.pairs.size()));
-    std::size_t old = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        if (old < scratch.pairCount && scratch.pairs[old].bodies == found[i]) {
-            wider[i] = std::move(scratch.pairs[old++]);
-        } else {
-            describePair(world, settings, found[i], wider[i]);
-            beginPair(world, settings, dt, scratch.isWatched, wider[i]);
-        }
-    }
-    scratch.pairs = std::move(wider);
-    scratch.pairCount = found.size();
+    layOutPairs(findCandidates(world, scratch), scratch, [&](PairRecord& pair) {
+        describePair(world, settings, pair);
+        beginPair(world, settings, dt, scratch.isWatched, pair);
+    });
     sortPairs(world, scratch);
 }
 

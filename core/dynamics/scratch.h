@@ -55,10 +55,11 @@ struct PairRecord {
 struct StepScratch {
     bool isWatched = false;  // an observer wants to see the impulses
     BroadPhase broadPhase;
-    std::vector<BodyPair> candidates;    // what it found, without pairs that groups keep apart
-    std::vector<Aabb> sweptBoxes;        // per body: all it may reach in the rest of the frame
-    std::vector<PairRecord> pairs;       // sorted by bodies
-    std::size_t pairCount = 0;           // records in use; the others keep their memory
+    std::vector<BodyPair> candidates;  // what it found, without pairs that groups keep apart
+    std::vector<Aabb> sweptBoxes;      // per body: all it may reach in the rest of the frame
+    std::vector<PairRecord> pairs;     // sorted by bodies
+    std::size_t pairCount = 0;         // records in use; the others keep their memory
+    std::vector<PairRecord> formerPairs;
     std::vector<std::size_t> pairOrder;  // order of processing  [A21]
     std::vector<std::size_t> rank;       // per body: its place in World::order
 

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-TriMesh mergeEqualPoints(const TriMesh& mesh, FlatTriangles flat)
+TriMesh mergeEqualPoints(const TriMesh& mesh)
 {
     const auto before = [&](int a, int b) {
         const Vec3 p = mesh.points.col(a), q = mesh.points.col(b);
@@ -30,8 +30,7 @@ TriMesh mergeEqualPoints(const TriMesh& mesh, FlatTriangles flat)
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         std::array<int, 3> t{};
         for (int k = 0; k < 3; ++k) t[k] = standsFor[mesh.triangles(k, f)];
-        const bool isFlat = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-        if (isFlat && flat == FlatTriangles::drop) continue;
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
         for (int v : t) used[v] = 1;
         kept.push_back(t);
         keptFrom.push_back(f);

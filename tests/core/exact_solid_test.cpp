@@ -120,7 +120,7 @@ double deepestPhi(const std::shared_ptr<const Shape>& a, const Pose& poseA,
 {
     std::vector<Touch> touches;
     Proximity proximity;
-    proximity.reset(1e-3);
+    proximity.setMargin(1e-3);
     proximity.findTouches({a.get(), b.get(), poseA, poseB}, 1e-6, touches);
     count = touches.size();
     double deepest = 1e300;

@@ -177,7 +177,7 @@ void sampleLists(std::uint64_t pairs, Findings& findings)
                               Pose{Vec3::Zero(), exponentialMap(drawIn(turns, 3 * i + 2))}};
         std::vector<Touch> fast, plain;
         Proximity proximity;
-        proximity.reset(0.01);
+        proximity.setMargin(0.01);
         proximity.findTouches(pair, contourValue(a, b), fast);
         findTouchesPlainly(pair, contourValue(a, b), plain);
         touching += !plain.empty();
