@@ -275,10 +275,18 @@ ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLeve
     for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
         laneBodies[i] = {scratch.bodies[i].velocity, scratch.bodies[i].spin};
     }
-    parallelFor(scratch.islands.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            solveIsland(settings, dt, scratch, scratch.islands[i], laneBodies);
-        }
+    // Those that keep all threads busy by themselves one by one, the others at once: a thread that
+    // waits for its half of an island must not begin another.
+    std::vector<const GapIsland*> small;
+    for (const GapIsland& island : scratch.islands) {
+        if (island.rowCount < kRowsWorthACut)
+            small.push_back(&island);
+        else
+            solveIsland(settings, dt, scratch, island, laneBodies);
+    }
+    parallelFor(small.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            solveIsland(settings, dt, scratch, *small[i], laneBodies);
     });
     ImpulseCounts counts;
     countImpulses(scratch, counts);

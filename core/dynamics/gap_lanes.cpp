@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.h"
+
 namespace scree {
 
 /// The bodies of a batch, in registers while its rows are visited.
@@ -29,28 +31,73 @@ struct GapLanes::Motion {
     }
 };
 
+namespace {
+
+/// Pairs in their order: of either half of the island's bodies, and those that join the halves. Cut
+/// where the bodies spread most, across gravity or not.
+std::array<std::vector<std::size_t>, 3> cutInTwo(const GapScratch& scratch, const GapIsland& island)
+{
+    std::array<std::vector<std::size_t>, 3> parts;
+    if (island.rowCount < kRowsWorthACut) {
+        parts[0] = island.pairs;
+        return parts;
+    }
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    const auto place = [&](BodyId body) -> const Vec3& { return scratch.seenAt[body].position; };
+    std::vector<BodyId> bodies;
+    Aabb box;
+    for (const std::size_t i : island.pairs) {
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (!isMovable(body)) continue;
+            bodies.push_back(body);
+            box.include(place(body));
+        }
+    }
+    Eigen::Index axis;
+    (box.max - box.min).maxCoeff(&axis);
+    const auto middle = bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size() / 2);
+    std::nth_element(bodies.begin(), middle, bodies.end(),
+                     [&](BodyId p, BodyId q) { return place(p)[axis] < place(q)[axis]; });
+    const double cut = place(*middle)[axis];
+    for (const std::size_t i : island.pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        const auto half = [&](BodyId body) { return place(body)[axis] < cut ? 0 : 1; };
+        const int ofA = half(isMovable(a) ? a : b), ofB = half(isMovable(b) ? b : a);
+        parts[ofA == ofB ? ofA : 2].push_back(i);
+    }
+    return parts;
+}
+
+}  // namespace
+
 void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
                      std::vector<LaneBody>& bodies)
 {
     bodies_ = &bodies;
-    schedule(scratch, island);
+    batches_.clear();
+    lanesUsed_.clear();
+    firstFree_.resize(bodies_->size(), 0);
+    const std::array<std::vector<std::size_t>, 3> parts = cutInTwo(scratch, island);
+    sections_ = {};
+    for (std::size_t s = 0; s < parts.size(); ++s) schedule(scratch, parts[s], sections_[s]);
     rows_.clear();
     for (Batch& batch : batches_) fill(scratch, batch);
 }
 
 /// Every pair goes into the first batch after those of the pairs before it that share a body with
 /// it: the outcome of a sweep is that of visiting the pairs one by one.
-void GapLanes::schedule(const GapScratch& scratch, const GapIsland& island)
+void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
+                        Section& section)
 {
-    batches_.clear();
-    lanesUsed_.clear();
-    firstFree_.resize(bodies_->size(), 0);
+    section.begin = batches_.size();
+    const auto begin = static_cast<std::int32_t>(section.begin);
     const auto dummy = static_cast<std::int32_t>(bodies_->size() - 1);
-    for (std::size_t i : island.pairs) {
+    for (const std::size_t i : pairs) {
         const auto [a, b] = scratch.pairs[i].bodies;
         const bool movesA = scratch.bodies[a].inverseMass > 0.0;
         const bool movesB = scratch.bodies[b].inverseMass > 0.0;
-        std::int32_t place = std::max(movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0);
+        std::int32_t place =
+            std::max({begin, movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0});
         const auto count = static_cast<std::int32_t>(batches_.size());
         while (place < count && lanesUsed_[place] == kLanes) ++place;
         if (place == count) {
@@ -72,10 +119,11 @@ void GapLanes::schedule(const GapScratch& scratch, const GapIsland& island)
         if (movesA) firstFree_[a] = place + 1;
         if (movesB) firstFree_[b] = place + 1;
     }
-    for (std::size_t i : island.pairs) {
+    for (const std::size_t i : pairs) {
         const auto [a, b] = scratch.pairs[i].bodies;
         firstFree_[a] = firstFree_[b] = 0;
     }
+    section.end = batches_.size();
 }
 
 void GapLanes::fill(const GapScratch& scratch, Batch& batch)
@@ -157,39 +205,42 @@ inline Lanes GapLanes::visit(Row& row, const Batch& batch, Motion& motion) const
     return absOf(pushed) * row.inverseNormalMass;
 }
 
-double GapLanes::sweep()
+void GapLanes::sweepUp(Section& section)
 {
-    Lanes residual = kNoLanes;
-    for (const Batch& batch : batches_) {
+    section.residual = kNoLanes;
+    for (std::size_t place = section.begin; place < section.end; ++place) {
+        const Batch& batch = batches_[place];
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
             rows_[r].before = rows_[r].impulse;
-            residual = maxOf(residual, visit(rows_[r], batch, motion));
+            section.residual = maxOf(section.residual, visit(rows_[r], batch, motion));
         }
         motion.store(batch, *bodies_);
     }
-    energy_ = kNoLanes;
-    for (std::size_t place = batches_.size(); place-- > 0;) {
+}
+
+void GapLanes::sweepDown(Section& section)
+{
+    section.energy = kNoLanes;
+    for (std::size_t place = section.end; place-- > section.begin;) {
         const Batch& batch = batches_[place];
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.end; r-- > batch.begin;) {
             Row& row = rows_[r];
-            residual = maxOf(residual, visit(row, batch, motion));
+            section.residual = maxOf(section.residual, visit(row, batch, motion));
             const Lanes3 d = row.impulse - row.before;
-            energy_ +=
+            section.energy +=
                 row.inverseNormalMass * d.x * d.x + (d.y * d.y + d.z * d.z) * row.inverseSlideMass;
         }
         motion.store(batch, *bodies_);
     }
-    return largestOf(residual);
 }
 
-double GapLanes::goOn(double energyBefore)
+void GapLanes::goOn(const Section& section, double beta)
 {
-    const double energy = sumOf(energy_);
-    const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
     const bool beginsAnew = beta > 1.0;  // the active set has changed
-    for (const Batch& batch : batches_) {
+    for (std::size_t place = section.begin; place < section.end; ++place) {
+        const Batch& batch = batches_[place];
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
             Row& row = rows_[r];
@@ -204,6 +255,37 @@ double GapLanes::goOn(double energyBefore)
         }
         motion.store(batch, *bodies_);
     }
+}
+
+/// Calls work(section) for both halves, at once where the island is cut.
+template <class Work>
+void GapLanes::inHalves(const Work& work)
+{
+    const std::size_t halves = sections_[1].end > sections_[1].begin ? 2 : 1;
+    parallelFor(halves, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s) work(sections_[s]);
+    });
+}
+
+double GapLanes::sweep()
+{
+    inHalves([&](Section& section) { sweepUp(section); });
+    sweepUp(sections_[2]);
+    sweepDown(sections_[2]);
+    inHalves([&](Section& section) { sweepDown(section); });
+    double residual = 0.0;
+    for (const Section& section : sections_)
+        residual = std::max(residual, largestOf(section.residual));
+    return residual;
+}
+
+double GapLanes::goOn(double energyBefore)
+{
+    double energy = 0.0;
+    for (const Section& section : sections_) energy += sumOf(section.energy);
+    const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
+    inHalves([&](const Section& section) { goOn(section, beta); });
+    goOn(sections_[2], beta);
     return energy;
 }
 

@@ -1,7 +1,12 @@
 // The rows of an island four pairs abreast: the fast twin of visitRow. Pairs that share no movable
 // body do not see each other's impulses, so visiting them at once is visiting them in order.
+//
+// A large island is cut in two: the pairs of either half are visited at once by two threads, those
+// across the cut after them on the way up and before them on the way down. Whether it is cut does
+// not depend on the number of threads, so neither do the bits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +19,9 @@ namespace scree {
 struct alignas(64) LaneBody {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
+
+/// Below this many rows a cut costs more than a second thread gains.
+constexpr std::size_t kRowsWorthACut = 1000;
 
 class GapLanes {
 public:
@@ -54,8 +62,19 @@ private:
         std::size_t begin = 0, end = 0;
     };
     struct Motion;
+    /// Batches that are visited one after the other.
+    struct Section {
+        std::size_t begin = 0, end = 0;  // of batches_
+        Lanes residual = kNoLanes, energy = kNoLanes;
+    };
 
-    void schedule(const GapScratch& scratch, const GapIsland& island);
+    void schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
+                  Section& section);
+    template <class Work>
+    void inHalves(const Work& work);
+    void sweepUp(Section& section);
+    void sweepDown(Section& section);
+    void goOn(const Section& section, double beta);
     void fill(const GapScratch& scratch, Batch& batch);
     Lanes visit(Row& row, const Batch& batch, Motion& motion) const;
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
@@ -64,7 +83,7 @@ private:
     std::vector<Batch> batches_;
     std::vector<std::int32_t> lanesUsed_, firstFree_;
     std::vector<Row> rows_;
-    Lanes energy_ = kNoLanes;
+    std::array<Section, 3> sections_;  // either half, and what lies across the cut
 };
 
 }  // namespace scree
