@@ -27,11 +27,13 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
     }
     // What holds sleepers is remembered for when they wake.
     std::vector<RememberedContact> kept;
+    kept.reserve(world.contactMemory.contacts.size() + scratch.rows.size());
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         const bool sleeps =
             world.contactMemory.isAsleep(contact.a) || world.contactMemory.isAsleep(contact.b);
         if (sleeps && !isStepped(contact.a) && !isStepped(contact.b)) kept.push_back(contact);
     }
+    const auto ofSleepers = static_cast<std::ptrdiff_t>(kept.size());
     for (const GapPair& pair : scratch.pairs) {
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
@@ -48,10 +50,11 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
                             aFromWorld * row.rA, impulse / dt});
         }
     }
-    std::stable_sort(kept.begin(), kept.end(),
-                     [](const RememberedContact& p, const RememberedContact& q) {
-                         return p.a < q.a || (p.a == q.a && p.b < q.b);
-                     });
+    // Both parts are sorted: the memory is, and so are the pairs.
+    std::inplace_merge(kept.begin(), kept.begin() + ofSleepers, kept.end(),
+                       [](const RememberedContact& p, const RememberedContact& q) {
+                           return p.a < q.a || (p.a == q.a && p.b < q.b);
+                       });
     world.contactMemory.contacts = std::move(kept);
     world.contactMemory.dt = dt;
 }

@@ -64,7 +64,7 @@ const MaterialPair* exceptionFor(const World& world, BodyPair bodies)
 }
 
 /// The pairs whose swept boxes meet and that may collide, sorted.
-const std::vector<BodyPair>& findCandidates(const World& world, StepScratch& scratch)
+const std::vector<BodyPair>& meetingBoxes(const World& world, StepScratch& scratch)
 {
     scratch.candidates = scratch.broadPhase.findPairs(scratch.sweptBoxes, world.mass);
     std::erase_if(scratch.candidates, [&](BodyPair pair) { return !mayCollide(world, pair); });
@@ -171,8 +171,8 @@ Aabb boxAt(const Shape& shape, const Pose& pose)
     return transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position);
 }
 
-void findPairs(const World& world, const StepSettings& settings, double remaining,
-               StepScratch& scratch)
+void findCandidates(const World& world, const StepSettings& settings, double remaining,
+                    StepScratch& scratch)
 {
     const std::size_t bodies = world.bodyCount();
     findForces(world, settings, remaining, scratch.forces);
@@ -181,7 +181,14 @@ void findPairs(const World& world, const StepSettings& settings, double remainin
         scratch.sweptBoxes[b] =
             sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
     }
-    layOutPairs(findCandidates(world, scratch), scratch, [](PairRecord&) {});
+    meetingBoxes(world, scratch);
+}
+
+void findPairs(const World& world, const StepSettings& settings, double remaining,
+               StepScratch& scratch)
+{
+    findCandidates(world, settings, remaining, scratch);
+    layOutPairs(scratch.candidates, scratch, [](PairRecord&) {});
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         describePair(world, settings, scratch.pairs[i]);
     }
@@ -240,7 +247,7 @@ void widenPairs(const World& world, const StepSettings& settings, double dt, Ste
     }
     if (!isWider) return;
 
-    layOutPairs(findCandidates(world, scratch), scratch, [&](PairRecord& pair) {
+    layOutPairs(meetingBoxes(world, scratch), scratch, [&](PairRecord& pair) {
         describePair(world, settings, pair);
         beginPair(world, settings, dt, scratch.isWatched, pair);
     });

@@ -85,8 +85,12 @@ PairSurface surfaceOf(const World& world, const StepSettings& settings, BodyPair
 /// Whether groups let the pair collide, and anything could come of it.  [A57]
 bool mayCollide(const World& world, BodyPair pair);
 
-/// Lays out the pairs for a step that lasts dt of the `remaining` time of the frame. Keyed bodies
-/// are swept along their scripts.
+/// Finds the pairs that may meet in the `remaining` time of the frame. Keyed bodies are swept along
+/// their scripts.
+void findCandidates(const World& world, const StepSettings& settings, double remaining,
+                    StepScratch& scratch);
+
+/// The same, and lays their records out.
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch);
 

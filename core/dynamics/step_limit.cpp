@@ -73,10 +73,9 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
     const auto isStepped = [&](BodyId body) {
         return world.mass[body].isMovable() && !world.contactMemory.isAsleep(body);
     };
-    bool mayTouch = false;
-    for (std::size_t i = 0; i < scratch.pairCount && !mayTouch; ++i) {
-        mayTouch = isStepped(scratch.pairs[i].bodies.a) || isStepped(scratch.pairs[i].bodies.b);
-    }
+    const bool mayTouch =
+        std::any_of(scratch.candidates.begin(), scratch.candidates.end(),
+                    [&](const BodyPair& pair) { return isStepped(pair.a) || isStepped(pair.b); });
     int steps = static_cast<int>(std::ceil(frameDuration / longest - 1e-9));
     if (mayTouch) steps = (steps + kStepsTogether - 1) / kStepsTogether * kStepsTogether;
     steps = std::clamp(steps, std::max(settings.substeps.min, 1), settings.substeps.max);
@@ -98,8 +97,7 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
     // halve, and halve again.
     const double longest = frameDuration / std::max(settings.substeps.min, 1);
     StepLength limit{longest, StepLimit::frame, -1, false};
-    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
-        const auto [a, b] = scratch.pairs[i].bodies;
+    for (const auto& [a, b] : scratch.candidates) {
         const double thinner = std::min(thickness(world, a), thickness(world, b));
         const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
         const BodyId faster =

@@ -14,8 +14,8 @@ struct StepLength {
     bool capReached = false;  ///< the limit of steps a frame forbids what the motion asks for
 };
 
-/// The next of the equal steps that fill what remains of the frame. scratch.pairs must hold the
-/// pairs whose boxes, swept over the rest of the frame, meet.
+/// The next of the equal steps that fill what remains of the frame. scratch.candidates must hold
+/// the pairs whose boxes, swept over the rest of the frame, meet.
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
                       double remaining, const StepScratch& scratch);
 

@@ -297,7 +297,10 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         StepReport limitReport;
         {
             const PhaseTimer timer(limitReport, Phase::stepLimit);
-            findPairs(world, settings_, remaining, *scratch_);
+            if (settings_.method == Method::scree)
+                findCandidates(world, settings_, remaining, *scratch_);
+            else
+                findPairs(world, settings_, remaining, *scratch_);
             length = chooseStep(world, settings_, frameDuration, remaining, *scratch_);
         }
         StepReport report = settings_.method == Method::scree ? stepGaps(world, length.dt)
