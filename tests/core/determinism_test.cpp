@@ -33,10 +33,11 @@ World makeTumble()
     return world;
 }
 
-std::vector<std::uint64_t> hashes(World world, int frames, int threads)
+std::vector<std::uint64_t> hashes(World world, int frames, int threads,
+                                  const StepSettings& settings = experimentSettings())
 {
     setThreadCount(threads);
-    Stepper stepper(experimentSettings());
+    Stepper stepper(settings);
     std::vector<std::uint64_t> result;
     for (int f = 0; f < frames; ++f) {
         result.push_back(stepper.advanceFrame(world, 1.0 / 24.0).stateHash);
@@ -76,6 +77,34 @@ TEST(Determinism, MarblesAndCansFallToTheSameBitsOnAnyNumberOfThreadsAndOverlapL
         worst = std::max(worst, stepper.advanceFrame(watched, 1.0 / 24.0).worstOverlapRatio);
     }
     EXPECT_LE(worst, 0.02);
+}
+
+/// Cubes dropped in a block: one island of thousands of rows, which two threads share.
+World makeBlock()
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    for (int i = 0; i < 216; ++i) {
+        const Vec3 place(i % 6, 0.51 + 1.001 * (i / 36), i / 6 % 6);
+        addBody(world, boxShape(Vec3::Ones(), 2), material, {place, Quat::Identity()});
+    }
+    return world;
+}
+
+TEST(Determinism, AnIslandThatThreadsShareHasTheBitsOfOneThread)
+{
+    StepSettings settings = experimentSettings();
+    settings.method = Method::scree;
+    settings.sleep = false;
+    const World world = makeBlock();
+    const auto once = hashes(world, 6, 1, settings);
+    EXPECT_EQ(hashes(world, 6, 2, settings), once);
+    EXPECT_EQ(hashes(world, 6, 7, settings), once);
+
+    World first = world;
+    Stepper stepper(settings);
+    EXPECT_GT(stepper.advanceFrame(first, 1.0 / 24.0).sum.contactPairs, 1000);
 }
 
 TEST(Determinism, StoppingBetweenSubStepsAndGoingOnElsewhereChangesNothing)
