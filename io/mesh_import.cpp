@@ -25,6 +25,13 @@ std::string endingOf(const std::string& path)
     return ending;
 }
 
+/// STL has no shared points, glTF none along seams, and the readers of OBJ and FBX take theirs
+/// apart.
+bool givesLoosePoints(const std::string& ending)
+{
+    return ending != "ply" && ending != "abc";
+}
+
 void requireReadable(const std::string& path)
 {
     const std::string ending = endingOf(path);
@@ -50,8 +57,14 @@ ImportedFile importFile(const std::string& path, const ImportLimits& limits)
         return encodeImport(ending == "abc" ? importAlembic(path, limits.depth)
                                             : importWithAssimp(path, ending, limits.depth));
     };
-    return decodeImport(
+    ImportedFile file = decodeImport(
         runConfined("mesh file '" + path + "' cannot be read", read, limits.process), path, limits);
+    file.hadLoosePoints = givesLoosePoints(ending);
+    if (!file.hadLoosePoints) return file;
+    for (ImportedNode& node : file.nodes) {
+        node.mesh = mergeEqualPoints(node.mesh, FlatTriangles::keep);
+    }
+    return file;
 }
 
 TriMesh joinedMesh(const ImportedFile& file)
@@ -78,7 +91,7 @@ TriMesh joinedMesh(const ImportedFile& file)
         point += pointCount;
         triangle += faceCount;
     }
-    return mergeEqualPoints(result);
+    return file.hadLoosePoints ? mergeEqualPoints(result, FlatTriangles::keep) : result;
 }
 
 TriMesh importMesh(const std::string& path)

@@ -24,7 +24,7 @@ struct ImportedKey {
 struct ImportedNode {
     std::string name;               ///< as in the file; neither unique nor an identifier
     Pose fileFromNode;              ///< lengths of the file; of a moving node the first
-    TriMesh mesh;                   ///< in the node's axes, its scale baked; equal points joined
+    TriMesh mesh;                   ///< in the node's axes, its scale baked
     std::vector<ImportedKey> keys;  ///< in order of time; empty for a node that never moves
     std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
 };
@@ -49,6 +49,9 @@ struct ImportedFile {
     std::vector<ImportedNode> nodes;      ///< in the order of the file's tree
     std::vector<ImportedCamera> cameras;  ///< likewise; at least one of both
     bool isYUp = false;                   ///< the format says so
+    /// The format or its reader gives faces points of their own, of which equal ones have been
+    /// joined: nobody made them two. Otherwise points are as the file has them.
+    bool hadLoosePoints = false;
     bool countsFramesFromZero = false;    ///< its time 0 is frame 0, not where its motion begins
     std::optional<double> metresPerUnit;  ///< length of one unit of the file [m], if it says so
 };
@@ -62,7 +65,7 @@ struct ImportedFile {
 /// not finite.
 ImportedFile importFile(const std::string& path, const ImportLimits& limits = {});
 
-/// All nodes of a file as one mesh, where they stand.
+/// All nodes of a file as one mesh, where they stand; triangles without area are still there.
 TriMesh joinedMesh(const ImportedFile& file);
 
 /// joinedMesh of importFile.

@@ -133,7 +133,7 @@ private:
         node.obstacle = takeText(kLongestSentence, "letters in a sentence");
         takeKeys(node.keys);
 
-        TriMesh mesh;
+        TriMesh& mesh = node.mesh;
         takeColumns(mesh.points, limits_.points, "points (--import-points)");
         takeColumns(mesh.triangles, limits_.points, "triangles (--import-points)");
         // Not beyond what the caps of points allow, and never beyond what 32 bits can count.
@@ -149,7 +149,6 @@ private:
              mesh.triangles.maxCoeff() >= static_cast<int>(mesh.points.cols()))) {
             refuse("has a face with a corner that is no point");
         }
-        node.mesh = mergeEqualPoints(mesh);
         return node;
     }
 

@@ -248,10 +248,14 @@ std::string readWholeFile(const std::string& path)
     if (!std::filesystem::exists(path)) {
         throw Error(ErrorKind::missingInput, "shot file '" + path + "' does not exist");
     }
+    if (std::filesystem::is_directory(path)) {
+        throw Error(ErrorKind::badInput,
+                    "shot file '" + path + "' is a folder: name the .toml file in it");
+    }
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
-    if (file && !std::filesystem::is_directory(path)) text << file.rdbuf();
-    if (!file || file.bad() || std::filesystem::is_directory(path)) {
+    if (file) text << file.rdbuf();
+    if (!file || file.bad()) {
         throw Error(ErrorKind::badInput, "shot file '" + path + "' cannot be read");
     }
     return text.str();

@@ -84,10 +84,11 @@ ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
 
 std::string massText(const ShapeUse& use)
 {
-    char mass[64] = "-";
-    if (use.heaviest > 0.0)
-        std::snprintf(mass, sizeof mass, use.lightest == use.heaviest ? "%.4g" : "%.4g ... %.4g",
-                      use.lightest, use.heaviest);
+    if (use.heaviest == 0.0) return "immovable, of 1 kg/m3";
+    char mass[64];
+    std::snprintf(mass, sizeof mass,
+                  use.lightest == use.heaviest ? "mass %.4g kg" : "mass %.4g ... %.4g kg",
+                  use.lightest, use.heaviest);
     return mass;
 }
 
@@ -98,8 +99,9 @@ void printShape(const std::string& name, const ShapeUse& use)
     // Of the body with the greatest mass; without one, of a cubic metre per kilogram.
     const Vec3 inertia =
         shape.unitMass.moments * (use.heaviest > 0.0 ? use.heaviest / shape.unitMass.volume : 1.0);
-    std::printf("%s: %d bodies, mass %s kg, inertia %.4g %.4g %.4g kg m2\n", name.c_str(),
-                use.bodies, massText(use).c_str(), inertia[0], inertia[1], inertia[2]);
+    std::printf("%s: %d %s, %s, inertia %.4g %.4g %.4g kg m2\n", name.c_str(), use.bodies,
+                use.bodies == 1 ? "body" : "bodies", massText(use).c_str(), inertia[0], inertia[1],
+                inertia[2]);
     std::printf("  mesh    closed, outward; %zu triangles, %zu points, %d part%s, %.4g m long\n",
                 report.triangles, report.points, report.parts, report.parts == 1 ? "" : "s",
                 report.longestEdge);

@@ -1,11 +1,13 @@
 // Shot → one pose: drop props, run until all is at rest, keep where they lie.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <deque>
 #include <filesystem>
 
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
@@ -46,8 +48,22 @@ double movedRadii(const Shape& shape, const BodyMotion& before, const BodyMotion
 std::string percentText(double ratio)
 {
     char text[32];
-    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * ratio);
+    std::snprintf(text, sizeof text, ratio < 1.0 ? "%.2g %%" : "%.0f %%", 100.0 * ratio);
     return text;
+}
+
+/// Asked before anything is simulated: a slip in a name must not cost the run.
+void requirePoseFormat(const std::string& output)
+{
+    constexpr std::array<const char*, 7> kEndings = {".json", ".usda", ".abc", ".glb",
+                                                     ".obj",  ".ply",  ".pov"};
+    if (std::any_of(kEndings.begin(), kEndings.end(),
+                    [&](const char* ending) { return output.ends_with(ending); })) {
+        return;
+    }
+    throw Error(ErrorKind::usage, "cannot write a pose to '" + output +
+                                      "': expected a name ending in .json, .usda, .abc, .glb, "
+                                      ".obj, .ply or .pov");
 }
 
 /// Runs a shot until nothing has moved for a while.
@@ -184,7 +200,7 @@ Command addSettleCommand(CLI::App& program)
     command
         ->add_option("-o,--output", options->output,
                      "The ending chooses the format: out.json, out.usda, out.abc, out.glb, "
-                     "out.obj or out.ply")
+                     "out.obj, out.ply or out.pov")
         ->required();
     command->add_option("--seconds", options->seconds, "Simulated time to give up after [30]")
         ->check(CLI::Range(1e-3, 1e6));
@@ -202,7 +218,10 @@ Command addSettleCommand(CLI::App& program)
     command->footer(
         "Ends with 79 when something still moves at the end; the pose is written all the same.\n"
         "Example:\n  scree settle shots/rings_100.toml -o rings.json");
-    return {command, [options](Console& console) { return Settling(*options, console).run(); }};
+    return {command, [options](Console& console) {
+                requirePoseFormat(options->output);
+                return Settling(*options, console).run();
+            }};
 }
 
 }  // namespace scree

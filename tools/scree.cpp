@@ -1,9 +1,13 @@
 // The program: picks a command, catches what went wrong, prints one line about it, returns a code.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "core/base/error.h"
+#include "io/nearest_word.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/exit_code.h"
@@ -37,6 +41,42 @@ void addConsoleOptions(CLI::App& program, Console& console)
         ->check(CLI::IsMember({"text", "json"}));
 }
 
+/// The long options of a command, as they are written.
+void addOptionNames(const CLI::App& command, std::vector<std::string>& names)
+{
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+}
+
+/// "no command 'simm'; did you mean 'sim'?" or the same of an option; empty where the words are all
+/// known, and something else is wrong.
+std::string unknownWord(const CLI::App& program, const std::vector<std::string>& words)
+{
+    if (words.empty()) return "";
+    std::vector<std::string> commands, options;
+    const CLI::App* command = nullptr;
+    for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; })) {
+        commands.push_back(known->get_name());
+        if (words.front() == known->get_name()) command = known;
+    }
+    if (!command && !words.front().starts_with('-')) {
+        return "no command '" + words.front() + "'" + didYouMean(words.front(), commands) +
+               " (there are: " + joined(commands) + ")";
+    }
+    addOptionNames(program, options);
+    if (command) addOptionNames(*command, options);
+    for (const std::string& word : words) {
+        const std::string option = word.substr(0, word.find('='));
+        if (!option.starts_with("--") || option == "--") continue;
+        if (std::find(options.begin(), options.end(), option) != options.end()) continue;
+        return "no option '" + option + "'" +
+               (command ? " of scree " + command->get_name() : std::string()) +
+               didYouMean(option, options);
+    }
+    return "";
+}
+
 int runProgram(int argumentCount, char** arguments, Console& console)
 {
     CLI::App program("Scree simulates heaps of rigid bodies for film.", "scree");
@@ -61,7 +101,9 @@ int runProgram(int argumentCount, char** arguments, Console& console)
             program.exit(problem);
             return kExitDone;
         }
-        throw Error(ErrorKind::usage, std::string(problem.what()) + " (scree --help tells more)");
+        const std::string slip = unknownWord(program, {arguments + 1, arguments + argumentCount});
+        throw Error(ErrorKind::usage,
+                    (slip.empty() ? problem.what() : slip) + " (scree --help tells more)");
     }
     for (const Command& command : commands)
         if (command.options->parsed()) return command.run(console);

@@ -133,19 +133,20 @@ std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& worl
     const std::vector<BodyId> loose = findUnsupported(world, shot.settings.gravity);
     if (!loose.empty()) {
         warnings.push_back(std::to_string(loose.size()) +
-                           " bodies have nothing static under them and may fall for ever: " +
-                           namesOf(loose, world));
+                           (loose.size() == 1 ? " body has nothing static under it"
+                                              : " bodies have nothing static under them") +
+                           " and may fall for ever: " + namesOf(loose, world));
     }
     const std::vector<FastBody> fast =
         findTooFast(world, shot.settings, 1.0 / shot.framesPerSecond);
     if (!fast.empty()) {
-        warnings.push_back(std::to_string(fast.size()) +
-                           " bodies are too fast for solver.substeps.max = " +
-                           std::to_string(shot.settings.substeps.max) + "; '" +
-                           world.info[fast.front().body].name +
-                           formatted("' needs %.0f steps a frame at %.3g m/s",
-                                     fast.front().stepsNeeded, fast.front().speed) +
-                           (fast.front().whenItLands ? ", when it lands" : ", at the start"));
+        warnings.push_back(
+            std::to_string(fast.size()) + (fast.size() == 1 ? " body is" : " bodies are") +
+            " too fast for solver.substeps.max = " + std::to_string(shot.settings.substeps.max) +
+            "; '" + world.info[fast.front().body].name +
+            formatted("' needs %.0f steps a frame at %.3g m/s", fast.front().stepsNeeded,
+                      fast.front().speed) +
+            (fast.front().whenItLands ? ", when it lands" : ", at the start"));
     }
     warnOfSizes(shot, world, warnings);
     return warnings;

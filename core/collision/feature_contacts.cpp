@@ -41,6 +41,27 @@ bool crossesInNotch(const RelativePair& pair, const Crossing& at, double gap)
            (at.beyondSecond <= 0.0 || pair.second.distance.value(at.onSecond) < 0.0);
 }
 
+/// Where an edge is deepest that crosses another `-gap` inside along n: how far from the crossing,
+/// and its height above the nearer of the faces beside the other.
+struct Dip {
+    double along, height;  // [m]
+};
+
+/// Mostly that is at the crossing. Beside an edge sharper than square it is not: there the line
+/// that crosses is still outside, and enters some way off, where it goes down under one face no
+/// faster than it comes up from the other. `length` is what the edge goes on to either side.
+Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3& direction,
+                  double length)
+{
+    const Vec3 &face0 = edge.faceNormal[0], &face1 = edge.faceNormal[1];
+    const double height0 = gap * n.dot(face0), height1 = gap * n.dot(face1);
+    const double slope0 = direction.dot(face0), slope1 = direction.dot(face1);
+    if (std::max(height0, height1) <= 0.0 || slope0 * slope1 >= 0.0)
+        return {0.0, std::min(0.0, std::max(height0, height1))};
+    const double along = std::clamp((height1 - height0) / (slope0 - slope1), -length, length);
+    return {along, std::min(0.0, std::max(height0 + along * slope0, height1 + along * slope1))};
+}
+
 /// Whether what lies `depth` inside the second shape along n, the way out where two edges cross,
 /// has a much shorter way out through a face beside the edge of the second: neither that end of the
 /// edge of the first nor any corner in the second is nearly as deep under it. A cube that stands on
@@ -151,30 +172,14 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     // what overlaps, the first edge is about as deep as the nearer of the faces beside the second,
     // and neither leaves much sooner by a face.
     if (gap < -deepestEdges(pair)) return {};
-    const double nearer = std::min(n.dot(b.faceNormal[0]), n.dot(b.faceNormal[1]));
-    const double expected = gap * std::max(nearer, 0.0);
-    if (pair.second.distance.value(at->onFirst) > 0.5 * expected) return {};
+    const Dip dip = deepestBeside(b, n, gap, pair.rotation * a.direction, -at->beyondFirst);
+    const Vec3 deepest = at->onFirst + dip.along * (pair.rotation * a.direction);
+    if (pair.second.distance.value(deepest) > 0.5 * dip.height) return {};
     if (leavesByFace(pair, a, b, n, -gap) ||
         leavesByFace(pair.reversed(), b, a, pair.rotation.transpose() * -n, -gap)) {
         return {};
     }
     return FeatureContact{at->onFirst, n, gap};
-}
-
-bool isBall(const Shape& shape)
-{
-    const ExactSolid* solid = shape.distance.solid();
-    return solid && solid->form() == ExactSolid::Form::sphere;
-}
-
-std::optional<FeatureContact> faceBall(const RelativePair& pair, double reach)
-{
-    const double radius = pair.first.distance.solid()->half().x();
-    const SignedDistance& field = pair.second.distance;
-    const double gap = field.value(pair.translation) - radius;
-    if (gap >= reach) return {};
-    const Vec3 n = field.gridGradient(pair.translation).normalized();
-    return FeatureContact{pair.translation - radius * n, n, gap};
 }
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// How one feature of a body faces another: a corner or a ball a surface, an edge an edge. Each
+// How one feature of a body faces another: a corner a surface, an edge an edge. Each
 // answers a place, a normal and a gap, or nothing when the two are no contact.  [A7, A8]
 #pragma once
 
@@ -59,11 +59,6 @@ std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t 
 /// An edge of either, when their gap is below `reach`.
 std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,
                                         std::int32_t ofSecond, double reach, double sharpness);
-
-bool isBall(const Shape& shape);
-
-/// An exact ball touches with whatever of it is nearest: one place, never a corner.
-std::optional<FeatureContact> faceBall(const RelativePair& pair, double reach);
 
 struct Segment {
     Vec3 start, direction;  ///< unit

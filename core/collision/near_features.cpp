@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/collision/ball_contacts.h"
 #include "core/math/lanes.h"
 
 namespace scree {
@@ -322,8 +323,12 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
 
     if (isBall(shapeA) || isBall(shapeB)) {
         const bool isA = isBall(shapeA);
-        const auto contact = faceBall(isA ? pair : back, reach);
-        if (contact) list.add((isA ? ofA : ofB)(featureId(Kind::ball, isA ? 0 : 1), *contact));
+        thread_local std::vector<BallContact> found;
+        findBallContacts(isA ? pair : back, reach, found);
+        for (const BallContact& ball : found) {
+            const std::uint64_t feature = featureId(Kind::ball, ball.place[0], ball.place[1]);
+            list.add((isA ? ofA : ofB)(feature, ball.contact));
+        }
         return;
     }
 

@@ -202,7 +202,10 @@ std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMe
     shape->assetMesh = drawn;
     const TriMesh solid = makeSolid(name, colliding, settings, shape->repairs);
     shape->repairs.hasCollisionMesh = true;
-    shape->repairs.drawnToColliding = farthestApart(drawn, solid);
+    // Triangles without area are drawn for what they are worth, but have no closest point.
+    const TriMesh drawnSurface = mergeEqualPoints(drawn);
+    requireSurface(drawnSurface, name);
+    shape->repairs.drawnToColliding = farthestApart(drawnSurface, solid);
     describeSolid(name, solid, settings, store, *shape);
     return shape;
 }

@@ -2,8 +2,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
@@ -35,6 +35,18 @@ void keepFacing(const RTCFilterFunctionNArguments* arguments)
     const float along = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z;
     const bool wanted = context->facing == SurfaceRays::Facing::along ? along > 0.0f : along < 0.0f;
     if (!wanted) arguments->valid[0] = 0;
+}
+
+/// A thousandth more than the reach: the mesh in single precision may lie a little farther.
+RTCPointQuery queryAround(const Vec3& point, double reach)
+{
+    RTCPointQuery query;
+    query.x = static_cast<float>(point.x());
+    query.y = static_cast<float>(point.y());
+    query.z = static_cast<float>(point.z());
+    query.radius = static_cast<float>(reach * 1.001);
+    query.time = 0.0f;
+    return query;
 }
 
 }  // namespace
@@ -127,13 +139,7 @@ int SurfaceRays::closestTriangle(const Vec3& point, double reach) const
         int triangle = -1;
     } state{&scene_->mesh, point};
 
-    RTCPointQuery query;
-    query.x = static_cast<float>(point.x());
-    query.y = static_cast<float>(point.y());
-    query.z = static_cast<float>(point.z());
-    // A thousandth more: the mesh in single precision may lie a little farther.
-    query.radius = static_cast<float>(reach * 1.001);
-    query.time = 0.0f;
+    RTCPointQuery query = queryAround(point, reach);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(
@@ -159,6 +165,24 @@ int SurfaceRays::closestTriangle(const Vec3& point, double reach) const
         &state);
     SCREE_CHECK(state.triangle >= 0, "no triangle within reach");
     return state.triangle;
+}
+
+void SurfaceRays::trianglesWithin(const Vec3& point, double reach,
+                                  std::vector<int>& triangles) const
+{
+    triangles.clear();
+    RTCPointQuery query = queryAround(point, reach);
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(
+        scene_->scene, &query, &context,
+        [](RTCPointQueryFunctionArguments* arguments) {
+            auto& found = *static_cast<std::vector<int>*>(arguments->userPtr);
+            found.push_back(static_cast<int>(arguments->primID));
+            return false;  // the reach stays
+        },
+        &triangles);
+    std::sort(triangles.begin(), triangles.end());
 }
 
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/geometry/tri_mesh.h"
 
@@ -35,6 +36,10 @@ public:
     /// it is to the answer, the shorter the search.
     int closestTriangle(const Vec3& point,
                         double reach = std::numeric_limits<double>::infinity()) const;
+
+    /// Indices of the triangles within `reach` [m] of `point`, ascending; a few that are a hair
+    /// farther may be among them.
+    void trianglesWithin(const Vec3& point, double reach, std::vector<int>& triangles) const;
 
 private:
     struct Scene;

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-TriMesh mergeEqualPoints(const TriMesh& mesh)
+TriMesh mergeEqualPoints(const TriMesh& mesh, FlatTriangles flat)
 {
     const auto before = [&](int a, int b) {
         const Vec3 p = mesh.points.col(a), q = mesh.points.col(b);
@@ -30,7 +30,8 @@ TriMesh mergeEqualPoints(const TriMesh& mesh)
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         std::array<int, 3> t{};
         for (int k = 0; k < 3; ++k) t[k] = standsFor[mesh.triangles(k, f)];
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+        const bool isFlat = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+        if (isFlat && flat == FlatTriangles::drop) continue;
         for (int v : t) used[v] = 1;
         kept.push_back(t);
         keptFrom.push_back(f);

@@ -12,9 +12,12 @@ struct TriMesh {
     CornerUvs cornerUvs = {};  // 2×(3·#F), or empty
 };
 
-/// Joins points that are equal bit for bit and drops points no triangle uses. Triangles that lose a
-/// corner by this are dropped too. Texture coordinates stay with their corners.
-TriMesh mergeEqualPoints(const TriMesh& mesh);
+/// Triangles two of whose corners are one point.
+enum class FlatTriangles { drop, keep };
+
+/// Joins points that are equal bit for bit and drops points no triangle uses, and triangles that
+/// lose a corner by this unless asked to keep them. Texture coordinates stay with their corners.
+TriMesh mergeEqualPoints(const TriMesh& mesh, FlatTriangles flat = FlatTriangles::drop);
 
 /// The same surface moved into another frame. `scale` is applied first, per axis, all > 0.
 TriMesh transformed(const TriMesh& mesh, const Pose& targetFromSource,

@@ -13,13 +13,6 @@ namespace {
 
 constexpr double kDt = 1.0 / 48.0;
 
-StepSettings gapSettings()
-{
-    StepSettings settings = experimentSettings();
-    settings.method = Method::scree;
-    return settings;
-}
-
 BodyId addKeyed(World& world, const Vec3& size, MaterialId material,
                 const std::vector<MotionKey>& keys)
 {
@@ -49,7 +42,7 @@ TEST(GapKeyed, APusherDrivesABoxBeforeItWithItsOwnSpeed)  // [A54]
         {{0.0, {{-1.5, 0.6, 0.0}, Quat::Identity()}}, {2.0, {{2.5, 0.6, 0.0}, Quat::Identity()}}});
     const BodyId box =
         addBody(world, boxShape(Vec3::Ones(), 2), material, {{0.0, 0.5, 0.0}, Quat::Identity()});
-    runFrames(world, gapSettings(), 1.0);
+    runFrames(world, screeSettings(), 1.0);
     EXPECT_NEAR(world.motion[pusher].position.x(), 0.5, 1e-12);  // on its script
     // Face on face, 1 m from centre to centre. The overlap that is left alone is 1e-4 of a radius.
     EXPECT_NEAR(world.motion[box].position.x() - world.motion[pusher].position.x(), 1.0, 2e-4);
@@ -65,7 +58,7 @@ TEST(GapKeyed, ALiftCarriesABoxWithoutLagOrSinking)  // [A54]
         {{0.0, {{0.0, -0.1, 0.0}, Quat::Identity()}}, {2.0, {{0.0, 2.9, 0.0}, Quat::Identity()}}});
     const BodyId box =
         addBody(world, boxShape(Vec3::Ones(), 2), material, {{0.0, 0.5, 0.0}, Quat::Identity()});
-    Stepper stepper(gapSettings());
+    Stepper stepper(screeSettings());
     for (int k = 0; k < 72; ++k) {
         stepper.advanceFrame(world, kDt);
         // The gap closes to zero within each step; what is left is that of the sweeps.
@@ -92,7 +85,7 @@ TEST(GapKeyed, ATurntableTakesABoxRoundWithIt)  // [A54]
         return Vec3(inverse(world.motion[table].worldFromBody()) * world.motion[box].position);
     };
     const Vec3 before = placeOnTable();
-    runFrames(world, gapSettings(), 1.0);
+    runFrames(world, screeSettings(), 1.0);
     // Held by friction: m w² r = 18 N of 39 N. A step goes along the tangent and so leads outward
     // by (w dt)²/2 of the radius: 0.023 m in a second.
     EXPECT_LE((placeOnTable() - before).norm(), 0.03);
@@ -114,7 +107,7 @@ World pressedCube(double sideways)
 
 StepSettings weightless()
 {
-    StepSettings settings = gapSettings();
+    StepSettings settings = screeSettings();
     settings.gravity.setZero();
     return settings;
 }
@@ -160,7 +153,7 @@ TEST(GapPairs, GroupsThatDoNotCollidePassThroughEachOther)  // [A57]
     }
     world.info[2].groups.group = 2;
     world.info[2].groups.collidesWith = 2;
-    runFrames(world, gapSettings(), 1.0);
+    runFrames(world, screeSettings(), 1.0);
     EXPECT_NEAR(world.motion[1].position.y(), 0.5, 1e-6);
     EXPECT_LT(world.motion[2].position.y(), -3.0);
 }
@@ -175,7 +168,7 @@ TEST(GapPairs, AnExceptionForTwoMaterialsReplacesTheRule)  // [A27]
         addBody(world, boxShape(Vec3::Ones(), 2), material,
                 {{0.0, 0.5, 3.0 * material}, Quat::Identity()}, 1.0, Vec3::UnitX());
     }
-    runFrames(world, gapSettings(), 0.5);
+    runFrames(world, screeSettings(), 0.5);
     EXPECT_NEAR(world.motion[1].velocity.x(), 0.0, 1e-6);
     EXPECT_NEAR(world.motion[2].velocity.x(), 1.0, 1e-6);
 }
@@ -194,7 +187,7 @@ TEST(GapBirths, NothingMeetsABodyBeforeItsBirth)
     world.addBody(later);
     const BodyId falling =
         addBody(world, boxShape(Vec3::Ones(), 2), material, {{0.0, 2.0, 0.0}, Quat::Identity()});
-    runFrames(world, gapSettings(), 1.0);
+    runFrames(world, screeSettings(), 1.0);
     EXPECT_NEAR(world.motion[falling].position.y(), 0.5, 1e-6);
 }
 

@@ -89,49 +89,78 @@ TEST(NearFeatures, AnEdgeInTheNotchOfAHollowRimTouchesPastTheEndsOfItsEdges)
     EXPECT_NEAR((a.position + deepest->rA - Vec3(-0.855, -0.354, -0.230)).norm(), 0.0, 0.02);
 }
 
-/// How far two cubes of edge 1 are inside each other, by their fifteen separating axes [m].
-double overlapOfCubes(const Pose& a, const Pose& b)
+/// How far two convex bodies are inside each other, by their separating axes [m].
+double overlapOfConvex(const Shape& shape, const Pose& a, const Pose& b)
 {
-    const Mat3 axesA = a.orientation.toRotationMatrix(), axesB = b.orientation.toRotationMatrix();
+    const Mat3 worldFromA = a.orientation.toRotationMatrix();
+    const Mat3 worldFromB = b.orientation.toRotationMatrix();
+    const Points ofA = worldFromA * shape.mesh.points, ofB = worldFromB * shape.mesh.points;
     double least = 1e300;
     const auto look = [&](const Vec3& axis) {
         if (axis.norm() < 1e-3) return;
         const Vec3 n = axis.normalized();
-        const double reach =
-            0.5 * ((axesA.transpose() * n).lpNorm<1>() + (axesB.transpose() * n).lpNorm<1>());
-        least = std::min(least, reach - std::abs(n.dot(a.position - b.position)));
+        const auto alongA = n.transpose() * ofA, alongB = n.transpose() * ofB;
+        const double between = n.dot(b.position - a.position);
+        least = std::min({least, alongA.maxCoeff() - alongB.minCoeff() - between,
+                          alongB.maxCoeff() - alongA.minCoeff() + between});
     };
-    for (int i = 0; i < 3; ++i) {
-        look(axesA.col(i));
-        look(axesB.col(i));
-        for (int k = 0; k < 3; ++k) look(axesA.col(i).cross(axesB.col(k)));
+    for (const ConvexEdge& edgeA : shape.features.edges()) {
+        for (const Vec3& normal : edgeA.faceNormal) {
+            look(worldFromA * normal);
+            look(worldFromB * normal);
+        }
+        for (const ConvexEdge& edgeB : shape.features.edges()) {
+            look((worldFromA * edgeA.direction).cross(worldFromB * edgeB.direction));
+        }
     }
     return least;
 }
 
-TEST(NearFeatures, CubesThatOverlapALittleTouchAsDeepAsTheyOverlapAndNoDeeper)
+struct ShareOfOverlaps {
+    int all = 0, found = 0, overstated = 0;
+};
+
+/// What is found of random small overlaps of two copies of a convex shape of radius about 1.
+ShareOfOverlaps findOverlaps(const Shape& shape, std::uint64_t runs)
 {
-    const auto cube = boxShape({1.0, 1.0, 1.0}, 2);
-    int overlaps = 0, isFound = 0, isOverstated = 0;
-    for (std::uint64_t run = 0; run < 4000; ++run) {
+    ShareOfOverlaps share;
+    for (std::uint64_t run = 0; run < runs; ++run) {
         const Pose b{Vec3::Zero(), exponentialMap(3.0 * signedUnits(run, 3))};
         Pose a{signedUnits(run, 0).normalized(), exponentialMap(3.0 * signedUnits(run, 6))};
         a.position *= 1.0 + 0.6 * signedUnit(run, 9);
-        const double overlap = overlapOfCubes(a, b);
+        const double overlap = overlapOfConvex(shape, a, b);
         if (overlap < 1e-3 || overlap > 0.02) continue;
         std::vector<GapContact> contacts;
-        NearFeatures().findContacts({cube.get(), cube.get(), a, b}, 0.0, contacts);
+        NearFeatures().findContacts({&shape, &shape, a, b}, 0.0, contacts);
         double deepest = 0.0;
         for (const GapContact& contact : contacts) deepest = std::max(deepest, -contact.gap);
-        isFound += deepest >= 0.9 * overlap;
-        isOverstated += deepest > 2.0 * overlap;
-        ++overlaps;
+        share.found += deepest >= 0.9 * overlap;
+        share.overstated += deepest > 2.0 * overlap;
+        ++share.all;
     }
-    EXPECT_GE(overlaps, 50);
+    return share;
+}
+
+TEST(NearFeatures, CubesThatOverlapALittleTouchAsDeepAsTheyOverlapAndNoDeeper)
+{
+    const ShareOfOverlaps cubes = findOverlaps(*boxShape({1.0, 1.0, 1.0}, 2), 4000);
+    EXPECT_GE(cubes.all, 50);
     // Where edges cross all but square to a face of both, their depth tells little: a few are
     // missed.
-    EXPECT_GE(isFound, 0.95 * overlaps) << overlaps;
-    EXPECT_EQ(isOverstated, 0);
+    EXPECT_GE(cubes.found, 0.95 * cubes.all) << cubes.all;
+    EXPECT_EQ(cubes.overstated, 0);
+}
+
+// Seen in shots/wedges.toml: hatchets whose edges had crossed by a hair went through each other,
+// because beside an edge sharper than square the other edge is deep some way from where the two
+// are closest.
+TEST(NearFeatures, BodiesWithEdgesSharperThanSquareTouchAsDeepAsTheyOverlapToo)
+{
+    const auto prism = buildMeshShape("prism", makeCylinder(0.6, 1.0, 3, 1));
+    const ShareOfOverlaps prisms = findOverlaps(*prism, 8000);
+    EXPECT_GE(prisms.all, 100);
+    EXPECT_EQ(prisms.found, prisms.all);
+    EXPECT_EQ(prisms.overstated, 0);
 }
 
 GapScratch randomHeap(std::uint64_t seed)

@@ -19,13 +19,6 @@ namespace {
 
 constexpr double kFrame = 1.0 / 24.0;
 
-StepSettings screeSettings()
-{
-    StepSettings settings = experimentSettings();
-    settings.method = Method::scree;
-    return settings;
-}
-
 /// Cubes of 1 m, eight corners each, one on the other; the top one weighs `topMass`.
 World makeStack(int count, double topMass, double offset)
 {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/math/rotation.h"
@@ -203,16 +204,36 @@ TEST(CameraImport, OfAnFbxLooksAlongItsNodesXAndMovesWithIt)
     }
 }
 
+/// A camera in glTF whose angle of view goes from 0.6 to 0.3 rad in a second, as the extension has
+/// it that may animate anything.
+std::string zoomingGltf()
+{
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"name":"view","camera":0}],
+"cameras":[{"type":"perspective","perspective":{"yfov":0.6,"znear":0.1}}],
+"extensionsUsed":["KHR_animation_pointer"],
+"animations":[{"samplers":[{"input":0,"output":1}],"channels":[{"sampler":0,"target":{
+"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/cameras/0/perspective/yfov"}}}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":8},{"buffer":0,"byteOffset":8,"byteLength":8}],
+"buffers":[{"byteLength":16,"uri":"data:application/octet-stream;base64,AAAAAAAAgD+amRk/mpmZPg=="}]
+})";
+}
+
 TEST(CameraImport, ThatZoomsInAWayThatIsNotReadIsWarnedOfWithItsPlace)
 {
     const test::TemporaryFolder folder;
-    const std::string path = folder / "a.fbx";
-    writeFileBytes(path,
-                   fbxText(" AnimationCurveNode: 7, \"AnimCurveNode::FocalLength\", \"\" {\n }\n"));
-    const Shot shot = parseShotText(shotText(path, ""), "s.toml");
-    ASSERT_EQ(shot.warnings.size(), 1u);
-    EXPECT_TRUE(shot.warnings[0].starts_with("s.toml:6:8: the zoom of camera 'view'"))
-        << shot.warnings[0];
+    const std::string lens = " AnimationCurveNode: 7, \"AnimCurveNode::FocalLength\", \"\" {\n }\n";
+    for (const auto& [name, text] :
+         {std::pair("a.fbx", fbxText(lens)), std::pair("a.gltf", zoomingGltf())}) {
+        const std::string path = folder / name;
+        writeFileBytes(path, text);
+        const Shot shot = parseShotText(shotText(path, ""), "s.toml");
+        ASSERT_EQ(shot.warnings.size(), 1u) << name;
+        EXPECT_TRUE(shot.warnings[0].starts_with("s.toml:6:8: the zoom of camera 'view'"))
+            << shot.warnings[0];
+    }
 }
 
 }  // namespace

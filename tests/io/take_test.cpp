@@ -13,6 +13,7 @@
 #include "io/file_bytes.h"
 #include "io/shot_parser.h"
 #include "io/take_reader.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -21,38 +22,24 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
-constexpr const char* kShotText = R"(
-scree = 1
-[shot]
-name = "two"
-frames = "1001-1005"
-units = "cm"
-[material.wood]
-density = 650
-[shape.block]
-box = { size = [10, 20, 30] }
-[[body]]
-name = "ground"
-plane = { point = [0, -5, 0], normal = [0, 1, 0] }
-material = "wood"
-motion = "static"
-[[body]]
-name = "block"
-shape = "block"
-material = "wood"
-position = [100, 40, 0]
-rotation = [10, 20, 30]
-velocity = [50, 0, 0]
-[[camera]]
-name = "main"
-eye = [300, 200, 100]
-target = [0, 10, 0]
-)";
+/// A block above the ground and a camera; the ground is body 0.
+std::string shotText()
+{
+    const test::SmallShot shot{
+        .name = "two", .frames = "1001-1005", .shotKeys = "units = \"cm\"", .box = "[10, 20, 30]"};
+    const std::string block = test::bodyText("block",
+                                             "position = [100, 40, 0]\n"
+                                             "rotation = [10, 20, 30]\n"
+                                             "velocity = [50, 0, 0]");
+    return shotTextOf(shot, block +
+                                "[[camera]]\nname = \"main\"\neye = [300, 200, 100]\n"
+                                "target = [0, 10, 0]\n");
+}
 
 /// A shot, its world, and a stand-in for simulation that is quick and reaches every value.
 class TakeTest : public testing::Test {
 protected:
-    TakeTest() : shot(parseShotText(kShotText, "two.toml")), world(buildWorld(shot)) {}
+    TakeTest() : shot(parseShotText(shotText(), "two.toml")), world(buildWorld(shot)) {}
 
     void advance(World& moved) const
     {
@@ -280,7 +267,7 @@ TEST_F(TakeTest, OverwritingLeavesNothingOfTheOldTake)
 TEST_F(TakeTest, ResumeRefusesAnotherShot)
 {
     writeWholeTake();
-    const Shot other = parseShotText(kShotText, "two.toml", {"material.wood.friction=0.9"});
+    const Shot other = parseShotText(shotText(), "two.toml", {"material.wood.friction=0.9"});
     EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, other); }), ErrorKind::badInput);
 }
 

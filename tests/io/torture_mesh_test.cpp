@@ -332,6 +332,39 @@ TEST(ShapeReport, TheFieldHoldsTheVolumeOfTheMesh)
     EXPECT_EQ(two.sharpEdges, 2 * 24);  // twelve edges of two segments each
 }
 
+TEST(TortureMesh, WhatIsRepairedOfAFileIsToldAsOfAnyMesh)
+{
+    const test::TemporaryFolder folder;
+    const auto told = [&](const std::string& name, const std::string& text) {
+        std::ofstream(folder / name, std::ios::binary) << text;
+        const auto shape = buildMeshShape("thing", importMesh((folder / name).string()));
+        EXPECT_NEAR(shape->unitMass.volume, 1.0 / 6.0, 1e-7) << name;
+        return describe(shape->repairs.harmless);
+    };
+    // A tetrahedron; of the PLY's five points two are equal. The reader of OBJ gives every face
+    // points of its own, of which nothing need be said.
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 5\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n3 0 2 1\n3 4 1 3\n3 0 3 2\n3 1 2 3\n3 1 2 2\n";
+    EXPECT_EQ(told("a.ply", ply),
+              "merged 1 equal or unused points, dropped 1 triangles without area");
+    const std::string obj =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    EXPECT_EQ(told("clean.obj", obj), "");
+    EXPECT_EQ(told("flat.obj", obj + "f 1 2 2\n"), "dropped 1 triangles without area");
+}
+
+TEST(TortureMesh, TrianglesWithoutAreaAreNotWhereWhatIsDrawnIsApartFromWhatCollides)
+{
+    const auto shape =
+        buildMeshShape("thing", withTriangle(cube(), 0, 0, 1), cube(), ShapeSettings(), nullptr);
+    EXPECT_LT(shape->repairs.drawnToColliding.distance, 1e-12);  // rounding
+    TriMesh line = cube();
+    line.triangles.row(2) = line.triangles.row(1);
+    EXPECT_THROW(buildMeshShape("thing", line, cube(), ShapeSettings(), nullptr), Error);
+}
+
 TEST(TortureMesh, FilesThatAreCutOrEmptyOrNonsenseAreRefused)
 {
     const test::TemporaryFolder folder;

@@ -17,6 +17,13 @@ StepSettings experimentSettings()
     return settings;
 }
 
+StepSettings screeSettings()
+{
+    StepSettings settings = experimentSettings();
+    settings.method = Method::scree;
+    return settings;
+}
+
 MaterialId addMaterial(World& world, double friction, double restitution, double density)
 {
     return world.addMaterial({"material", density, friction, restitution, {}});

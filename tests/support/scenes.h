@@ -15,6 +15,9 @@ namespace scree::test {
 /// Settings of the experiments: g = 9.8 m/s², seed 1.
 StepSettings experimentSettings();
 
+/// The same with method `scree`.
+StepSettings screeSettings();
+
 /// A body's friction and restitution are those of its pairs with everything else in these scenes.
 MaterialId addMaterial(World& world, double friction, double restitution, double density = 1.0);
 

@@ -307,8 +307,16 @@ TEST_F(ProgramTest, ExitCodesTellWhatWentWrong)
 {
     std::ofstream(folder / "bad.toml") << "scree = 1\n[shot]\nnaem = \"x\"\n";
     EXPECT_EQ(runScree({}).code, 64);
-    EXPECT_EQ(runScree({"simulate"}).code, 64);
-    EXPECT_EQ(runScree({"sim", shot(), "--no-such-option"}).code, 64);
+    const auto refusal = [](const std::vector<std::string>& words) {
+        const Outcome outcome = runScree(words);
+        EXPECT_EQ(outcome.code, 64);
+        return outcome.err;
+    };
+    const std::string command = refusal({"simm"}), option = refusal({"sim", shot(), "--treads=2"});
+    EXPECT_NE(command.find("no command 'simm'; did you mean 'sim'?"), std::string::npos) << command;
+    EXPECT_NE(option.find("no option '--treads' of scree sim; did you mean '--threads'?"),
+              std::string::npos)
+        << option;
     EXPECT_EQ(runScree({"sim", shot(), "--frames", "5-1", "-o", take("x")}).code, 64);
     EXPECT_EQ(runScree({"sim", folder / "bad.toml", "-o", take("x")}).code, 65);
     EXPECT_EQ(runScree({"sim", folder / "missing.toml", "-o", take("x")}).code, 66);

@@ -155,6 +155,11 @@ TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
     EXPECT_EQ(mesh.code, 79);
     EXPECT_TRUE(contains(mesh.err, "still moves")) << mesh.err;
     EXPECT_TRUE(contains(readFileBytes(folder / "pose.obj"), "\nv "));
+    // Said at once, not after the run.
+    const Outcome unknown = run("settle drop.toml -o pose.fbx --seconds 1e6 --tolerance 1e-12");
+    EXPECT_EQ(unknown.code, 64);
+    EXPECT_TRUE(contains(unknown.err, "'pose.fbx': expected a name ending in .json, .usda"))
+        << unknown.err;
 }
 
 }  // namespace
