@@ -74,13 +74,15 @@ void readOdometers(const World& world, GapScratch& scratch)
     }
 }
 
-/// Gaps that may close within the step. What both are pulled by alike counts too: one of them may
-/// be held up.
+/// Gaps that may close within the step. The speed that both have in common and what pulls both
+/// alike count too: one of them may be stopped in this very step, and the course of a falling wall
+/// that was not told of the one below sank as deep into it as it fell in a step.
 double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
 {
     const GapBody& a = scratch.bodies[bodies.a];
     const GapBody& b = scratch.bodies[bodies.b];
-    const double speed = (a.velocity - b.velocity).norm() +
+    const double inCommon = std::min(a.velocity.norm(), b.velocity.norm());
+    const double speed = (a.velocity - b.velocity).norm() + inCommon +
                          surfaceSpeed(world, scratch, bodies.a, dt) +
                          surfaceSpeed(world, scratch, bodies.b, dt);
     const double pull = std::max({a.pull.norm(), b.pull.norm(), (a.pull - b.pull).norm()});

@@ -219,6 +219,43 @@ TEST(GapMethod, WhatRocksInItsPlaceComesToRestAndWhatGoesFartherDoesNot)
     EXPECT_GE(rockingOfAPlank(true, 1.0, 240), 0.3);
 }
 
+/// Blocks of a wall laid flush, the usual grid of a user: a millimetre between the courses, and the
+/// whole dropped.
+TEST(GapMethod, AWallOfFlushBlocksLandsCourseOnCourseAndStands)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    for (int i = 0; i < 9; ++i) {
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                {Vec3(i % 3, 0.51 + 1.001 * (i / 3), 0.0), Quat::Identity()});
+    }
+    Stepper stepper(screeSettings());
+    double worst = 0.0;
+    FrameReport last;
+    for (int f = 0; f < 36; ++f) {
+        last = stepper.advanceFrame(world, kFrame);
+        worst = std::max(worst, last.sum.deepestAfterPushOut);
+    }
+    // A course that was told of the one below only when that had stopped sank 4 mm into it.
+    EXPECT_LE(worst, 5e-4);
+    EXPECT_EQ(last.bodiesAwake, 0);
+}
+
+/// As when such a wall has landed badly: the upper block is 3 to 5 mm deep under all its corners,
+/// which are nearer to the lower block's sides than to its top.
+TEST(GapMethod, ABlockSunkIntoOneFlushWithItIsHeldAtAllCorners)
+{
+    const auto block = boxShape({1.0, 1.0, 1.0}, 1);
+    const Pose above{Vec3(-0.001, 0.9962, 0.001), exponentialMap(Vec3(0.0, 0.0, 0.0017))};
+    std::vector<GapContact> contacts;
+    NearFeatures().findContacts({block.get(), block.get(), above, Pose{}}, 1e-3, contacts);
+    int holding = 0;
+    for (const GapContact& contact : contacts)
+        holding += contact.normal.y() > 0.99 && contact.gap < -0.002 && contact.gap > -0.006;
+    EXPECT_GE(holding, 4);
+}
+
 TEST(GapMethod, SleepersWakeAndMoveWhenStruckAndOnlyThen)
 {
     World world = makeStack(3, 1.0, 0.0);
