@@ -14,6 +14,7 @@ namespace scree {
 struct StepScratch;
 struct GapScratch;
 
+/// Serves one world: what it remembers of pairs from step to step is found again by their bodies.
 class Stepper {
 public:
     explicit Stepper(const StepSettings& settings);
