@@ -235,17 +235,16 @@ void addForcesToGaps(double dt, GapScratch& scratch)
 {
     // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
     // g dt²/2 too far.
-    std::vector<char> isStopped(scratch.bodies.size(), 0);
+    for (GapBody& body : scratch.bodies) body.isStopped = false;
     for (const GapRow& row : scratch.rows) {
-        const GapBody& a = scratch.bodies[row.a];
-        const GapBody& b = scratch.bodies[row.b];
+        GapBody& a = scratch.bodies[row.a];
+        GapBody& b = scratch.bodies[row.b];
         const double g = (a.pull - b.pull).dot(row.normal);
         const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
                            dt * (velocityAt(row, a, b).dot(row.normal) + 0.5 * dt * g);
-        if (end < 0.0 || row.impulse.x() > 0.0) isStopped[row.a] = isStopped[row.b] = 1;
+        if (end < 0.0 || row.impulse.x() > 0.0) a.isStopped = b.isStopped = true;
     }
-    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
-        GapBody& body = scratch.bodies[i];
+    for (GapBody& body : scratch.bodies) {
         body.velocityBefore = body.velocity;
         body.spinBefore = body.spin;
         if (body.inverseMass == 0.0) continue;
@@ -253,7 +252,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
         body.velocity += dt * body.pull;
         body.spin += dt * turning;
         body.angularImpulse += dt * body.torque;
-        if (isStopped[i]) continue;
+        if (body.isStopped) continue;
         body.shift -= 0.5 * dt * dt * body.pull;
         body.turn -= 0.5 * dt * dt * turning;
     }

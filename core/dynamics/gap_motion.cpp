@@ -15,6 +15,71 @@ constexpr double kSlop = 1e-4;
 constexpr double kShare = 0.2;
 constexpr int kSweeps = 8;
 
+/// Slip and opening of a contact that lasts, as a share of the smaller body: what the solver
+/// leaves.
+constexpr double kLasting = 1e-6;
+
+/// What a body moves less than with its final velocity when what accelerated it did so for the
+/// whole step.
+struct MeanMotion {
+    Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
+
+    MeanMotion(const GapBody& body, double dt)
+    {
+        if (body.inverseMass == 0.0 || !body.isStopped) return;
+        shift = -0.5 * dt * (body.velocity - body.velocityBefore);
+        turn = -0.5 * dt * (body.spin - body.spinBefore);
+    }
+};
+
+/// Whether a contact is at the end of the step what it was solved to be, also when its surfaces
+/// moved by `s` more: one that carries stays closed and one that holds does not slip.
+bool lasts(const GapRow& row, const Vec3& s, double gapAtEnd, double blind)
+{
+    const double apart = s.dot(row.normal);
+    if (row.impulse.x() == 0.0) return apart >= -blind || gapAtEnd + apart >= 0.0;
+    if (std::abs(apart) > blind) return false;
+    const double held = std::hypot(row.impulse.y(), row.impulse.z());
+    const bool slides = held >= row.friction * row.impulse.x() * (1.0 - 1e-9);
+    return slides || (s - apart * row.normal).norm() <= blind;
+}
+
+/// End-of-step velocities are what contacts need, and move what speeds up or slows down by half a
+/// step's change too far. Where all contacts of an island last, its bodies move by the mean of the
+/// velocities before and after instead, as in free flight. What a keyed body carries it carries
+/// along: its velocity is the mean of the step already.
+void moveByTheMean(const World& world, double dt, GapScratch& scratch)
+{
+    std::vector<char> isLasting(scratch.islands.size(), 1);
+    for (const GapRow& row : scratch.rows) {
+        if (!isLasting[row.island]) continue;
+        const GapBody& a = scratch.bodies[row.a];
+        const GapBody& b = scratch.bodies[row.b];
+        if (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b))) {
+            isLasting[row.island] = 0;
+            continue;
+        }
+        const MeanMotion ofA(a, dt), ofB(b, dt);
+        const Vec3 s = ofA.shift + ofA.turn.cross(row.rA) - ofB.shift - ofB.turn.cross(row.rB);
+        const double gapAtEnd =
+            row.gap + shiftAt(row, a, b) + dt * velocityAt(row, a, b).dot(row.normal);
+        isLasting[row.island] =
+            lasts(row, s, gapAtEnd, kLasting * smallerRadius(world, row.a, row.b));
+    }
+    std::vector<char> isMoved(scratch.bodies.size(), 0);
+    for (const GapRow& row : scratch.rows) {
+        if (!isLasting[row.island]) continue;
+        for (const BodyId id : {row.a, row.b}) {
+            if (isMoved[id]) continue;
+            isMoved[id] = 1;
+            GapBody& body = scratch.bodies[id];
+            const MeanMotion mean(body, dt);
+            body.shift += mean.shift;
+            body.turn += mean.turn;
+        }
+    }
+}
+
 }  // namespace
 
 void writeVelocities(World& world, double dt, const GapScratch& scratch)
@@ -61,6 +126,7 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
 
 void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
+    moveByTheMean(world, dt, scratch);
     advancePositions(world, settings, dt);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         BodyMotion& motion = world.motion[i];

@@ -9,7 +9,8 @@ namespace scree {
 /// Velocities and angular momenta of the world from the solved rows; remembers the impulses.
 void writeVelocities(World& world, double dt, const GapScratch& scratch);
 
-/// Moves every body with its new velocity and its shift.
+/// Moves every body with its new velocity and its shift; where all contacts last, with the mean of
+/// the velocities before and after the step.
 void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch);
 
 /// Draws overlaps apart, in positions only. Answers the number of rows that pushed.

@@ -24,6 +24,7 @@ struct GapBody {
     Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
     Vec3 shift, turn;  ///< added to the motion of this step: not everything moves for all
                        ///< of it with its final velocity [m], [rad]
+    bool isStopped;    ///< something may stop it within the step
 };
 
 struct GapRow {

@@ -75,6 +75,7 @@ void exactAndDefaults(const Context& context, Findings& findings)
 
 void orderOfTheError(const Context& context, Findings& findings)
 {
+    if (context.method != "paper") return;  // the other has none to speak of
     const Slope& slope = kSlopes[0];
     ShotRun coarse(context, slope.shot), fine(context, slope.shot);
     const double ratio =

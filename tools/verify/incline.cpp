@@ -77,8 +77,10 @@ SlideErrors slide(ShotRun& run, const SlideTheory& theory, double stepsPerSecond
     double discrete = 0.0;
     run.advance(2.0, stepsPerSecond, [&](const StepReport&, double t) {
         look(run, theory, t, dt, errors);
-        // Positions use the new velocities: the method's own sum, first order in dt.  [A18]
-        discrete += dt * theory.speed(t);
+        // The paper's positions use the new velocities: its own sum, first order in dt.  [A18]
+        // Method `scree` moves what slides by the mean velocity: theory itself.
+        const bool isPaper = run.shot.settings.method == Method::paper;
+        discrete = isPaper ? discrete + dt * theory.speed(t) : theory.distance(t);
         errors.discretePosition =
             std::max(errors.discretePosition, std::abs(errors.measured.y.back() - discrete));
     });
