@@ -9,12 +9,6 @@
 namespace scree {
 namespace {
 
-/// Overlap that is left alone, as a share of the smaller body: removing all of it shook stacks.
-constexpr double kSlop = 1e-4;
-/// Share of the rest that one step removes.
-constexpr double kShare = 0.2;
-constexpr int kSweeps = 8;
-
 /// Slip and opening of a contact that lasts, as a share of the smaller body: what the solver
 /// leaves.
 constexpr double kLasting = 1e-6;
@@ -139,52 +133,6 @@ void moveBodies(World& world, const StepSettings& settings, double dt, GapScratc
         body.shift += dt * motion.velocity;
         body.turn += dt * body.spin;
     }
-}
-
-std::int64_t separateGaps(World& world, GapScratch& scratch)
-{
-    struct Push {
-        const GapRow* row;
-        double wanted, impulse;
-    };
-    std::vector<Push> pushes;
-    for (const std::size_t i : scratch.order) {
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
-            const GapRow& row = scratch.rows[r];
-            const double gap = row.gap + shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
-            const double excess = -gap - kSlop * smallerRadius(world, row.a, row.b);
-            if (excess > 0.0) pushes.push_back({&row, kShare * excess, 0.0});
-        }
-    }
-    if (pushes.empty()) return 0;
-    for (GapBody& body : scratch.bodies) body.shift = body.turn = Vec3::Zero();
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        for (Push& push : pushes) {
-            const GapRow& row = *push.row;
-            GapBody& a = scratch.bodies[row.a];
-            GapBody& b = scratch.bodies[row.b];
-            const double impulse = std::max(
-                0.0, push.impulse + (push.wanted - shiftAt(row, a, b)) / row.inverseNormalMass);
-            const Vec3 change = (impulse - push.impulse) * row.normal;
-            push.impulse = impulse;
-            if (row.movesA) {
-                a.shift += a.inverseMass * change;
-                a.turn += a.inverseInertia * row.rA.cross(change);
-            }
-            if (row.movesB) {
-                b.shift -= b.inverseMass * change;
-                b.turn -= b.inverseInertia * row.rB.cross(change);
-            }
-        }
-    }
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        const GapBody& body = scratch.bodies[i];
-        if (body.inverseMass == 0.0) continue;
-        if (body.shift.isZero(0.0) && body.turn.isZero(0.0)) continue;
-        world.motion[i].position += body.shift;
-        world.motion[i].orientation = rotated(world.motion[i].orientation, body.turn);
-    }
-    return static_cast<std::int64_t>(pushes.size());
 }
 
 }  // namespace scree

@@ -13,7 +13,4 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch);
 /// the velocities before and after the step.
 void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch);
 
-/// Draws overlaps apart, in positions only. Answers the number of rows that pushed.
-std::int64_t separateGaps(World& world, GapScratch& scratch);
-
 }  // namespace scree

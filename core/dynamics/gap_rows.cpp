@@ -251,6 +251,18 @@ void cutIntoIslands(GapScratch& scratch)
 
 }  // namespace
 
+bool isHeldBy(const World& world, BodyId body, BodyId other)
+{
+    return (world.info[body].groups.unmovedBy & world.info[other].groups.group) != 0;
+}
+
+double deepestOf(const std::vector<GapContact>& contacts)
+{
+    double deepest = 0.0;
+    for (const GapContact& contact : contacts) deepest = std::max(deepest, -contact.gap);
+    return deepest;
+}
+
 double smallerRadius(const World& world, BodyId a, BodyId b)
 {
     return smallerRadius(world.shapeOf(a), world.shapeOf(b));
@@ -322,6 +334,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
         // A keyed body beside a sleeping one moves nothing.
         if (scratch.bodies[a].inverseMass == 0.0 && scratch.bodies[b].inverseMass == 0.0)
             scratch.pairs[i].contacts.clear();
+        scratch.pairs[i].depth = deepestOf(scratch.pairs[i].contacts);
         scratch.pairs[i].begin = count;
         count += scratch.pairs[i].contacts.size();
         scratch.pairs[i].end = count;
@@ -336,9 +349,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
             const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
-            const CollisionGroups &groupsA = world.info[a].groups, &groupsB = world.info[b].groups;
-            const bool isHeldA = (groupsA.unmovedBy & groupsB.group) != 0;
-            const bool isHeldB = (groupsB.unmovedBy & groupsA.group) != 0;
+            const bool isHeldA = isHeldBy(world, a, b), isHeldB = isHeldBy(world, b, a);
             const auto known =
                 std::equal_range(memory.begin(), memory.end(), RememberedContact{a, b},
                                  [](const RememberedContact& p, const RememberedContact& q) {

@@ -62,6 +62,7 @@ struct GapPair {
     NearFeatures near;
     std::vector<GapContact> contacts;
     std::size_t begin = 0, end = 0;  ///< its rows
+    double depth = 0.0;              ///< of its deepest overlap, as last seen [m]
 };
 
 /// Rows that share bodies, directly or through others: a problem of its own. Islands share no
@@ -102,6 +103,12 @@ inline bool isDriven(const GapBody& body)
 {
     return body.inverseMass == 0.0 && !(body.velocity.isZero(0.0) && body.spin.isZero(0.0));
 }
+
+/// Whether the group of `body` keeps it from being moved by `other`.
+bool isHeldBy(const World& world, BodyId body, BodyId other);
+
+/// Depth of the deepest overlap; 0 when all are apart [m].
+double deepestOf(const std::vector<GapContact>& contacts);
 
 /// Bounding radius of the smaller body of a pair [m].
 double smallerRadius(const World& world, BodyId a, BodyId b);

@@ -16,16 +16,6 @@ namespace {
 
 constexpr double kMostTurn = 0.1;  // per push [rad]
 
-/// The share of a push that keeps a body within the limits of one push.
-double admissibleShare(const Shape& shape, const Vec3& shift, const Vec3& turn)
-{
-    const double longest = 0.5 * shape.innerThickness;
-    double share = 1.0;
-    if (shift.norm() > longest) share = std::min(share, longest / shift.norm());
-    if (turn.norm() > kMostTurn) share = std::min(share, kMostTurn / turn.norm());
-    return share;
-}
-
 struct Push {
     Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();
 };
@@ -93,6 +83,15 @@ bool pushOnce(World& world, PairRecord& pair, const PairVisit& visit, const Froz
 }
 
 }  // namespace
+
+double admissibleShare(const Shape& shape, const Vec3& shift, const Vec3& turn)
+{
+    const double longest = 0.5 * shape.innerThickness;
+    double share = 1.0;
+    if (shift.norm() > longest) share = std::min(share, longest / shift.norm());
+    if (turn.norm() > kMostTurn) share = std::min(share, kMostTurn / turn.norm());
+    return share;
+}
 
 PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const StepSettings& settings,
                               StepScratch& scratch)

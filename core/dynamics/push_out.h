@@ -19,6 +19,10 @@ struct PushOutTally {
     }
 };
 
+/// The share of a push that keeps a body within the limits of one push: half the inner thickness,
+/// 0.1 rad.
+double admissibleShare(const Shape& shape, const Vec3& shift, const Vec3& turn);
+
 /// Pushes apart level by level, a growing fraction of the depth at a time; finished levels stay
 /// put.
 PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const StepSettings& settings,

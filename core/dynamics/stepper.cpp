@@ -14,6 +14,7 @@
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
+#include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
@@ -266,16 +267,19 @@ StepReport Stepper::stepGaps(World& world, double dt)
         moveBodies(world, settings_, dt, scratch);
     }
     findNonFinite(world, Phase::position, report);
+    report.deepestBeforePushOut = findDeepestGap(scratch).depth;
     if (report.nonFinite.empty() && settings_.pushOut) {
         const PhaseTimer timer(report, Phase::pushOut);
-        report.pushes = separateGaps(world, scratch);
+        const double before = potentialEnergy(world, settings_.gravity);
+        const PushOutTally tally = separateGaps(world, settings_, levels, scratch);
+        report.pushes = tally.pushes;
+        report.pushesCut = tally.cut;
+        report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
     }
-    for (const GapRow& row : scratch.rows) {
-        if (-row.gap <= report.deepestAfterPushOut) continue;
-        report.deepestBeforePushOut = report.deepestAfterPushOut = -row.gap;
-        report.deepestA = row.a;
-        report.deepestB = row.b;
-    }
+    const DeepestOverlap deepest = findDeepestGap(scratch);
+    report.deepestAfterPushOut = deepest.depth;
+    report.deepestA = deepest.a;
+    report.deepestB = deepest.b;
     report.levels = static_cast<int>(levels.rows.size());
     report.broadPairs = static_cast<std::int64_t>(scratch.pairs.size());
     report.touchingPairs = static_cast<std::int64_t>(scratch.order.size());

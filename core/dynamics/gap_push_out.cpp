@@ -1,0 +1,297 @@
+// Symbols: λ first-order impulse of a row [kg m], K its response, f fraction of the depth removed
+//          now, c share by which a row gives way.
+//
+// Two kinds of overlap. Steps leave a thousandth of a body or so; removing that at once shook
+// stacks, and a fifth of it in a step is enough. What is deeper has begun so, or is squeezed by a
+// script: a fifth a step would show it coming apart for a second. That is done at once and the
+// paper's way: gradually, and bottom to top, so that a column rises from the floor and nothing is
+// pressed into what is already right. Contacts are found anew after every move: a push by a tenth
+// of a body changes which of its features face the other.
+//
+// Departs from A52. The rows of a level are solved together: one pair after the other, the first to
+// be pushed decides where all the others go. And all levels take a fraction before any takes the
+// next: with the lowest finished first, what lies on it was for a while as deep in it as the whole
+// column had to rise, and deep inside a body hardly a feature tells the way out.
+#include "core/dynamics/gap_push_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+/// Overlap that is left alone, as a share of the smaller body: removing all of it shook stacks.
+constexpr double kSlop = 1e-4;
+/// Share of the rest that one step removes, and how exactly.
+constexpr double kShare = 0.2;
+constexpr int kSweeps = 8;
+
+/// Deeper than this share of the smaller body is deep.
+constexpr double kDeep = 0.01;
+/// Deep ones are solved to this share of the deepest, if these sweeps do.
+constexpr double kEnough = 1e-9;
+constexpr int kMostSweeps = 100;
+/// What is squeezed between two that do not move cannot obey both, and a wedge would throw it: with
+/// this c no row moves its bodies farther than 1/√(2c) times its depth, about three.
+constexpr double kGive = 0.05;
+
+/// What push-out adds to the place of a body.
+struct Displacement {
+    Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
+};
+
+struct RowPush {
+    const GapRow* row;
+    double wanted;  // separation [m]; negative: how far it may close
+    double impulse = 0.0;
+};
+
+double excessOf(const World& world, const GapRow& row, double gap)
+{
+    return -gap - kSlop * smallerRadius(world, row.a, row.b);
+}
+
+double separationAt(const GapRow& row, const Displacement& a, const Displacement& b)
+{
+    return row.normal.dot(a.shift + a.turn.cross(row.rA) - b.shift - b.turn.cross(row.rB));
+}
+
+/// Sweeps over the rows until the largest change of a separation is enough.
+void solve(const GapScratch& scratch, std::vector<RowPush>& pushes, double give, int mostSweeps,
+           double enough, std::vector<Displacement>& displacements)
+{
+    for (int sweep = 0; sweep < mostSweeps; ++sweep) {
+        double largest = 0.0;
+        for (RowPush& push : pushes) {
+            const GapRow& row = *push.row;
+            Displacement &a = displacements[row.a], &b = displacements[row.b];
+            const double k = row.inverseNormalMass;
+            const double missing = push.wanted - separationAt(row, a, b) - give * k * push.impulse;
+            const double impulse = std::max(0.0, push.impulse + missing / (k * (1.0 + give)));
+            const Vec3 change = (impulse - push.impulse) * row.normal;
+            largest = std::max(largest, k * std::abs(impulse - push.impulse));
+            push.impulse = impulse;
+            if (row.movesA) {
+                a.shift += scratch.bodies[row.a].inverseMass * change;
+                a.turn += scratch.bodies[row.a].inverseInertia * row.rA.cross(change);
+            }
+            if (row.movesB) {
+                b.shift -= scratch.bodies[row.b].inverseMass * change;
+                b.turn -= scratch.bodies[row.b].inverseInertia * row.rB.cross(change);
+            }
+        }
+        if (largest <= enough) break;
+    }
+}
+
+/// Answers how many bodies asked for more than a push may do.
+std::int64_t displace(World& world, std::vector<Displacement>& displacements)
+{
+    std::int64_t cut = 0;
+    for (std::size_t i = 0; i < displacements.size(); ++i) {
+        Displacement& d = displacements[i];
+        if (d.shift.isZero(0.0) && d.turn.isZero(0.0)) continue;
+        const double share =
+            admissibleShare(world.shapeOf(static_cast<BodyId>(i)), d.shift, d.turn);
+        if (share < 1.0) {
+            ++cut;
+            d.shift *= share;
+            d.turn *= share;
+        }
+        world.motion[i].position += d.shift;
+        world.motion[i].orientation = rotated(world.motion[i].orientation, d.turn);
+    }
+    return cut;
+}
+
+/// Draws deep overlaps apart, level by level.
+class DeepPass {
+public:
+    DeepPass(World& world, const StepSettings& settings, const GapLevels& levels,
+             GapScratch& scratch)
+        : world_(world),
+          settings_(settings),
+          graph_(levels.graph),
+          scratch_(scratch),
+          isLookedAt_(scratch.pairs.size(), 0),
+          isPushed_(scratch.bodies.size(), 0)
+    {
+    }
+
+    PushOutTally run()
+    {
+        findDeepPairs();
+        if (reach_ == 0.0) return {};
+        std::vector<std::vector<std::size_t>> byLevel;
+        for (std::size_t i = 0; i < scratch_.pairs.size(); ++i) {
+            const auto level = static_cast<std::size_t>(levelOf(scratch_.pairs[i]));
+            if (byLevel.size() <= level) byLevel.resize(level + 1);
+            byLevel[level].push_back(i);
+        }
+        for (int n = 1; n <= settings_.pushOutLevelIterations; ++n) {
+            const double fraction = static_cast<double>(n) / settings_.pushOutLevelIterations;
+            displacements_.assign(scratch_.bodies.size(), {});
+            for (const std::vector<std::size_t>& level : byLevel) pushLevel(level, fraction);
+            tally_.cut += displace(world_, displacements_);
+        }
+        lookAfterwards();
+        return tally_;
+    }
+
+    /// Whether the rows of a pair have been dealt with.
+    bool isLookedAt(std::size_t pair) const { return isLookedAt_[pair] != 0; }
+
+private:
+    int levelOf(const GapPair& pair) const
+    {
+        return std::max(graph_.level[pair.bodies.a], graph_.level[pair.bodies.b]);
+    }
+    bool isDeep(const GapPair& pair, double depth) const
+    {
+        return depth > kDeep * smallerRadius(world_, pair.bodies.a, pair.bodies.b);
+    }
+
+    /// As far as the rows tell, at the beginning of the step and at its end: a feature that was
+    /// deep at one of them only is one that faced the other for a moment.
+    void findDeepPairs()
+    {
+        for (const std::size_t i : scratch_.order) {
+            const GapPair& pair = scratch_.pairs[i];
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                const GapRow& row = scratch_.rows[r];
+                const double opened = shiftAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
+                const double depth = -row.gap - std::max(opened, 0.0);
+                if (!isDeep(pair, depth) || (!row.movesA && !row.movesB)) continue;
+                isLookedAt_[i] = 1;
+                reach_ = std::max(reach_, depth);
+            }
+        }
+    }
+
+    /// One push of all that overlaps on a level, over what those below it have been pushed.
+    void pushLevel(const std::vector<std::size_t>& level, double fraction)
+    {
+        rows_.clear();
+        for (const std::size_t i : level) addRows(i);
+        pushes_.clear();
+        for (const GapRow& row : rows_) {
+            const double excess = excessOf(world_, row, row.gap);
+            pushes_.push_back({&row, excess > 0.0 ? fraction * excess : excess});
+            tally_.pushes += excess > 0.0;
+        }
+        solve(scratch_, pushes_, kGive, kMostSweeps, kEnough * reach_, displacements_);
+        for (std::size_t i = 0; i < displacements_.size(); ++i) {
+            isPushed_[i] |= !displacements_[i].shift.isZero(0.0);
+        }
+    }
+
+    /// Of what is deep, and of what the pass has moved: it may have been moved into another.
+    void addRows(std::size_t i)
+    {
+        GapPair& pair = scratch_.pairs[i];
+        const auto [a, b] = pair.bodies;
+        const bool isMoved = isPushed_[a] || isPushed_[b];
+        if (!isLookedAt_[i] && !isMoved) return;
+        isLookedAt_[i] = 1;
+        const double depth = look(pair, reach_);
+        if (!isMoved && !isDeep(pair, depth)) {
+            isLookedAt_[i] = 0;  // the rows had seen it deeper than it is
+            return;
+        }
+        const int level = levelOf(pair);
+        for (const GapContact& contact : contacts_) {
+            GapRow row{};
+            row.a = a;
+            row.b = b;
+            row.rA = contact.rA;
+            row.rB = contact.rA + world_.motion[a].position - world_.motion[b].position;
+            row.normal = contact.normal;
+            row.gap = contact.gap;
+            row.isHeldA = isHeldBy(world_, a, b) || isFrozen(a, level);
+            row.isHeldB = isHeldBy(world_, b, a) || isFrozen(b, level);
+            prepareRow(scratch_, row);
+            if (row.movesA || row.movesB) rows_.push_back(row);
+        }
+    }
+
+    bool isFrozen(BodyId body, int level) const
+    {
+        return graph_.isSupported[body] && graph_.level[body] < level;
+    }
+
+    /// Fills contacts_ where the bodies are now; answers the depth of the deepest.
+    double look(GapPair& pair, double reach)
+    {
+        const auto [a, b] = pair.bodies;
+        const PlacedPair placed{&world_.shapeOf(a), &world_.shapeOf(b),
+                                world_.motion[a].worldFromBody(), world_.motion[b].worldFromBody()};
+        contacts_.clear();
+        // Bodies have moved since their ways were measured: nothing follows from them.
+        pair.near.findContacts(placed, reach, contacts_, -std::numeric_limits<double>::infinity());
+        return deepestOf(contacts_);
+    }
+
+    void lookAfterwards()
+    {
+        for (std::size_t i = 0; i < scratch_.pairs.size(); ++i) {
+            GapPair& pair = scratch_.pairs[i];
+            if (isLookedAt_[i]) pair.depth = look(pair, 0.0);
+        }
+    }
+
+    World& world_;
+    const StepSettings& settings_;
+    const GraphLevels& graph_;
+    GapScratch& scratch_;
+    PushOutTally tally_;
+    double reach_ = 0.0;  // of contacts that pushes may close: the deepest overlap [m]
+    std::vector<char> isLookedAt_, isPushed_;  // per pair; per body
+    std::vector<GapContact> contacts_;
+    std::vector<GapRow> rows_;
+    std::vector<RowPush> pushes_;
+    std::vector<Displacement> displacements_;
+};
+
+/// What steps leave: a share of it.
+PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratch& scratch)
+{
+    std::vector<RowPush> pushes;
+    for (const std::size_t i : scratch.order) {
+        if (deep.isLookedAt(i)) continue;
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            const double gap = row.gap + shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+            const double excess = excessOf(world, row, gap);
+            if (excess > 0.0) pushes.push_back({&row, kShare * excess});
+        }
+    }
+    if (pushes.empty()) return {};
+    std::vector<Displacement> displacements(scratch.bodies.size());
+    solve(scratch, pushes, 0.0, kSweeps, 0.0, displacements);
+    return {static_cast<std::int64_t>(pushes.size()), displace(world, displacements)};
+}
+
+}  // namespace
+
+PushOutTally separateGaps(World& world, const StepSettings& settings, const GapLevels& levels,
+                          GapScratch& scratch)
+{
+    DeepPass deep(world, settings, levels, scratch);
+    PushOutTally tally = deep.run();
+    tally += separateShallow(world, deep, scratch);
+    return tally;
+}
+
+DeepestOverlap findDeepestGap(const GapScratch& scratch)
+{
+    DeepestOverlap deepest;
+    for (const GapPair& pair : scratch.pairs) {
+        if (pair.depth > deepest.depth) deepest = {pair.depth, pair.bodies.a, pair.bodies.b};
+    }
+    return deepest;
+}
+
+}  // namespace scree
