@@ -9,11 +9,17 @@
 // No threshold velocity decides what bounces. But a bounce that is over before the step ends cannot
 // be shown: if gravity would bring the body back within the rest of the step, it does not bounce.
 // Heaps that come to rest do it here, at speeds of g dt.
+//
+// What is hit from two sides at once is solved at once. One pair after the other, the first made
+// two balls that ran into a third from either side leave with speeds a tenth apart. Blows that
+// follow from each other still run on pair by pair: solved at once they would not pass along a row.
 #include "core/dynamics/gap_bounce.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "core/dynamics/contact_point.h"
 #include "core/dynamics/friction.h"
@@ -25,7 +31,7 @@ namespace {
 constexpr int kMostPairSweeps = 20;
 constexpr double kPairIsSolved = 1e-4;  // of the speed of the impact
 
-/// Places of a pair that are hit within this share of a step are hit together.
+/// Places that are hit within this share of a step are hit together.
 constexpr double kTogether = 0.01;
 
 /// What the impacts of this step have done to a body so far.
@@ -42,6 +48,34 @@ struct Impact {
     double velocityAfter;  // normal velocity that makes it leave as it must
 };
 
+/// The pairs that have rows, by movable body, in the order of visits.
+class PairsOfBodies {
+public:
+    explicit PairsOfBodies(const GapScratch& scratch) : begin_(scratch.bodies.size() + 1, 0)
+    {
+        const auto forBodies = [&](const auto& visit) {
+            for (const std::size_t i : scratch.order) {
+                for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+                    if (scratch.bodies[body].inverseMass > 0.0) visit(body, i);
+                }
+            }
+        };
+        forBodies([&](BodyId body, std::size_t) { ++begin_[body + 1]; });
+        for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+        pairs_.resize(begin_.back());
+        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+        forBodies([&](BodyId body, std::size_t i) { pairs_[next[body]++] = i; });
+    }
+
+    std::span<const std::size_t> of(BodyId body) const
+    {
+        return std::span(pairs_).subspan(begin_[body], begin_[body + 1] - begin_[body]);
+    }
+
+private:
+    std::vector<std::size_t> begin_, pairs_;
+};
+
 class ImpactPass {
 public:
     ImpactPass(const StepSettings& settings, double dt, GapScratch& scratch)
@@ -49,8 +83,11 @@ public:
           dt_(dt),
           slowest_(slowestApproach(settings, dt)),
           scratch_(scratch),
+          pairsOf_(scratch),
           impacts_(scratch.bodies.size()),
-          doneAt_(scratch.pairs.size(), 0)
+          doneAt_(scratch.pairs.size(), 0),
+          gatheredAt_(scratch.pairs.size(), 0),
+          placeOf_(scratch.bodies.size(), -1)
     {
         scratch.impactImpulses.assign(scratch.isWatched ? scratch.rows.size() : 0, Vec3::Zero());
     }
@@ -106,24 +143,18 @@ private:
     /// Most pairs are not hit, and stay so until a blow comes to one of their bodies.
     void visit(std::size_t p, ImpulseCounts& counts)
     {
-        const GapPair& pair = scratch_.pairs[p];
-        const auto [a, b] = pair.bodies;
+        const auto [a, b] = scratch_.pairs[p].bodies;
         const std::int64_t changedAt = std::max(impacts_[a].changedAt, impacts_[b].changedAt);
         if (doneAt_[p] > changedAt) return;
-        if (resolvePair(pair, counts)) doneAt_[p] = ++visits_;
+        if (resolvePair(p, counts)) doneAt_[p] = ++visits_;
     }
 
     /// True when nothing is left to be hit.
-    bool resolvePair(const GapPair& pair, ImpulseCounts& counts)
+    bool resolvePair(std::size_t p, ImpulseCounts& counts)
     {
         for (int n = 0; n < settings_.collisionPairImpulses; ++n) {
-            hits_.clear();
-            Impact impact{};
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                if (impactOf(scratch_.rows[r], impact)) hits_.push_back(impact);
-            }
+            gather(p);
             if (hits_.empty()) return true;
-            keepFirst();
             for (const Impact& hit : hits_) hit.row->wasHit = true;
             if (hits_.size() == 1) {
                 applyOne(hits_[0], counts);
@@ -134,14 +165,60 @@ private:
         return false;
     }
 
-    /// Of all places that would be hit, those that are hit first: what would follow may not, once
-    /// these are answered.
-    void keepFirst()
+    /// Whether what hits there has come from afar in this step: it was neither hit already nor did
+    /// its bodies lie on each other.
+    static bool arrives(const GapRow& row) { return !row.wasHit && !row.isCarried; }
+
+    /// Fills hits_ with the first impacts of a pair, and those that come to its bodies, and on to
+    /// the others of these, at the same time.
+    void gather(std::size_t p)
     {
+        hits_.clear();
+        const double time = gatherFirst(p);
+        if (hits_.empty() || !arrives(*hits_[0].row)) return;
+        ++gathers_;
+        gatheredAt_[p] = gathers_;
+        toSpread_ = {scratch_.pairs[p].bodies.a, scratch_.pairs[p].bodies.b};
+        while (!toSpread_.empty()) {
+            const BodyId body = toSpread_.back();
+            toSpread_.pop_back();
+            for (const std::size_t q : pairsOf_.of(body)) {
+                if (gatheredAt_[q] == gathers_ || scratch_.rows[scratch_.pairs[q].begin].isCarried)
+                    continue;
+                gatheredAt_[q] = gathers_;
+                const std::size_t before = hits_.size();
+                gatherFirst(q);
+                dropHits(before, [&](const Impact& hit) {
+                    return !arrives(*hit.row) || std::abs(hit.time - time) > kTogether * dt_;
+                });
+                const auto [a, b] = scratch_.pairs[q].bodies;
+                if (hits_.size() > before) toSpread_.push_back(a == body ? b : a);
+            }
+        }
+    }
+
+    /// Of all places of a pair that would be hit, those that are hit first: what would follow may
+    /// not, once these are answered. Answers their time.
+    double gatherFirst(std::size_t p)
+    {
+        const GapPair& pair = scratch_.pairs[p];
+        const std::size_t before = hits_.size();
         double earliest = dt_;
-        for (const Impact& hit : hits_) earliest = std::min(earliest, hit.time);
-        std::erase_if(hits_,
-                      [&](const Impact& hit) { return hit.time > earliest + kTogether * dt_; });
+        Impact impact{};
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            if (!impactOf(scratch_.rows[r], impact)) continue;
+            hits_.push_back(impact);
+            earliest = std::min(earliest, impact.time);
+        }
+        dropHits(before, [&](const Impact& hit) { return hit.time > earliest + kTogether * dt_; });
+        return earliest;
+    }
+
+    template <class Which>
+    void dropHits(std::size_t from, const Which& which)
+    {
+        const auto begin = hits_.begin() + static_cast<std::ptrdiff_t>(from);
+        hits_.erase(std::remove_if(begin, hits_.end(), which), hits_.end());
     }
 
     void applyOne(const Impact& impact, ImpulseCounts& counts)
@@ -180,26 +257,36 @@ private:
     double solveTogether(bool withFriction)
     {
         rows_.clear();
+        after_.clear();
+        hitBodies_.clear();
+        double fastest = 0.0;
         for (const Impact& impact : hits_) {
             rows_.push_back(*impact.row);
             rows_.back().impulse = Vec3::Zero();
             rows_.back().target = impact.velocityAfter;
             if (!withFriction) rows_.back().friction = 0.0;
+            fastest = std::max(fastest, impact.velocity.norm());
+            for (const BodyId body : {impact.row->a, impact.row->b}) {
+                if (placeOf_[body] >= 0) continue;
+                placeOf_[body] = static_cast<std::int32_t>(after_.size());
+                hitBodies_.push_back(body);
+                after_.push_back(scratch_.bodies[body]);
+            }
         }
-        const GapBody &a = scratch_.bodies[rows_[0].a], &b = scratch_.bodies[rows_[0].b];
-        GapBody afterA = a, afterB = b;
-        double fastest = 0.0;
-        for (const Impact& impact : hits_) fastest = std::max(fastest, impact.velocity.norm());
+        const auto after = [&](BodyId body) -> GapBody& { return after_[placeOf_[body]]; };
         for (int sweep = 0; sweep < kMostPairSweeps; ++sweep) {
             double residual = 0.0;
-            for (GapRow& row : rows_) residual = std::max(residual, visitRow(row, afterA, afterB));
+            for (GapRow& row : rows_)
+                residual = std::max(residual, visitRow(row, after(row.a), after(row.b)));
             if (residual <= kPairIsSolved * fastest) break;
         }
         double work = 0.0;
         for (const GapRow& row : rows_) {
-            const Vec3 mean = 0.5 * (velocityAt(row, a, b) + velocityAt(row, afterA, afterB));
-            work += row.worldImpulse().dot(mean);
+            const Vec3 before = velocityAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
+            work +=
+                0.5 * row.worldImpulse().dot(before + velocityAt(row, after(row.a), after(row.b)));
         }
+        for (const BodyId body : hitBodies_) placeOf_[body] = -1;
         return work;
     }
 
@@ -233,11 +320,18 @@ private:
     const StepSettings& settings_;
     double dt_, slowest_;
     GapScratch& scratch_;
+    PairsOfBodies pairsOf_;
     std::vector<Impacts> impacts_;
     std::int64_t visits_ = 0;           // that ended with nothing left to be hit
     std::vector<std::int64_t> doneAt_;  // the last of them, of each pair; 0: none
+    std::int64_t gathers_ = 0;
+    std::vector<std::int64_t> gatheredAt_;  // the last look at each pair
+    std::vector<BodyId> toSpread_;
     std::vector<Impact> hits_;
-    std::vector<GapRow> rows_;
+    std::vector<GapRow> rows_;           // of hits_
+    std::vector<BodyId> hitBodies_;      // of hits_
+    std::vector<GapBody> after_;         // these
+    std::vector<std::int32_t> placeOf_;  // of a body in after_; −1: not hit
 };
 
 }  // namespace
