@@ -15,7 +15,11 @@ struct Bounces {
     Curve height;
 };
 
-/// Looks at the ball after every step until it has turned down `count` times.
+/// Looks at the ball after every step and notes how high it came.
+///
+/// The top of its way lies between two steps, up to g dt²/8 above both: by the highest of them a
+/// ball that keeps its height to 1e-12 m loses and gains a micrometre at 960 Hz, in turn. Free
+/// flight lies on a parabola with either method, so three steps tell its top.
 class ApexWatch {
 public:
     explicit ApexWatch(const ShotRun& run) : ball_(run.body("ball")) {}
@@ -26,16 +30,24 @@ public:
         const double height = world.motion[ball_].position.y() - 0.5;
         result.height.x.push_back(time);
         result.height.y.push_back(height);
-        if (speed_ > 0.0 && speed <= 0.0) result.apexes.push_back(std::max(height, height_));
+        if (speed_ > 0.0 && speed <= 0.0) result.apexes.push_back(apex());
         speed_ = speed;
-        height_ = height;
     }
 
     Bounces result;
 
 private:
+    /// Of the parabola through the last three heights.
+    double apex() const
+    {
+        const std::vector<double>& h = result.height.y;
+        const double before = h[h.size() - 3], middle = h[h.size() - 2], after = h.back();
+        const double slope = 0.5 * (after - before), bend = after - 2.0 * middle + before;
+        return middle - 0.5 * slope * slope / bend;
+    }
+
     BodyId ball_;
-    double speed_ = 0.0, height_ = 0.0;
+    double speed_ = 0.0;
 };
 
 Bounces bounce(const Context& context, double restitution, double rate, double seconds)
