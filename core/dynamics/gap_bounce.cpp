@@ -89,7 +89,7 @@ public:
           gatheredAt_(scratch.pairs.size(), 0),
           placeOf_(scratch.bodies.size(), -1)
     {
-        scratch.impactImpulses.assign(scratch.isWatched ? scratch.rows.size() : 0, Vec3::Zero());
+        scratch.impacts.clear();
     }
 
     ImpulseCounts run(std::int64_t& loopsAtTheirCap)
@@ -292,8 +292,8 @@ private:
 
     void note(const Impact& impact, const Vec3& impulse)
     {
-        if (scratch_.isWatched)
-            scratch_.impactImpulses[impact.row - scratch_.rows.data()] += impulse;
+        scratch_.impacts.push_back(
+            {static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse});
     }
 
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time)
@@ -313,6 +313,7 @@ private:
         impacts.spin += dw;
         impacts.earliest = std::min(impacts.earliest, time);
         impacts.changedAt = visits_;
+        body.hitAt = impacts.earliest;
         body.shift = -impacts.earliest * impacts.velocity;
         body.turn = -impacts.earliest * impacts.spin;
     }

@@ -35,6 +35,7 @@ void readBodies(const World& world, GapScratch& scratch)
         body.pull = scratch.forces[i].acceleration;
         body.torque = scratch.forces[i].torque;
         body.angularImpulse = body.shift = body.turn = Vec3::Zero();
+        body.hitAt = 0.0;
         if (!world.contactMemory.isAsleep(static_cast<BodyId>(i))) continue;
         // Who sleeps is a fixed body to all others.
         body.inverseMass = 0.0;

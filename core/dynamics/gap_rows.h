@@ -24,7 +24,8 @@ struct GapBody {
     Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
     Vec3 shift, turn;  ///< added to the motion of this step: not everything moves for all
                        ///< of it with its final velocity [m], [rad]
-    bool isStopped;    ///< something may stop it within the step
+    double hitAt;    ///< the first moment at which an impact changed its velocity; 0: none did [s]
+    bool isStopped;  ///< something may stop it within the step
 };
 
 struct GapRow {
@@ -65,6 +66,12 @@ struct GapPair {
     double depth = 0.0;              ///< of its deepest overlap, as last seen [m]
 };
 
+/// A blow.
+struct GapImpact {
+    std::size_t row;
+    Vec3 impulse;  ///< on A, world [N s]
+};
+
 /// Rows that share bodies, directly or through others: a problem of its own. Islands share no
 /// movable body, so they may be solved at once and stop on their own.
 struct GapIsland {
@@ -86,9 +93,7 @@ struct GapScratch {
     std::vector<GapRow> rows;        ///< pair by pair
     std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top
     std::vector<GapIsland> islands;
-    bool isWatched = false;  ///< an observer wants to see the impulses
-    /// Of the impacts of this step, by row, on A, world [N s]; empty unless watched.
-    std::vector<Vec3> impactImpulses;
+    std::vector<GapImpact> impacts;  ///< of this step, as they came
 };
 
 /// Finds all contacts that may close within dt. Wakes what they are about to disturb.

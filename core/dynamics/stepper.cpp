@@ -237,7 +237,6 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.dt = dt;
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
-    scratch.isWatched = observer_ != nullptr;
     {
         const PhaseTimer timer(report, Phase::contactGraph);
         findGaps(world, settings_, dt, scratch);
