@@ -43,9 +43,10 @@ struct Impacts {
 
 struct Impact {
     GapRow* row;
-    Vec3 velocity;         // relative, at the moment of impact
-    double time;           // within the step
-    double velocityAfter;  // normal velocity that makes it leave as it must
+    Vec3 velocity;             // relative, at the moment of impact
+    double time;               // within the step
+    double velocityAfter;      // normal velocity that makes it leave as it must
+    Vec3 slid = Vec3::Zero();  // what its lever arms have allowed for
 };
 
 /// The pairs that have rows, by movable body, in the order of visits.
@@ -124,7 +125,7 @@ private:
         // Once hit, what it hits again in the same step was not a fall: the parabola is used up.
         if (row.wasHit) {
             if (u >= -slowest_) return false;
-            impact = {&row, relative, 0.0, -row.restitution * u};
+            impact = {&row, relative, 0.0, -row.restitution * u, Vec3::Zero()};
             return true;
         }
         const double closing = -u + std::sqrt(root);
@@ -136,7 +137,8 @@ private:
         // if both are free to fall.
         const double pull = row.isCarried ? std::max(a.pull.norm(), b.pull.norm()) : -g;
         if (2.0 * row.restitution * -speed <= pull * (dt_ - time)) return false;
-        impact = {&row, relative + time * gravity, time, u - (1.0 + row.restitution) * speed};
+        impact = {&row, relative + time * gravity, time, u - (1.0 + row.restitution) * speed,
+                  Vec3::Zero()};
         return true;
     }
 
@@ -221,9 +223,46 @@ private:
         hits_.erase(std::remove_if(begin, hits_.end(), which), hits_.end());
     }
 
-    void applyOne(const Impact& impact, ImpulseCounts& counts)
+    /// How far the centres slide along each other until the impact, if both are free to.
+    Vec3 slideUntil(const Impact& impact) const
     {
         const GapRow& row = *impact.row;
+        if (!row.movesA || !row.movesB) return Vec3::Zero();
+        return impact.time * (scratch_.bodies[row.a].velocity - scratch_.bodies[row.b].velocity);
+    }
+
+    /// The row of an impact with the lever arms it has then: the place goes along with both.
+    /// Angular momentum is kept so, and energy too. Keeps the arms of now where they alone see it
+    /// coming.
+    GapRow rowAt(Impact& impact) const
+    {
+        GapRow row = *impact.row;
+        const GapBody& a = scratch_.bodies[row.a];
+        const GapBody& b = scratch_.bodies[row.b];
+        const Vec3 slid = slideUntil(impact);
+        row.impulse = Vec3::Zero();
+        row.target = impact.velocityAfter;
+        impact.slid = Vec3::Zero();
+        if (slid.isZero(0.0)) return row;
+        row.rA -= 0.5 * slid;
+        row.rB += 0.5 * slid;
+        const Vec3 velocity = velocityAt(row, a, b) + impact.time * (a.pull - b.pull);
+        const double speed = velocity.dot(row.normal);
+        if (speed >= -slowest_) {
+            row.rA = impact.row->rA;
+            row.rB = impact.row->rB;
+            return row;
+        }
+        prepareRow(scratch_, row);
+        row.target = velocityAt(row, a, b).dot(row.normal) - (1.0 + row.restitution) * speed;
+        impact.velocity = velocity;
+        impact.slid = slid;
+        return row;
+    }
+
+    void applyOne(Impact& impact, ImpulseCounts& counts)
+    {
+        const GapRow row = rowAt(impact);
         const GapBody& a = scratch_.bodies[row.a];
         const GapBody& b = scratch_.bodies[row.b];
         const Mat3 k =
@@ -260,10 +299,8 @@ private:
         after_.clear();
         hitBodies_.clear();
         double fastest = 0.0;
-        for (const Impact& impact : hits_) {
-            rows_.push_back(*impact.row);
-            rows_.back().impulse = Vec3::Zero();
-            rows_.back().target = impact.velocityAfter;
+        for (Impact& impact : hits_) {
+            rows_.push_back(rowAt(impact));
             if (!withFriction) rows_.back().friction = 0.0;
             fastest = std::max(fastest, impact.velocity.norm());
             for (const BodyId body : {impact.row->a, impact.row->b}) {
@@ -293,7 +330,7 @@ private:
     void note(const Impact& impact, const Vec3& impulse)
     {
         scratch_.impacts.push_back(
-            {static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse});
+            {static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse, impact.slid});
     }
 
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time)

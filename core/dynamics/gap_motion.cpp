@@ -60,7 +60,8 @@ void addCouplesOfImpacts(World& world, const GapScratch& scratch)
         const GapRow& row = scratch.rows[impact.row];
         const GapBody& a = scratch.bodies[row.a];
         const GapBody& b = scratch.bodies[row.b];
-        addCouple(world, scratch, row, impact.impulse, a.hitAt * a.velocity - b.hitAt * b.velocity);
+        addCouple(world, scratch, row, impact.impulse,
+                  a.hitAt * a.velocity - b.hitAt * b.velocity - impact.slid);
     }
 }
 

@@ -70,6 +70,7 @@ struct GapPair {
 struct GapImpact {
     std::size_t row;
     Vec3 impulse;  ///< on A, world [N s]
+    Vec3 slid;     ///< what its lever arms have allowed for [m]
 };
 
 /// Rows that share bodies, directly or through others: a problem of its own. Islands share no
