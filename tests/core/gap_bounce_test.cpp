@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <vector>
 
+#include "core/base/random.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
 
@@ -133,6 +135,32 @@ TEST(GapBounce, ABeamThatLandsOnTwoPostsAtOnceDoesNotTurn)
     EXPECT_NEAR(world.motion[0].velocity.y(), world.motion[1].velocity.y(), 1e-3);
     // Post after post it left with 0.11 rad/s.
     EXPECT_LE(angularVelocityOf(world, 2).norm(), 1e-3);
+}
+
+TEST(GapBounce, ElasticBoxesInAClosedRoomKeepTheirEnergy)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 1.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0})
+            addPlane(world, material, 3.0 * side * Vec3::Unit(axis), -side * Vec3::Unit(axis));
+    }
+    for (std::uint64_t i = 0; i < 27; ++i) {
+        const auto draw = [&](std::uint64_t k) { return 6.0 * randomUnit(11, i, k) - 3.0; };
+        const Vec3 place(static_cast<double>(i % 3), static_cast<double>(i / 3 % 3),
+                         static_cast<double>(i / 9));
+        addBody(world, exactBox(Vec3::Ones(), 1), material,
+                {1.9 * (place - Vec3::Ones()), Quat::Identity()}, 1.0,
+                Vec3(draw(0), draw(1), draw(2)), Vec3(draw(3), draw(4), draw(5)));
+    }
+    StepSettings settings = weightless();
+    settings.pushOut = false;
+    const double before = totalEnergy(world, settings);
+    Stepper stepper(settings);
+    for (int i = 0; i < 240; ++i) stepper.step(world, 1.0 / 60.0);
+    // What several blows to one body in a step leave; with all lever arms of the step's beginning,
+    // and the angular momentum mended afterwards, up to 0.035 of it.
+    EXPECT_NEAR(totalEnergy(world, settings), before, 0.01 * before);
 }
 
 }  // namespace
