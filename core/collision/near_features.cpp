@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/collision/ball_contacts.h"
+#include "core/collision/round_contacts.h"
 #include "core/math/lanes.h"
 
 namespace scree {
@@ -21,7 +23,13 @@ constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the sm
 /// one.
 constexpr double kSamePlace = 5e-3;
 
-enum class Kind : std::uint64_t { cornerOfA = 0, cornerOfB = 1, edges = 2, ball = 3 };
+using Part = ContactPart::Kind;
+
+/// A pair that has a ball in it has no other features.
+/// Cosine of the angle within which a contact may speak for another that is not as near.
+constexpr double kSameWay = 0.5;
+
+enum class Kind : std::uint64_t { cornerOfA = 0, cornerOfB = 1, edges = 2, ball = 3, round = 3 };
 
 std::uint64_t featureId(Kind kind, std::int32_t first, std::int32_t second = 0)
 {
@@ -139,12 +147,49 @@ double leverOf(const RelativePair& pair)
     return std::max(pair.first.isPlane ? 0.0 : pair.first.boundingRadius, ofSecond);
 }
 
+/// Turns what one way found into the contact of the pair.
+struct ToWorld {
+    Mat3 worldFromSecond;
+    Vec3 secondFromA;  // centre of the second from that of A, world [m]
+    bool firstIsA;
+
+    GapContact operator()(std::uint64_t feature, const FeatureContact& found) const
+    {
+        const Vec3 normal = worldFromSecond * found.normal;
+        const Vec3 onFirst = worldFromSecond * found.point + secondFromA;
+        return {feature, onFirst - 0.5 * found.gap * normal, firstIsA ? normal : Vec3(-normal),
+                found.gap};
+    }
+};
+
 /// What a pair touches with so far, and what lies inside without being a contact.
 class ContactList {
 public:
-    ContactList(std::vector<GapContact>& contacts, double samePlace)
-        : contacts_(contacts), first_(contacts.size()), samePlace_(samePlace)
+    /// Takes what is nearer than `reach`; `isRound`: one of the bodies is, somewhere.
+    ContactList(std::vector<GapContact>& contacts, double samePlace, double reach, bool isRound)
+        : contacts_(contacts),
+          first_(contacts.size()),
+          samePlace_(samePlace),
+          reach_(reach),
+          isRound_(isRound)
     {
+    }
+
+    /// What a pair of parts has found, or what they stand for.
+    void add(const RelativePair& way, ContactPart ofFirst, ContactPart ofSecond,
+             const ToWorld& toWorld, std::uint64_t feature, const FeatureContact& found)
+    {
+        if (!isRound_) return add(toWorld(feature, found));
+        const Rounding rounding = roundContact(way, ofFirst, ofSecond, found);
+        if (rounding.result == Rounding::Result::none) {
+            if (found.gap < reach_) add(toWorld(feature, found));
+        } else if (rounding.result == Rounding::Result::elsewhere) {
+            if (found.gap < reach_) elsewhere_.push_back(toWorld(feature, found));
+        } else if (rounding.contact.gap < reach_) {
+            const auto [a, b] = toWorld.firstIsA ? std::pair(rounding.first, rounding.second)
+                                                 : std::pair(rounding.second, rounding.first);
+            add(toWorld(featureId(Kind::round, a, b), rounding.contact));
+        }
     }
 
     /// Where two corners meet, or an edge ends on another, several features say the same.
@@ -173,6 +218,15 @@ public:
     /// inside: without any contact that opposes, the deepest one speaks.
     void finish()
     {
+        // A round part that touches elsewhere has nothing to say, if that place is known.
+        for (const GapContact& contact : elsewhere_) {
+            const bool isSpokenFor = std::any_of(
+                contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
+                [&](const GapContact& c) {
+                    return c.gap <= contact.gap && c.normal.dot(contact.normal) > kSameWay;
+                });
+            if (!isSpokenFor) contacts_.push_back(contact);
+        }
         if (!unsupported_) return;
         const bool isOpposed =
             std::any_of(contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
@@ -183,23 +237,10 @@ public:
 private:
     std::vector<GapContact>& contacts_;
     std::size_t first_;
-    double samePlace_;
+    double samePlace_, reach_;
+    bool isRound_;
     std::optional<GapContact> unsupported_;
-};
-
-/// Turns what one way found into the contact of the pair.
-struct ToWorld {
-    Mat3 worldFromSecond;
-    Vec3 secondFromA;  // centre of the second from that of A, world [m]
-    bool firstIsA;
-
-    GapContact operator()(std::uint64_t feature, const FeatureContact& found) const
-    {
-        const Vec3 normal = worldFromSecond * found.normal;
-        const Vec3 onFirst = worldFromSecond * found.point + secondFromA;
-        return {feature, onFirst - 0.5 * found.gap * normal, firstIsA ? normal : Vec3(-normal),
-                found.gap};
-    }
+    std::vector<GapContact> elsewhere_;  // of round parts that touch at another place, if at all
 };
 
 }  // namespace
@@ -319,16 +360,21 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const RelativePair back = pair.reversed();
     const ToWorld ofA{worldFromB, -offset, true}, ofB{worldFromA, Vec3::Zero(), false};
     const double smaller = smallerRadius(shapeA, shapeB);
-    ContactList list(contacts, kSamePlace * smaller);
+    // Facets lie below the round surface that they stand for, and must be seen from farther away.
+    const double bulge = shapeA.smooth.bulge() + shapeB.smooth.bulge();
+    ContactList list(contacts, kSamePlace * smaller, reach, bulge > 0.0);
+    reach += bulge;
 
     if (isBall(shapeA) || isBall(shapeB)) {
         const bool isA = isBall(shapeA);
+        const RelativePair& way = isA ? pair : back;
         thread_local std::vector<BallContact> found;
-        findBallContacts(isA ? pair : back, reach, found);
+        findBallContacts(way, reach, found);
         for (const BallContact& ball : found) {
             const std::uint64_t feature = featureId(Kind::ball, ball.place[0], ball.place[1]);
-            list.add((isA ? ofA : ofB)(feature, ball.contact));
+            list.add(way, {Part::ball}, {Part::face}, isA ? ofA : ofB, feature, ball.contact);
         }
+        list.finish();
         return;
     }
 
@@ -345,7 +391,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
                 std::optional<FeatureContact> unsupported;
                 if (const auto contact =
                         faceCorner(way, candidate.corner, reach, sharpness, unsupported)) {
-                    list.add(toWorld(feature, *contact));
+                    list.add(way, {Part::corner, candidate.corner}, {Part::face}, toWorld, feature,
+                             *contact);
                 } else if (unsupported) {
                     list.addUnsupported(toWorld(feature, *unsupported));
                 } else {
@@ -364,7 +411,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
             const auto contact = faceEdges(pair, candidate.ofA, candidate.ofB, reach, sharpness);
             if (contact) {
                 const auto feature = featureId(Kind::edges, candidate.ofA, candidate.ofB);
-                list.add(ofA(feature, *contact));
+                list.add(pair, {Part::edge, candidate.ofA}, {Part::edge, candidate.ofB}, ofA,
+                         feature, *contact);
             } else {
                 look(placed(pair, shapeA.features.edges()[candidate.ofA]),
                      shapeB.features.edges()[candidate.ofB], deepest, candidate);
@@ -375,7 +423,7 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         farUntil = std::min({farUntil, candidate.farUntil, way_ + outside});
     }
     list.finish();
-    apart_ = farUntil - way_;
+    apart_ = farUntil - way_ - bulge;
     odometerThen_ = odometer;
 }
 

@@ -2,6 +2,9 @@
 // they are still apart. Corners of each against the surface of the other, and pairs of convex
 // edges; each gives a point, a normal and a gap.  [A7, A8; algorithm 14]
 //
+// Where the features of a fine mesh stand for a round surface, the places of that surface take over
+// (round_contacts.h).
+//
 // A gap, unlike an interference, is known before anything has gone wrong, and is a smooth function
 // of the poses, so that one detection serves a whole step.
 #pragma once

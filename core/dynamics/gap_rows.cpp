@@ -100,7 +100,7 @@ Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, doubl
     const GapBody& b = scratch.bodies[body];
     const double travel =
         dt * (b.velocity.norm() + surfaceSpeed(world, scratch, body, dt) + dt * b.pull.norm());
-    return box.grown(travel + kLeastReach * shape.boundingRadius);
+    return box.grown(travel + kLeastReach * shape.boundingRadius + shape.smooth.bulge());
 }
 
 void findGapPairs(const World& world, double dt, GapScratch& scratch)
@@ -197,13 +197,18 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
                        impulse.dot(row.secondTangent())};
         isTaken[m] = isGiven[r] = 1;
     };
+    const auto distance = [&](std::size_t r, std::size_t m) {
+        return (firstRow[r].rA - worldFromA * begin[m].place).squaredNorm();
+    };
     for (std::size_t r = 0; r < isGiven.size(); ++r) {
+        // Two round bodies may touch at several places of the same name.
+        std::size_t best = isTaken.size();
         for (std::size_t m = 0; m < isTaken.size(); ++m) {
-            if (!isTaken[m] && begin[m].feature == contacts[r].feature) {
-                give(r, m);
-                break;
-            }
+            if (isTaken[m] || begin[m].feature != contacts[r].feature) continue;
+            if (best < isTaken.size() && distance(r, m) >= distance(r, best)) continue;
+            best = m;
         }
+        if (best < isTaken.size()) give(r, best);
     }
     for (std::size_t m = 0; m < isTaken.size(); ++m) {
         if (isTaken[m]) continue;
@@ -211,9 +216,9 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
         double nearest = kSamePlace * smaller;
         std::size_t taker = isGiven.size();
         for (std::size_t r = 0; r < isGiven.size(); ++r) {
-            const double distance = (firstRow[r].rA - place).norm();
-            if (isGiven[r] || distance >= nearest) continue;
-            nearest = distance;
+            const double away = (firstRow[r].rA - place).norm();
+            if (isGiven[r] || away >= nearest) continue;
+            nearest = away;
             taker = r;
         }
         if (taker < isGiven.size()) give(taker, m);

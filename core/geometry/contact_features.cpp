@@ -94,18 +94,17 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
     edgeTree_ = SphereTree(edgeSpheres);
 }
 
-bool ContactFeatures::cornerSupports(std::int32_t corner, const Vec3& normal) const
+bool ContactFeatures::cornerSupports(std::int32_t corner, const Vec3& normal, double slack) const
 {
     for (std::uint32_t i = neighbourStart_[corner]; i < neighbourStart_[corner + 1]; ++i) {
-        if (neighbours_[i].dot(normal) < -kSupportSlack) return false;
+        if (neighbours_[i].dot(normal) < -slack) return false;
     }
     return true;
 }
 
-bool edgeSupports(const ConvexEdge& edge, const Vec3& normal)
+bool edgeSupports(const ConvexEdge& edge, const Vec3& normal, double slack)
 {
-    return edge.intoFace[0].dot(normal) >= -kSupportSlack &&
-           edge.intoFace[1].dot(normal) >= -kSupportSlack;
+    return edge.intoFace[0].dot(normal) >= -slack && edge.intoFace[1].dot(normal) >= -slack;
 }
 
 }  // namespace scree

@@ -27,6 +27,11 @@ struct ConvexEdge {
     Vec3 outward;                    ///< unit, halfway between the normals of its faces
 };
 
+/// Sine of the angle by which surroundings may stand in front of a feature that still counts: the
+/// far corners of a block that rocks on an edge are its next supports and must be known before they
+/// touch. Anything from 0.2 to 0.5 does.
+inline constexpr double kSupportSlack = 0.3;
+
 class ContactFeatures {
 public:
     ContactFeatures() = default;
@@ -41,9 +46,10 @@ public:
     const SphereTree& edgeTree() const { return edgeTree_; }      ///< over edges()
 
     /// Whether the mesh around a corner lies on the positive side of the plane through it with this
-    /// normal, give or take kSupportSlack: whether something that comes along −normal … +normal can
+    /// normal, give or take the slack: whether something that comes along −normal … +normal can
     /// meet the corner before it meets what surrounds it.
-    bool cornerSupports(std::int32_t corner, const Vec3& normal) const;
+    bool cornerSupports(std::int32_t corner, const Vec3& normal,
+                        double slack = kSupportSlack) const;
 
 private:
     Points points_;
@@ -54,12 +60,7 @@ private:
     SphereTree cornerTree_, edgeTree_;
 };
 
-/// Sine of the angle by which surroundings may stand in front of a feature that still counts: the
-/// far corners of a block that rocks on an edge are its next supports and must be known before they
-/// touch. Anything from 0.2 to 0.5 does.
-inline constexpr double kSupportSlack = 0.3;
-
 /// The same for an edge; `normal` points into its solid.
-bool edgeSupports(const ConvexEdge& edge, const Vec3& normal);
+bool edgeSupports(const ConvexEdge& edge, const Vec3& normal, double slack = kSupportSlack);
 
 }  // namespace scree

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -17,7 +19,23 @@ constexpr double kFineFacet = 0.93969262078590838;
 
 constexpr int kMostSteps = 3;  // triangles  [A40]
 
+/// Volume that three normals span below which they lie in one plane.
+constexpr double kSameNormals = 1e-12;
+
 constexpr double kOnEdge = -1e-9;  // a corner weight above this is not outside
+
+/// A facet more than this many times as wide as the next one, to which it bends, is flat: the face
+/// of a box with rounded edges has the corner normals of a ball, and would roll on its middle.
+constexpr double kWiderThanAround = 3.0;
+constexpr double kBend = 1e-3;     // sine of the angle between facets below which they are one
+constexpr double kHollow = -1e-6;  // turn of the normal along an edge, per turn of the other way
+
+/// By how much the smooth surface curves away along an edge: twice its height above the middle of
+/// the chord is a quarter of that [m].
+double sag(const Vec3& alongEdge, const Vec3& changeOfNormal)
+{
+    return 0.5 * alongEdge.dot(changeOfNormal);
+}
 
 }  // namespace
 
@@ -59,6 +77,97 @@ SmoothSurface::SmoothSurface(const TriMesh& mesh) : mesh_(mesh)
             fan_[next[mesh.triangles(k, f)]++] = static_cast<std::int32_t>(f);
         }
     }
+    findRoundFacets();
+}
+
+bool SmoothSurface::isWiderThanAround(std::int32_t facet) const
+{
+    const auto scaledNormal = [&](std::int32_t f) -> Vec3 {
+        const Vec3 a = mesh_.points.col(mesh_.triangles(0, f));
+        const Vec3 b = mesh_.points.col(mesh_.triangles(1, f));
+        const Vec3 c = mesh_.points.col(mesh_.triangles(2, f));
+        return (b - a).cross(c - a);
+    };
+    const Vec3 own = scaledNormal(facet);
+    for (const std::int32_t next : beyond_[facet]) {
+        const Vec3 other = scaledNormal(next);
+        // Over the edge they share, widths are as areas.
+        const bool isBent = own.cross(other).norm() > kBend * own.norm() * other.norm();
+        if (isBent && own.norm() > kWiderThanAround * other.norm()) return true;
+    }
+    return false;
+}
+
+void SmoothSurface::findRoundFacets()
+{
+    isRound_.assign(beyond_.size(), 0);
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(beyond_.size()); ++f) {
+        bool isRound = true;
+        double most = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const int from = mesh_.triangles(k, f), to = mesh_.triangles((k + 1) % 3, f);
+            const Vec3 along = mesh_.points.col(to) - mesh_.points.col(from);
+            const Vec3 turn = normalAt(to) - normalAt(from);
+            isRound = isRound && normalAt(from).dot(normalAt(to)) >= kFineFacet &&
+                      sag(along, turn) >= kHollow * along.norm();
+            most = std::max(most, sag(along, turn));
+        }
+        if (!isRound || isWiderThanAround(f)) continue;
+        isRound_[f] = 1;
+        bulge_ = std::max(bulge_, most / 3.0);  // products of weights add up to a third at most
+    }
+}
+
+std::int32_t SmoothSurface::roundFacetAt(std::int32_t vertex, const Vec3& direction) const
+{
+    std::int32_t best = -1;
+    double least = -std::numeric_limits<double>::infinity();
+    for (std::int32_t i = fanStart_[vertex]; i < fanStart_[vertex + 1]; ++i) {
+        if (!isRound(fan_[i])) continue;
+        const std::optional<Vec3> weights = weightsFacing(fan_[i], direction);
+        const double here = weights ? weights->minCoeff() : least;
+        if (best >= 0 && here <= least) continue;
+        best = fan_[i];
+        least = here;
+    }
+    return best;
+}
+
+SmoothSurface::Search SmoothSurface::findFacing(std::int32_t& facet, const Vec3& direction,
+                                                RoundPlace& place) const
+{
+    for (int step = 0; step <= kMostSteps; ++step) {
+        Mat3 points, normals, inverse;
+        for (int k = 0; k < 3; ++k) {
+            points.col(k) = mesh_.points.col(mesh_.triangles(k, facet));
+            normals.col(k) = normalAt(mesh_.triangles(k, facet));
+        }
+        bool isInvertible = false;
+        normals.computeInverseWithCheck(inverse, isInvertible, kSameNormals);
+        if (!isInvertible) return Search::notRound;
+        Vec3 weights = inverse * direction;
+        const double sum = weights[0] + weights[1] + weights[2];
+        if (!(sum > 0.0)) return Search::elsewhere;
+        weights /= sum;
+        Eigen::Index leaving = 0;
+        if (weights.minCoeff(&leaving) >= kOnEdge) {
+            place.point = points * weights;
+            place.bulge = 0.0;
+            for (int k = 0; k < 3; ++k) {
+                const int next = (k + 1) % 3;
+                place.bulge +=
+                    weights[k] * weights[next] *
+                    sag(points.col(next) - points.col(k), normals.col(next) - normals.col(k));
+            }
+            const Mat3 fromPlace = points.colwise() - place.point;
+            place.advance = fromPlace * inverse / sum;
+            return Search::found;
+        }
+        const std::int32_t next = beyond_[facet][leaving];
+        if (!isRound(next)) return Search::notRound;
+        facet = next;
+    }
+    return Search::elsewhere;
 }
 
 std::optional<Vec3> SmoothSurface::weightsFacing(std::int32_t triangle, const Vec3& direction) const
@@ -70,7 +179,7 @@ std::optional<Vec3> SmoothSurface::weightsFacing(std::int32_t triangle, const Ve
     }
     Mat3 inverse;
     bool isInvertible = false;
-    normals.computeInverseWithCheck(inverse, isInvertible, 1e-12);
+    normals.computeInverseWithCheck(inverse, isInvertible, kSameNormals);
     if (!isInvertible) return std::nullopt;
     const Vec3 weights = inverse * direction;
     const double sum = weights.sum();

@@ -1,0 +1,208 @@
+// Symbols: n common normal, out of the second body; X place of the first, Y of the second; t what
+// is
+//          between them across n: of two places that face each other nothing.
+#include "core/collision/round_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace scree {
+namespace {
+
+using Kind = ContactPart::Kind;
+using Search = SmoothSurface::Search;
+using Result = Rounding::Result;
+
+constexpr int kMostTurns = 12;
+/// Farthest two places may lie beside each other, as a share of the smaller body.
+constexpr double kOpposite = 1e-11;
+/// A turn of n larger than this is cut [rad]: places advance by facets, not evenly.
+constexpr double kLargestTurn = 0.2;
+
+/// A sharp feature is met only from the directions in between its faces: beyond, the face is
+/// nearer. A sine, for rounding.
+constexpr double kStrictly = 1e-6;
+
+/// One body of a contact, seen from the second.
+class Side {
+public:
+    /// `near` is a place of the contact; `outward` points at the other body. Both in the frame of
+    /// the second shape, like all that comes out.
+    Side(const Shape& shape, ContactPart part, const Mat3& rotation, const Vec3& translation,
+         const Vec3& near, const Vec3& outward)
+        : shape_(shape), part_(part), rotation_(rotation), translation_(translation)
+    {
+        if (part.kind == Kind::ball) {
+            isRound_ = true;
+            place_ = {translation, 0.0, shape.distance.solid()->half().x() * Mat3::Identity()};
+        } else if (shape.smooth.hasRoundFacets()) {
+            facet_ = shape.smooth.roundFacetAt(vertexNear(near), rotation.transpose() * outward);
+            isRound_ = facet_ >= 0;
+        }
+        if (isRound_) return;
+        place_ = {near, 0.0, Mat3::Zero()};
+        if (part.kind == Kind::edge) axis_ = rotation * edge().direction;
+    }
+
+    bool isRound() const { return isRound_; }
+    bool isRoundMesh() const { return facet_ >= 0; }
+    bool isFlat() const { return !isRound_ && part_.kind == Kind::face; }
+    /// Of a sharp edge; n stays across it.
+    const std::optional<Vec3>& axis() const { return axis_; }
+    const RoundPlace& place() const { return place_; }
+
+    Search turnTo(const Vec3& outward)
+    {
+        if (!isRound_) return Search::found;
+        if (part_.kind == Kind::ball) {
+            place_.point = translation_ + shape_.distance.solid()->half().x() * outward;
+            return Search::found;
+        }
+        const Search search =
+            shape_.smooth.findFacing(facet_, rotation_.transpose() * outward, place_);
+        place_.point = rotation_ * place_.point + translation_;
+        place_.advance = rotation_ * place_.advance * rotation_.transpose();
+        return search;
+    }
+
+    /// Whether nothing beside the sharp feature is nearer to what is at `other`.
+    bool isNearest(const Vec3& outward, const Vec3& other) const
+    {
+        const Vec3 inward = -(rotation_.transpose() * outward);
+        if (isRound_ || part_.kind == Kind::face) return true;
+        if (part_.kind == Kind::corner)
+            return shape_.features.cornerSupports(part_.index, inward, kStrictly);
+        const double along = axis_->dot(other - (rotation_ * edge().start + translation_));
+        return along >= 0.0 && along <= edge().length && edgeSupports(edge(), inward, kStrictly);
+    }
+
+    std::int32_t sharpPart() const
+    {
+        if (isRound_ || part_.kind == Kind::face) return 0;
+        return 2 * part_.index + (part_.kind == Kind::corner ? 1 : 2);
+    }
+
+private:
+    const ConvexEdge& edge() const { return shape_.features.edges()[part_.index]; }
+
+    std::int32_t vertexNear(const Vec3& near) const
+    {
+        if (part_.kind == Kind::corner) return part_.index;
+        if (part_.kind == Kind::edge) return edge().ends[0];
+        const Vec3 own = rotation_.transpose() * (near - translation_);
+        const int facet = shape_.rays.closestTriangle(own);
+        int nearest = 0;
+        for (int k = 1; k < 3; ++k) {
+            if ((corner(facet, k) - own).squaredNorm() <
+                (corner(facet, nearest) - own).squaredNorm())
+                nearest = k;
+        }
+        return shape_.mesh.triangles(nearest, facet);
+    }
+    Vec3 corner(int facet, int k) const
+    {
+        return shape_.mesh.points.col(shape_.mesh.triangles(k, facet));
+    }
+
+    const Shape& shape_;
+    ContactPart part_;
+    const Mat3& rotation_;
+    const Vec3& translation_;
+    std::int32_t facet_ = -1;
+    bool isRound_ = false;
+    RoundPlace place_;
+    std::optional<Vec3> axis_;
+};
+
+/// The turn of n that brings two places opposite each other that are now t apart, as they advance.
+/// Nothing when there is none: bodies that fit into each other.
+std::optional<Vec3> turnFor(const Mat3& advance, const Vec3& n, const Vec3& t,
+                            const std::optional<Vec3>& axis)
+{
+    if (axis) {
+        const Vec3 across = n.cross(*axis);
+        const double radius = across.dot(advance * across);
+        if (!(radius > 0.0)) return {};
+        return Vec3(across.dot(t) / radius * across);
+    }
+    const Vec3 p = n.unitOrthogonal(), q = n.cross(p);
+    const Vec3 ofP = advance * p, ofQ = advance * q;
+    const double a = p.dot(ofP), b = p.dot(ofQ), c = q.dot(ofP), d = q.dot(ofQ);
+    const double determinant = a * d - b * c;
+    if (!(determinant > 0.0 && a + d > 0.0)) return {};
+    const double tp = p.dot(t), tq = q.dot(t);
+    return Vec3((d * tp - b * tq) / determinant * p + (a * tq - c * tp) / determinant * q);
+}
+
+/// A round body on a flat one: the flat one gives the normal.
+Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const FeatureContact& contact)
+{
+    const Vec3& n = contact.normal;
+    Side& round = first.isRound() ? first : second;
+    const Search search = round.turnTo(first.isRound() ? Vec3(-n) : n);
+    if (search == Search::notRound) return {};
+    if (search == Search::elsewhere) return {Result::elsewhere};
+    const RoundPlace& place = round.place();
+    const Vec3 onFlat = first.isRound() ? Vec3(contact.point - contact.gap * n) : contact.point;
+    const double side = first.isRound() ? 1.0 : -1.0;
+    const double gap = side * n.dot(place.point - onFlat) - place.bulge;
+    const Vec3 smooth = place.point - side * place.bulge * n;
+    const Vec3 foot = smooth - side * gap * n;
+
+    // Beyond the rim of what is flat something else is nearer.
+    const Shape& flat = first.isRound() ? pair.second : pair.first;
+    const Vec3 inFlat =
+        first.isRound() ? foot : pair.rotation.transpose() * (foot - pair.translation);
+    const double tolerance = kSharpness * smallerRadius(pair.first, pair.second);
+    if (!flat.isPlane && std::abs(flat.distance.value(inFlat)) > tolerance)
+        return {Result::elsewhere};
+    return {Result::rounded, {first.isRound() ? smooth : foot, n, gap}};
+}
+
+}  // namespace
+
+Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
+                      const FeatureContact& contact)
+{
+    static const Mat3 kUnturned = Mat3::Identity();
+    static const Vec3 kUnmoved = Vec3::Zero();
+    Vec3 n = contact.normal;
+    Side first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
+    Side second(pair.second, ofSecond, kUnturned, kUnmoved, contact.point - contact.gap * n, n);
+    if (!first.isRoundMesh() && !second.isRoundMesh()) return {};
+    if (first.isFlat() || second.isFlat()) return onFlat(pair, first, second, contact);
+
+    const std::optional<Vec3>& axis = first.axis() ? first.axis() : second.axis();
+    if (axis) n = (n - axis->dot(n) * *axis).normalized();
+    const double opposite = kOpposite * smallerRadius(pair.first, pair.second);
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+        const Search ofX = first.turnTo(-n), ofY = second.turnTo(n);
+        if (ofX == Search::notRound || ofY == Search::notRound) return {};
+        if (ofX == Search::elsewhere || ofY == Search::elsewhere) return {Result::elsewhere};
+        const RoundPlace &x = first.place(), &y = second.place();
+        const Vec3 between = x.point - y.point;
+        const double apart = n.dot(between);
+        Vec3 t = between - apart * n;
+        if (axis) t -= axis->dot(t) * *axis;
+        if (t.norm() > opposite) {
+            const Mat3 advance = x.advance + y.advance + apart * Mat3::Identity();
+            std::optional<Vec3> change = turnFor(advance, n, t, axis);
+            if (!change) return {};
+            const double angle = change->norm();
+            if (angle > kLargestTurn) *change *= kLargestTurn / angle;
+            n = (n + *change).normalized();
+            continue;
+        }
+        const Vec3 onX = second.isRound() && !first.isRound() ? Vec3(y.point + apart * n) : x.point;
+        if (!first.isNearest(-n, y.point) || !second.isNearest(n, x.point))
+            return {Result::elsewhere};
+        return {Result::rounded,
+                {onX - x.bulge * n, n, apart - x.bulge - y.bulge},
+                first.sharpPart(),
+                second.sharpPart()};
+    }
+    return {};
+}
+
+}  // namespace scree
