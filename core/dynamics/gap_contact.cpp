@@ -37,18 +37,30 @@ void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
     if (row.movesB) applyTo(b, row.rB, -impulse);
 }
 
+/// Whether friction holds the place.
+bool sticks(const GapRow& row)
+{
+    const double limit = row.friction * row.impulse.x() * (1.0 - 1e-9);
+    return row.impulse.y() * row.impulse.y() + row.impulse.z() * row.impulse.z() < limit * limit;
+}
+
 /// Resistance to rolling and spinning: a couple that stops relative spin, as far as the normal
 /// impulse and its lever arms allow. Answers by how much it changed the speed of A's surface there
 /// [m/s].  [A49]
+///
+/// Where friction holds the place the couple has to stop the centre too: friction follows, and
+/// gives the body back most of what a couple for its spin alone had taken. Ten sweeps of that left
+/// a ball rolling at 1e-7 rad/s when it should have stood, and the next steps no better.
 double resistSpin(GapRow& row, GapBody& a, GapBody& b)
 {
     const Mat3 response = coupleResponse(row, a, b);
+    const double rolls = sticks(row) ? row.rollResponse : response.trace();
     const Vec3 w = a.spin - b.spin;
     const double wn = w.dot(row.normal), before = row.couple.dot(row.normal);
     const double most = row.spinningArm * row.impulse.x();
     const double about =
         std::clamp(before - wn / row.normal.dot(response * row.normal), -most, most);
-    Vec3 across = row.couple - before * row.normal - (w - wn * row.normal) / response.trace();
+    Vec3 across = row.couple - before * row.normal - (w - wn * row.normal) / rolls;
     const double length = across.norm(), limit = row.rollingArm * row.impulse.x();
     if (length > limit) across *= limit / length;
     const Vec3 change = about * row.normal + across - row.couple;
@@ -203,6 +215,8 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
         changed = std::abs(normal - before) * row.inverseNormalMass;
         applyRow(row, a, b, (normal - before) * row.normal);
     }
+    if (row.rollingArm > 0.0 || row.spinningArm > 0.0)
+        changed = std::max(changed, resistSpin(row, a, b));
     if (normal == 0.0 && row.impulse.y() == 0.0 && row.impulse.z() == 0.0) return changed;
 
     const Vec3 u = velocityAt(row, a, b);
@@ -226,8 +240,6 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
     row.impulse.y() = t1;
     row.impulse.z() = t2;
     applyRow(row, a, b, change);
-    if (row.rollingArm > 0.0 || row.spinningArm > 0.0)
-        changed = std::max(changed, resistSpin(row, a, b));
     return changed;
 }
 

@@ -137,6 +137,13 @@ Vec3 anyTangent(const Vec3& normal)
     return normal.cross(aside).normalized();
 }
 
+/// Of a symmetric 2×2 matrix.
+double largestEigenvalue(double tt, double ts, double ss)
+{
+    const double half = 0.5 * (tt - ss);
+    return 0.5 * (tt + ss) + std::sqrt(half * half + ts * ts);
+}
+
 /// How a couple changes the spin of a body that rolls about the end of r, held there by friction.
 Mat3 rollingResponse(const GapBody& body, const Vec3& r)
 {
@@ -153,7 +160,7 @@ Mat3 rollingResponse(const GapBody& body, const Vec3& r)
 void resistRolling(const World& world, const GapScratch& scratch, const RollingFriction& rolling,
                    GapRow& row)
 {
-    row.rollingArm = row.spinningArm = 0.0;
+    row.rollingArm = row.spinningArm = row.rollResponse = 0.0;
     row.couple = Vec3::Zero();
     if (rolling.isNone() || (!row.movesA && !row.movesB)) return;
     const Mat3 response = coupleResponse(row, scratch.bodies[row.a], scratch.bodies[row.b]);
@@ -167,14 +174,14 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
         meanCurvature(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
     const double factor = curvatureFactor(curvature, finer);
     const double about = row.normal.dot(response * row.normal);
-    row.rollingArm = factor * rolling.rolling;
-    if (rolling.rawRolling > 0.0) {
-        Mat3 rollers = Mat3::Zero();
-        if (row.movesA) rollers += rollingResponse(scratch.bodies[row.a], row.rA);
-        if (row.movesB) rollers += rollingResponse(scratch.bodies[row.b], row.rB);
-        const double across = 0.5 * (rollers.trace() - row.normal.dot(rollers * row.normal));
-        row.rollingArm += factor * rolling.rawRolling / across;
-    }
+    Mat3 rollers = Mat3::Zero();
+    if (row.movesA) rollers += rollingResponse(scratch.bodies[row.a], row.rA);
+    if (row.movesB) rollers += rollingResponse(scratch.bodies[row.b], row.rB);
+    const double tt = row.tangent.dot(rollers * row.tangent);
+    const double ss = row.secondTangent().dot(rollers * row.secondTangent());
+    const double ts = row.tangent.dot(rollers * row.secondTangent());
+    row.rollResponse = largestEigenvalue(tt, ts, ss);
+    row.rollingArm = factor * (rolling.rolling + rolling.rawRolling / (0.5 * (tt + ss)));
     row.spinningArm = factor * (rolling.spinning + rolling.rawSpinning / about);
 }
 
@@ -302,8 +309,7 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
     row.frictionMass[0] = ss / determinant;
     row.frictionMass[1] = -ts / determinant;
     row.frictionMass[2] = tt / determinant;
-    const double half = 0.5 * (tt - ss);
-    row.slideMass = 1.0 / (0.5 * (tt + ss) + std::sqrt(half * half + ts * ts));
+    row.slideMass = 1.0 / largestEigenvalue(tt, ts, ss);
 }
 
 void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch)

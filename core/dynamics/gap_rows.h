@@ -43,6 +43,8 @@ struct GapRow {
     double slideMass;                ///< 1 / largest eigenvalue of that block
     double normalIntoFriction[2];    ///< tangential velocities by a unit normal impulse
     double rollingArm, spinningArm;  ///< lever arms of the resistance to rolling and spinning [m]
+    double rollResponse;             ///< spin across the normal by a unit couple while friction
+                                     ///< holds the place, at most [1/(kg m²)]
     Vec3 couple;                     ///< of that resistance, on A, world [N m s]
     bool movesA, movesB;    ///< whether its impulses act on the body: not on what cannot be moved,
                             ///< nor on one that the other's group does not move

@@ -24,17 +24,36 @@ constexpr double kSameNormals = 1e-12;
 
 constexpr double kOnEdge = -1e-9;  // a corner weight above this is not outside
 
-/// A facet more than this many times as wide as the next one, to which it bends, is flat: the face
-/// of a box with rounded edges has the corner normals of a ball, and would roll on its middle.
-constexpr double kWiderThanAround = 3.0;
+/// Where a facet meets one this many times as wide, the normal between them is that of the wide
+/// one: with the mean of both, the face of a box with rounded edges would be a pillow to roll on.
+constexpr double kWider = 3.0;
 constexpr double kBend = 1e-3;     // sine of the angle between facets below which they are one
-constexpr double kHollow = -1e-6;  // turn of the normal along an edge, per turn of the other way
+constexpr double kHollow = -1e-6;  // sine of how far an edge may sag inward; for rounding
 
-/// By how much the smooth surface curves away along an edge: twice its height above the middle of
-/// the chord is a quarter of that [m].
+/// How the surface curves away along an edge: over places of the edge with weights p and q of its
+/// ends, the smooth surface lies this times p q above it [m].
 double sag(const Vec3& alongEdge, const Vec3& changeOfNormal)
 {
     return 0.5 * alongEdge.dot(changeOfNormal);
+}
+
+/// Corner weights of the place of a facet that faces a direction, and how they change with it.
+struct FacingWeights {
+    Vec3 weights;  // they add up to 1; one is negative when the place lies outside
+    Mat3 change;   // less what keeps their sum
+};
+
+/// Nothing when the normals lie in one plane, or look the other way.
+std::optional<FacingWeights> facingWeights(const Mat3& normals, const Vec3& direction)
+{
+    Mat3 inverse;
+    bool isInvertible = false;
+    normals.computeInverseWithCheck(inverse, isInvertible, kSameNormals);
+    if (!isInvertible) return std::nullopt;
+    const Vec3 weights = inverse * direction;
+    const double sum = weights.sum();
+    if (!(sum > 0.0)) return std::nullopt;
+    return FacingWeights{weights / sum, inverse / sum};
 }
 
 }  // namespace
@@ -80,7 +99,9 @@ SmoothSurface::SmoothSurface(const TriMesh& mesh) : mesh_(mesh)
     findRoundFacets();
 }
 
-bool SmoothSurface::isWiderThanAround(std::int32_t facet) const
+/// [MAX99]: exact where the points lie on a sphere, however uneven the facets. Of a fillet beside a
+/// flat face the face decides.
+void SmoothSurface::findRoundNormals()
 {
     const auto scaledNormal = [&](std::int32_t f) -> Vec3 {
         const Vec3 a = mesh_.points.col(mesh_.triangles(0, f));
@@ -88,34 +109,60 @@ bool SmoothSurface::isWiderThanAround(std::int32_t facet) const
         const Vec3 c = mesh_.points.col(mesh_.triangles(2, f));
         return (b - a).cross(c - a);
     };
-    const Vec3 own = scaledNormal(facet);
-    for (const std::int32_t next : beyond_[facet]) {
-        const Vec3 other = scaledNormal(next);
-        // Over the edge they share, widths are as areas.
+    const auto isNarrowBeside = [&](const Vec3& own, const Vec3& other) {
         const bool isBent = own.cross(other).norm() > kBend * own.norm() * other.norm();
-        if (isBent && own.norm() > kWiderThanAround * other.norm()) return true;
+        return isBent && other.norm() > kWider * own.norm();  // over one edge, widths are as areas
+    };
+    roundNormals_.setZero(3, mesh_.points.cols());
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(beyond_.size()); ++f) {
+        const Vec3 own = scaledNormal(f);
+        bool isNarrow[3];  // over the edge opposite a corner
+        for (int k = 0; k < 3; ++k) isNarrow[k] = isNarrowBeside(own, scaledNormal(beyond_[f][k]));
+        for (int k = 0; k < 3; ++k) {
+            const int v = mesh_.triangles(k, f), next = (k + 1) % 3, last = (k + 2) % 3;
+            if (isNarrow[next] || isNarrow[last]) continue;
+            const Vec3 p = mesh_.points.col(v);
+            roundNormals_.col(v) +=
+                own / ((mesh_.points.col(mesh_.triangles(next, f)) - p).squaredNorm() *
+                       (mesh_.points.col(mesh_.triangles(last, f)) - p).squaredNorm());
+        }
     }
-    return false;
+    for (Eigen::Index v = 0; v < roundNormals_.cols(); ++v) {
+        const Vec3 sum = roundNormals_.col(v);
+        roundNormals_.col(v) = sum.normalized();
+    }
 }
 
 void SmoothSurface::findRoundFacets()
 {
+    findRoundNormals();
     isRound_.assign(beyond_.size(), 0);
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(beyond_.size()); ++f) {
+        const Facet facet = facetAt(f);
         bool isRound = true;
         double most = 0.0;
         for (int k = 0; k < 3; ++k) {
-            const int from = mesh_.triangles(k, f), to = mesh_.triangles((k + 1) % 3, f);
-            const Vec3 along = mesh_.points.col(to) - mesh_.points.col(from);
-            const Vec3 turn = normalAt(to) - normalAt(from);
-            isRound = isRound && normalAt(from).dot(normalAt(to)) >= kFineFacet &&
-                      sag(along, turn) >= kHollow * along.norm();
-            most = std::max(most, sag(along, turn));
+            const int next = (k + 1) % 3;
+            const Vec3 along = facet.points.col(next) - facet.points.col(k);
+            const double sagging = sag(along, facet.normals.col(next) - facet.normals.col(k));
+            isRound = isRound && sagging >= kHollow * along.norm() &&
+                      facet.normals.col(k).dot(facet.normals.col(next)) >= kFineFacet;
+            most = std::max(most, sagging);
         }
-        if (!isRound || isWiderThanAround(f)) continue;
+        if (!isRound) continue;
         isRound_[f] = 1;
         bulge_ = std::max(bulge_, most / 3.0);  // products of weights add up to a third at most
     }
+}
+
+SmoothSurface::Facet SmoothSurface::facetAt(std::int32_t triangle) const
+{
+    Facet facet;
+    for (int k = 0; k < 3; ++k) {
+        facet.points.col(k) = mesh_.points.col(mesh_.triangles(k, triangle));
+        facet.normals.col(k) = roundNormals_.col(mesh_.triangles(k, triangle));
+    }
+    return facet;
 }
 
 std::int32_t SmoothSurface::roundFacetAt(std::int32_t vertex, const Vec3& direction) const
@@ -123,9 +170,10 @@ std::int32_t SmoothSurface::roundFacetAt(std::int32_t vertex, const Vec3& direct
     std::int32_t best = -1;
     double least = -std::numeric_limits<double>::infinity();
     for (std::int32_t i = fanStart_[vertex]; i < fanStart_[vertex + 1]; ++i) {
-        if (!isRound(fan_[i])) continue;
-        const std::optional<Vec3> weights = weightsFacing(fan_[i], direction);
-        const double here = weights ? weights->minCoeff() : least;
+        if (!isRound_[fan_[i]]) continue;
+        const std::optional<FacingWeights> found =
+            facingWeights(facetAt(fan_[i]).normals, direction);
+        const double here = found ? found->weights.minCoeff() : least;
         if (best >= 0 && here <= least) continue;
         best = fan_[i];
         least = here;
@@ -133,39 +181,31 @@ std::int32_t SmoothSurface::roundFacetAt(std::int32_t vertex, const Vec3& direct
     return best;
 }
 
-SmoothSurface::Search SmoothSurface::findFacing(std::int32_t& facet, const Vec3& direction,
+SmoothSurface::Search SmoothSurface::findFacing(std::int32_t& triangle, const Vec3& direction,
                                                 RoundPlace& place) const
 {
     for (int step = 0; step <= kMostSteps; ++step) {
-        Mat3 points, normals, inverse;
-        for (int k = 0; k < 3; ++k) {
-            points.col(k) = mesh_.points.col(mesh_.triangles(k, facet));
-            normals.col(k) = normalAt(mesh_.triangles(k, facet));
-        }
-        bool isInvertible = false;
-        normals.computeInverseWithCheck(inverse, isInvertible, kSameNormals);
-        if (!isInvertible) return Search::notRound;
-        Vec3 weights = inverse * direction;
-        const double sum = weights[0] + weights[1] + weights[2];
-        if (!(sum > 0.0)) return Search::elsewhere;
-        weights /= sum;
+        const Facet facet = facetAt(triangle);
+        const std::optional<FacingWeights> found = facingWeights(facet.normals, direction);
+        if (!found) return Search::notRound;
+        const Vec3& weights = found->weights;
         Eigen::Index leaving = 0;
         if (weights.minCoeff(&leaving) >= kOnEdge) {
-            place.point = points * weights;
+            place.point = facet.points * weights;
             place.bulge = 0.0;
             for (int k = 0; k < 3; ++k) {
                 const int next = (k + 1) % 3;
-                place.bulge +=
-                    weights[k] * weights[next] *
-                    sag(points.col(next) - points.col(k), normals.col(next) - normals.col(k));
+                place.bulge += weights[k] * weights[next] *
+                               sag(facet.points.col(next) - facet.points.col(k),
+                                   facet.normals.col(next) - facet.normals.col(k));
             }
-            const Mat3 fromPlace = points.colwise() - place.point;
-            place.advance = fromPlace * inverse / sum;
+            const Mat3 fromPlace = facet.points.colwise() - place.point;
+            place.advance = fromPlace * found->change;
             return Search::found;
         }
-        const std::int32_t next = beyond_[facet][leaving];
-        if (!isRound(next)) return Search::notRound;
-        facet = next;
+        const std::int32_t next = beyond_[triangle][leaving];
+        if (!isRound_[next]) return Search::notRound;
+        triangle = next;
     }
     return Search::elsewhere;
 }
@@ -177,14 +217,9 @@ std::optional<Vec3> SmoothSurface::weightsFacing(std::int32_t triangle, const Ve
     for (int k = 0; k < 3; ++k) {
         if (normals.col(k).dot(normals.col((k + 1) % 3)) < kFineFacet) return std::nullopt;
     }
-    Mat3 inverse;
-    bool isInvertible = false;
-    normals.computeInverseWithCheck(inverse, isInvertible, kSameNormals);
-    if (!isInvertible) return std::nullopt;
-    const Vec3 weights = inverse * direction;
-    const double sum = weights.sum();
-    if (!(sum > 0.0)) return std::nullopt;
-    return weights / sum;
+    const std::optional<FacingWeights> found = facingWeights(normals, direction);
+    if (!found) return std::nullopt;
+    return found->weights;
 }
 
 std::optional<Vec3> SmoothSurface::placeFacing(std::int32_t vertex, const Vec3& direction) const

@@ -37,32 +37,34 @@ public:
     /// that it is felt and seen as a facet.
     std::optional<Vec3> placeFacing(std::int32_t vertex, const Vec3& direction) const;
 
-    /// Whether any facet is round: fine, nowhere hollow, and not the flat part of something that is
-    /// round only at its edges.
+    /// Whether any facet is round: fine, and nowhere hollow.
     bool hasRoundFacets() const { return bulge_ > 0.0; }
     /// No place of a round facet lies farther below the smooth surface than this [m].
     double bulge() const { return bulge_; }
 
     /// Of the round facets around a vertex the one to begin a search with; −1 when there is none.
     std::int32_t roundFacetAt(std::int32_t vertex, const Vec3& direction) const;
-    bool isRound(std::int32_t facet) const { return isRound_[static_cast<std::size_t>(facet)]; }
 
     enum class Search { found, elsewhere, notRound };
     /// Walks from a round facet to the one that faces `direction` (unit), and stays there for the
     /// next search. `elsewhere`: it is more than a few facets away; `notRound`: between lies a
     /// facet that is not round, or the surface does not bend.
-    Search findFacing(std::int32_t& facet, const Vec3& direction, RoundPlace& place) const;
+    Search findFacing(std::int32_t& triangle, const Vec3& direction, RoundPlace& place) const;
 
 private:
+    struct Facet {
+        Mat3 points, normals;  // columns by corner
+    };
+    Facet facetAt(std::int32_t triangle) const;
+    void findRoundNormals();
     void findRoundFacets();
-    bool isWiderThanAround(std::int32_t facet) const;
     /// Corner weights of the triangle's place that faces `direction`; they add up to 1 and one is
     /// negative when the place lies outside. Nothing when the triangle is a coarse facet or its
     /// normals lie in one plane.
     std::optional<Vec3> weightsFacing(std::int32_t triangle, const Vec3& direction) const;
 
     TriMesh mesh_;
-    Points normals_;                                   // 3×#V
+    Points normals_, roundNormals_;                    // 3×#V
     std::vector<std::array<std::int32_t, 3>> beyond_;  // triangle across the edge opposite a corner
     std::vector<std::int32_t> fanStart_, fan_;         // triangles around every vertex
     std::vector<char> isRound_;                        // per triangle

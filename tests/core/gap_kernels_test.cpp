@@ -42,9 +42,10 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
 {
     const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
     const auto pole = buildMeshShape("pole", makeCylinder(0.25, 8.0, 20, 21));
+    const auto ball = buildMeshShape("ball", makeSphere(0.8, 2));
     std::size_t contacts = 0, skipped = 0;
-    for (std::uint64_t run = 0; run < 120; ++run) {
-        const Shape& other = run % 3 ? *ring : *pole;
+    for (std::uint64_t run = 0; run < 160; ++run) {
+        const Shape& other = run % 4 == 0 ? *pole : run % 4 == 1 ? *ball : *ring;
         Pose a{1.5 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
         Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
         const Vec3 step = 0.02 * signedUnits(run, 9), turnA = 0.02 * signedUnits(run, 12),

@@ -1,0 +1,216 @@
+// Fine meshes touch where the smooth bodies they stand for would.  [A40; algorithm 14]
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/collision/near_features.h"
+#include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
+#include "core/math/rotation.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kBulge = 4e-3;  // of a ball of 1280 triangles, as a share of its radius
+
+std::shared_ptr<const Shape> meshedBall(double radius)
+{
+    return buildMeshShape("ball", makeSphere(radius, 3));
+}
+
+Vec3 signedUnits(std::uint64_t stream, std::uint64_t first)
+{
+    Vec3 v;
+    for (std::uint64_t k = 0; k < 3; ++k)
+        v[static_cast<int>(k)] = 2.0 * randomUnit(40, stream, first + k) - 1.0;
+    return v;
+}
+
+std::vector<GapContact> contactsOf(const Shape& a, const Pose& worldFromA, const Shape& b,
+                                   const Pose& worldFromB, double reach)
+{
+    std::vector<GapContact> contacts;
+    NearFeatures().findContacts({&a, &b, worldFromA, worldFromB}, reach, contacts);
+    return contacts;
+}
+
+const GapContact& nearestOf(const std::vector<GapContact>& contacts)
+{
+    return *std::min_element(
+        contacts.begin(), contacts.end(),
+        [](const GapContact& p, const GapContact& q) { return p.gap < q.gap; });
+}
+
+// Told of facets, two such balls met off the line of centres by up to 4°, and the blow went aside.
+TEST(RoundContacts, MeshedBallsTouchOnceOnTheLineOfTheirCentresHoweverTheyAreTurned)
+{
+    const auto large = meshedBall(1.0), small = meshedBall(0.6);
+    for (std::uint64_t draw = 0; draw < 300; ++draw) {
+        const Vec3 line = signedUnits(draw, 0).normalized();
+        const double gap = 2e-3 * (randomUnit(41, draw, 0) - 0.5);
+        const Pose a{(1.6 + gap) * line, exponentialMap(3.0 * signedUnits(draw, 3))};
+        const Pose b{Vec3::Zero(), exponentialMap(3.0 * signedUnits(draw, 6))};
+        const std::vector<GapContact> contacts = contactsOf(*small, a, *large, b, 2e-3);
+        ASSERT_EQ(contacts.size(), 1u) << draw;
+        EXPECT_LT((contacts[0].normal - line).norm(), 3e-3) << draw;
+        EXPECT_NEAR(contacts[0].gap, gap, 5e-5) << draw;  // the facets lie up to 6e-3 below
+        EXPECT_LT((contacts[0].rA + 0.6 * line).norm(), 3e-3) << draw;
+    }
+}
+
+double distanceToBox(const Vec3& p, const Vec3& half)
+{
+    return (p.cwiseAbs() - half).cwiseMax(0.0).norm();
+}
+
+// The oracle is an exact ball at the same place.
+TEST(RoundContacts, AMeshedBallTouchesFacesEdgesAndCornersOfABoxLikeABall)
+{
+    const auto meshed = meshedBall(0.5), exact = exactSphere(0.5);
+    const auto box = buildMeshShape("box", makeBox({2.0, 1.0, 3.0}, {2, 1, 3}));
+    const Vec3 half = box->box.max;
+    int faces = 0, others = 0;
+    for (std::uint64_t draw = 0; draw < 400; ++draw) {
+        // From anywhere around, towards a place within the box or near its surface.
+        const Vec3 outward = signedUnits(draw, 0).normalized();
+        const Vec3 target = 0.95 * signedUnits(draw, 3).cwiseProduct(half);
+        double far = 5.0, near = 0.0;
+        for (int halving = 0; halving < 50; ++halving) {
+            const double middle = 0.5 * (far + near);
+            (distanceToBox(target + middle * outward, half) > 0.5 + 1e-3 ? far : near) = middle;
+        }
+        const Pose ball{target + far * outward, exponentialMap(3.0 * signedUnits(draw, 6))};
+        const Pose unmoved{Vec3::Zero(), Quat::Identity()};
+        const std::vector<GapContact> ofMesh = contactsOf(*meshed, ball, *box, unmoved, 5e-3);
+        const std::vector<GapContact> ofBall = contactsOf(*exact, ball, *box, unmoved, 5e-3);
+        ASSERT_FALSE(ofBall.empty()) << draw;
+        ASSERT_FALSE(ofMesh.empty()) << draw;
+        const GapContact asMesh = nearestOf(ofMesh), asBall = nearestOf(ofBall);
+        EXPECT_NEAR(asMesh.gap, asBall.gap, 5e-5) << draw;
+        EXPECT_LT((asMesh.normal - asBall.normal).norm(), 4e-3) << draw;
+        EXPECT_LT((asMesh.rA - asBall.rA).norm(), 2e-3) << draw;
+        ++(asBall.normal.cwiseAbs().maxCoeff() > 0.9999 ? faces : others);
+    }
+    EXPECT_GT(faces, 100);
+    EXPECT_GT(others, 50);
+}
+
+TEST(RoundContacts, ATurningBallNeverLeavesTheFloorNorSinksIntoIt)
+{
+    const auto ball = meshedBall(1.0);
+    const auto floor = buildPlaneShape("floor");
+    double lowest = 1e300, highest = -1e300;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+        const Pose pose{Vec3(0.0, 1.0, 0.0),
+                        exponentialMap(2e-3 * static_cast<double>(i) * Vec3(0.3, 0.2, 0.9))};
+        const std::vector<GapContact> contacts =
+            contactsOf(*ball, pose, *floor, {Vec3::Zero(), Quat::Identity()}, 1e-3);
+        ASSERT_EQ(contacts.size(), 1u) << i;
+        lowest = std::min(lowest, contacts[0].gap);
+        highest = std::max(highest, contacts[0].gap);
+    }
+    EXPECT_GT(lowest, -0.01 * kBulge);
+    EXPECT_LT(highest, 0.01 * kBulge);
+}
+
+/// Box of 2 m with rounded edges: every octant of a ball shifted outwards, and flat between.
+TriMesh roundedBox(double radius)
+{
+    TriMesh mesh = makeBox({2.0, 2.0, 2.0}, {11, 11, 11});
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
+        const Vec3 p = mesh.points.col(v);
+        const Vec3 octant = p.cwiseSign();
+        mesh.points.col(v) = radius * p.normalized() + (1.0 - radius) * octant;
+    }
+    return mesh;
+}
+
+TEST(RoundContacts, CoarseAndSharpShapesAreNotRoundAndFineOnesAre)
+{
+    const auto isRound = [](const TriMesh& mesh) {
+        return buildMeshShape("shape", mesh)->smooth.hasRoundFacets();
+    };
+    EXPECT_FALSE(isRound(makeTorus(1.0, 0.25, {16, 10})));  // the rings of figure 1
+    EXPECT_FALSE(isRound(makeCylinder(0.25, 8.0, 20, 21)));
+    EXPECT_FALSE(isRound(makeBox(Vec3::Ones(), {4, 4, 4})));
+    EXPECT_FALSE(isRound(makeSphere(1.0, 1)));
+    EXPECT_TRUE(isRound(makeSphere(1.0, 3)));
+    EXPECT_TRUE(isRound(makeTorus(1.0, 0.25, {64, 32})));
+}
+
+struct Scene {
+    World world;
+    BodyId body;
+};
+
+Scene onFloor(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Vec3& velocity,
+              const Vec3& spin)
+{
+    Scene scene;
+    const MaterialId material = addMaterial(scene.world, 0.8, 0.0);
+    addPlane(scene.world, material);
+    scene.body = addBody(scene.world, shape, material, pose, 2.0, velocity, spin);
+    return scene;
+}
+
+/// Of its lowest point [m].
+double heightOf(const World& world, BodyId body)
+{
+    double lowest = 1e300;
+    const Points& points = world.shapeOf(body).mesh.points;
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+        const Vec3 p = world.motion[body].worldFromBody() * points.col(v);
+        lowest = std::min(lowest, p.y());
+    }
+    return lowest;
+}
+
+TEST(RoundContacts, ABallOfTrianglesRollsOnAtItsSpeedAtAnyStep)
+{
+    for (const double rate : {24.0, 240.0}) {
+        Scene scene = onFloor(meshedBall(0.5), {{0.0, 0.5, 0.0}, Quat::Identity()}, {2.0, 0.0, 0.0},
+                              {0.0, 0.0, -4.0});
+        Stepper stepper(screeSettings());
+        for (int i = 0; i < 3.0 * rate; ++i) stepper.step(scene.world, 1.0 / rate);
+        EXPECT_NEAR(scene.world.motion[scene.body].velocity.norm(), 2.0, 0.01) << rate;
+        EXPECT_NEAR(scene.world.motion[scene.body].position.y(), 0.5, 0.01 * kBulge) << rate;
+    }
+}
+
+TEST(RoundContacts, ABoxWithRoundedEdgesLiesOnItsFlatFaceAndDoesNotRollOffIt)
+{
+    const auto box = buildMeshShape("box", roundedBox(0.2));
+    Scene scene = onFloor(box, {{0.0, 1.02, 0.0}, exponentialMap(Vec3(0.01, 0.0, 0.02))},
+                          {0.3, 0.0, 0.0}, Vec3::Zero());
+    Stepper stepper(screeSettings());
+    for (int i = 0; i < 96; ++i) stepper.step(scene.world, 1.0 / 48.0);
+    EXPECT_LT(scene.world.motion[scene.body].velocity.norm(), 1e-3);
+    EXPECT_LT(angularVelocityOf(scene.world, scene.body).norm(), 1e-3);
+    EXPECT_LT(heightOf(scene.world, scene.body), 1e-3);
+    EXPECT_GT(heightOf(scene.world, scene.body), -1e-3);
+}
+
+TEST(RoundContacts, AnEggComesToRestOnItsSideWithoutHovering)
+{
+    TriMesh mesh = makeSphere(0.3, 4);
+    mesh.points.row(0) *= 2.0;
+    const auto egg = buildMeshShape("egg", mesh);
+    World world;
+    const MaterialId material =
+        world.addMaterial({"egg", 1.0, 0.5, 0.2, RollingFriction{0.01, 0.01, 0.0, 0.0}});
+    addPlane(world, material);
+    const BodyId body =
+        addBody(world, egg, material, {{0.0, 0.5, 0.0}, exponentialMap(Vec3(0.4, 0.1, 0.2))}, 1.0);
+    Stepper stepper(screeSettings());
+    for (int i = 0; i < 600; ++i) stepper.step(world, 1.0 / 96.0);
+    EXPECT_LT(world.motion[body].velocity.norm(), 1e-3);
+    EXPECT_GT(heightOf(world, body), -1e-4 * egg->boundingRadius);
+    EXPECT_LT(heightOf(world, body), egg->smooth.bulge());
+}
+
+}  // namespace
+}  // namespace scree::test
