@@ -5,10 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "core/collision/ball_contacts.h"
-#include "core/collision/round_contacts.h"
+#include "core/collision/contact_list.h"
 #include "core/math/lanes.h"
 
 namespace scree {
@@ -19,23 +18,7 @@ namespace {
 constexpr double kLookAhead = 2.0;        // times the reach
 constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
 
-/// Contacts nearer to each other than this share of the smaller body, with normals as close, are
-/// one.
-constexpr double kSamePlace = 5e-3;
-
 using Part = ContactPart::Kind;
-
-/// A pair that has a ball in it has no other features.
-/// Cosine of the angle within which a contact may speak for another that is not as near.
-constexpr double kSameWay = 0.5;
-
-enum class Kind : std::uint64_t { cornerOfA = 0, cornerOfB = 1, edges = 2, ball = 3, round = 3 };
-
-std::uint64_t featureId(Kind kind, std::int32_t first, std::int32_t second = 0)
-{
-    return static_cast<std::uint64_t>(kind) << 62 | static_cast<std::uint64_t>(first) << 31 |
-           static_cast<std::uint64_t>(second);
-}
 
 Segment placed(const RelativePair& pair, const ConvexEdge& edge)
 {
@@ -146,102 +129,6 @@ double leverOf(const RelativePair& pair)
         pair.second.isPlane ? 0.0 : pair.second.boundingRadius + pair.translation.norm();
     return std::max(pair.first.isPlane ? 0.0 : pair.first.boundingRadius, ofSecond);
 }
-
-/// Turns what one way found into the contact of the pair.
-struct ToWorld {
-    Mat3 worldFromSecond;
-    Vec3 secondFromA;  // centre of the second from that of A, world [m]
-    bool firstIsA;
-
-    GapContact operator()(std::uint64_t feature, const FeatureContact& found) const
-    {
-        const Vec3 normal = worldFromSecond * found.normal;
-        const Vec3 onFirst = worldFromSecond * found.point + secondFromA;
-        return {feature, onFirst - 0.5 * found.gap * normal, firstIsA ? normal : Vec3(-normal),
-                found.gap};
-    }
-};
-
-/// What a pair touches with so far, and what lies inside without being a contact.
-class ContactList {
-public:
-    /// Takes what is nearer than `reach`; `isRound`: one of the bodies is, somewhere.
-    ContactList(std::vector<GapContact>& contacts, double samePlace, double reach, bool isRound)
-        : contacts_(contacts),
-          first_(contacts.size()),
-          samePlace_(samePlace),
-          reach_(reach),
-          isRound_(isRound)
-    {
-    }
-
-    /// What a pair of parts has found, or what they stand for.
-    void add(const RelativePair& way, ContactPart ofFirst, ContactPart ofSecond,
-             const ToWorld& toWorld, std::uint64_t feature, const FeatureContact& found)
-    {
-        if (!isRound_) return add(toWorld(feature, found));
-        const Rounding rounding = roundContact(way, ofFirst, ofSecond, found);
-        if (rounding.result == Rounding::Result::none) {
-            if (found.gap < reach_) add(toWorld(feature, found));
-        } else if (rounding.result == Rounding::Result::elsewhere) {
-            if (found.gap < reach_) elsewhere_.push_back(toWorld(feature, found));
-        } else if (rounding.contact.gap < reach_) {
-            const auto [a, b] = toWorld.firstIsA ? std::pair(rounding.first, rounding.second)
-                                                 : std::pair(rounding.second, rounding.first);
-            add(toWorld(featureId(Kind::round, a, b), rounding.contact));
-        }
-    }
-
-    /// Where two corners meet, or an edge ends on another, several features say the same.
-    void add(const GapContact& contact)
-    {
-        for (std::size_t i = first_; i < contacts_.size(); ++i) {
-            GapContact& known = contacts_[i];
-            if ((known.rA - contact.rA).squaredNorm() > samePlace_ * samePlace_) continue;
-            if (known.normal.dot(contact.normal) < 1.0 - kSamePlace) continue;
-            if (contact.gap < known.gap) {
-                known.gap = contact.gap;
-                known.rA = contact.rA;
-                known.normal = contact.normal;
-            }
-            return;
-        }
-        contacts_.push_back(contact);
-    }
-
-    void addUnsupported(const GapContact& contact)
-    {
-        if (!unsupported_ || contact.gap < unsupported_->gap) unsupported_ = contact;
-    }
-
-    /// In a deep overlap the geometry of touching means little. A corner inside is still a corner
-    /// inside: without any contact that opposes, the deepest one speaks.
-    void finish()
-    {
-        // A round part that touches elsewhere has nothing to say, if that place is known.
-        for (const GapContact& contact : elsewhere_) {
-            const bool isSpokenFor = std::any_of(
-                contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
-                [&](const GapContact& c) {
-                    return c.gap <= contact.gap && c.normal.dot(contact.normal) > kSameWay;
-                });
-            if (!isSpokenFor) contacts_.push_back(contact);
-        }
-        if (!unsupported_) return;
-        const bool isOpposed =
-            std::any_of(contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
-                        [](const GapContact& c) { return c.gap < 0.0; });
-        if (!isOpposed) contacts_.push_back(*unsupported_);
-    }
-
-private:
-    std::vector<GapContact>& contacts_;
-    std::size_t first_;
-    double samePlace_, reach_;
-    bool isRound_;
-    std::optional<GapContact> unsupported_;
-    std::vector<GapContact> elsewhere_;  // of round parts that touch at another place, if at all
-};
 
 }  // namespace
 
@@ -362,7 +249,7 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const double smaller = smallerRadius(shapeA, shapeB);
     // Facets lie below the round surface that they stand for, and must be seen from farther away.
     const double bulge = shapeA.smooth.bulge() + shapeB.smooth.bulge();
-    ContactList list(contacts, kSamePlace * smaller, reach, bulge > 0.0);
+    ContactList list(contacts, smaller, reach, bulge > 0.0);
     reach += bulge;
 
     if (isBall(shapeA) || isBall(shapeB)) {
@@ -371,7 +258,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         thread_local std::vector<BallContact> found;
         findBallContacts(way, reach, found);
         for (const BallContact& ball : found) {
-            const std::uint64_t feature = featureId(Kind::ball, ball.place[0], ball.place[1]);
+            const std::uint64_t feature =
+                featureId(FeatureKind::ball, ball.place[0], ball.place[1]);
             list.add(way, {Part::ball}, {Part::face}, isA ? ofA : ofB, feature, ball.contact);
         }
         list.finish();
@@ -383,8 +271,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
 
     const double sharpness = kSharpness * smaller;
     double farUntil = lookedAt_ + std::min(clearance_, window_);  // of all features
-    const auto faceCorners = [&](const RelativePair& way, std::vector<NearCorner>& near, Kind kind,
-                                 const ToWorld& toWorld) {
+    const auto faceCorners = [&](const RelativePair& way, std::vector<NearCorner>& near,
+                                 FeatureKind kind, const ToWorld& toWorld) {
         for (NearCorner& candidate : near) {
             if (candidate.farUntil - way_ < reach) {
                 const std::uint64_t feature = featureId(kind, candidate.corner);
@@ -403,14 +291,14 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
             farUntil = std::min(farUntil, candidate.farUntil);
         }
     };
-    faceCorners(pair, cornersOfA_, Kind::cornerOfA, ofA);
-    faceCorners(back, cornersOfB_, Kind::cornerOfB, ofB);
+    faceCorners(pair, cornersOfA_, FeatureKind::cornerOfA, ofA);
+    faceCorners(back, cornersOfB_, FeatureKind::cornerOfB, ofB);
     const double deepest = deepestEdges(pair);
     for (NearEdges& candidate : edges_) {
         if (candidate.farUntil - way_ < reach || candidate.outsideUntil <= way_) {
             const auto contact = faceEdges(pair, candidate.ofA, candidate.ofB, reach, sharpness);
             if (contact) {
-                const auto feature = featureId(Kind::edges, candidate.ofA, candidate.ofB);
+                const auto feature = featureId(FeatureKind::edges, candidate.ofA, candidate.ofB);
                 list.add(pair, {Part::edge, candidate.ofA}, {Part::edge, candidate.ofB}, ofA,
                          feature, *contact);
             } else {

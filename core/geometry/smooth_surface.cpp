@@ -99,7 +99,7 @@ SmoothSurface::SmoothSurface(const TriMesh& mesh) : mesh_(mesh)
     findRoundFacets();
 }
 
-/// [MAX99]: exact where the points lie on a sphere, however uneven the facets. Of a fillet beside a
+/// [Max99]: exact where the points lie on a sphere, however uneven the facets. Of a fillet beside a
 /// flat face the face decides.
 void SmoothSurface::findRoundNormals()
 {

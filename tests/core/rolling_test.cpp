@@ -74,6 +74,17 @@ TEST(E9RollingFriction, ALeverArmBrakesWithThatArmTimesTheWeight)  // [A49]
     EXPECT_NEAR(result.spinStop, spinStop, 0.01 * spinStop);
 }
 
+// With a couple that stopped the spin of a free ball it crept on for another fourteen steps.
+TEST(E9RollingFriction, WithMethodScreeABallStandsInTheVeryStepThatTheorySays)
+{
+    const double rollStop = 4.0 / (0.5 * 2.0 * 9.8), spinStop = 3.0 / (0.5 * 2.0 * 9.8);
+    const Roll result = roll(exactSphere(0.5), {0.0, 0.0, 0.5, 0.5}, 1.0, screeSettings());
+    EXPECT_GE(result.rollStop, rollStop);
+    EXPECT_LE(result.rollStop, rollStop + 1.0 / kRate);
+    EXPECT_NEAR(result.spinStop, spinStop, 0.01 * spinStop);
+    EXPECT_LE(result.reversal, 1e-10);
+}
+
 TEST(E9RollingFriction, TheCouplesNeverLeaveTheFrictionCone)  // [A51]
 {
     // Braking at μ_r m g R = 49 m/s² would need five times the friction there is: what is applied

@@ -1,0 +1,134 @@
+// The contacts of one pair while they are being found: where several features say the same it is
+// said once, and what stands for a round surface is moved to it (round_contacts.h).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/collision/near_features.h"
+#include "core/collision/round_contacts.h"
+
+namespace scree {
+
+/// What found a contact. A pair that has an exact ball in it has no other features.
+enum class FeatureKind : std::uint64_t {
+    cornerOfA = 0,
+    cornerOfB = 1,
+    edges = 2,
+    ball = 3,
+    round = 3
+};
+
+inline std::uint64_t featureId(FeatureKind kind, std::int32_t first, std::int32_t second = 0)
+{
+    return static_cast<std::uint64_t>(kind) << 62 | static_cast<std::uint64_t>(first) << 31 |
+           static_cast<std::uint64_t>(second);
+}
+
+/// Turns what one way found into the contact of the pair.
+struct ToWorld {
+    Mat3 worldFromSecond;
+    Vec3 secondFromA;  // centre of the second from that of A, world [m]
+    bool firstIsA;
+
+    GapContact operator()(std::uint64_t feature, const FeatureContact& found) const
+    {
+        const Vec3 normal = worldFromSecond * found.normal;
+        const Vec3 onFirst = worldFromSecond * found.point + secondFromA;
+        return {feature, onFirst - 0.5 * found.gap * normal, firstIsA ? normal : Vec3(-normal),
+                found.gap};
+    }
+};
+
+/// What a pair touches with so far, and what lies inside without being a contact.
+class ContactList {
+public:
+    /// Appends to `contacts` what is nearer than `reach` [m]. `smaller`: bounding radius of the
+    /// smaller body [m]; `isRound`: one of the bodies is, somewhere.
+    ContactList(std::vector<GapContact>& contacts, double smaller, double reach, bool isRound)
+        : contacts_(contacts),
+          first_(contacts.size()),
+          samePlace_(kSamePlace * smaller),
+          reach_(reach),
+          isRound_(isRound)
+    {
+    }
+
+    /// What a pair of parts has found, or what they stand for.
+    void add(const RelativePair& way, ContactPart ofFirst, ContactPart ofSecond,
+             const ToWorld& toWorld, std::uint64_t feature, const FeatureContact& found)
+    {
+        if (!isRound_) return add(toWorld(feature, found));
+        const Rounding rounding = roundContact(way, ofFirst, ofSecond, found);
+        if (rounding.result == Rounding::Result::none) {
+            if (found.gap < reach_) add(toWorld(feature, found));
+        } else if (rounding.result == Rounding::Result::elsewhere) {
+            if (found.gap < reach_) elsewhere_.push_back(toWorld(feature, found));
+        } else if (rounding.contact.gap < reach_) {
+            const auto [a, b] = toWorld.firstIsA ? std::pair(rounding.first, rounding.second)
+                                                 : std::pair(rounding.second, rounding.first);
+            add(toWorld(featureId(FeatureKind::round, a, b), rounding.contact));
+        }
+    }
+
+    /// Where two corners meet, or an edge ends on another, several features say the same.
+    void add(const GapContact& contact)
+    {
+        for (std::size_t i = first_; i < contacts_.size(); ++i) {
+            GapContact& known = contacts_[i];
+            if ((known.rA - contact.rA).squaredNorm() > samePlace_ * samePlace_) continue;
+            if (known.normal.dot(contact.normal) < 1.0 - kSamePlace) continue;
+            if (contact.gap < known.gap) {
+                known.gap = contact.gap;
+                known.rA = contact.rA;
+                known.normal = contact.normal;
+            }
+            return;
+        }
+        contacts_.push_back(contact);
+    }
+
+    void addUnsupported(const GapContact& contact)
+    {
+        if (!unsupported_ || contact.gap < unsupported_->gap) unsupported_ = contact;
+    }
+
+    /// In a deep overlap the geometry of touching means little. A corner inside is still a corner
+    /// inside: without any contact that opposes, the deepest one speaks.
+    void finish()
+    {
+        // A round part that touches elsewhere has nothing to say, if that place is known.
+        for (const GapContact& contact : elsewhere_) {
+            const bool isSpokenFor = std::any_of(
+                contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
+                [&](const GapContact& c) {
+                    return c.gap <= contact.gap && c.normal.dot(contact.normal) > kSameWay;
+                });
+            if (!isSpokenFor) contacts_.push_back(contact);
+        }
+        if (!unsupported_) return;
+        const bool isOpposed =
+            std::any_of(contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
+                        [](const GapContact& c) { return c.gap < 0.0; });
+        if (!isOpposed) contacts_.push_back(*unsupported_);
+    }
+
+private:
+    /// Contacts nearer to each other than this share of the smaller body, with normals as close,
+    /// are one.
+    static constexpr double kSamePlace = 5e-3;
+    /// Cosine of the angle within which a contact may speak for another that is not as near.
+    static constexpr double kSameWay = 0.5;
+
+    std::vector<GapContact>& contacts_;
+    std::size_t first_;
+    double samePlace_, reach_;
+    bool isRound_;
+    std::optional<GapContact> unsupported_;
+    std::vector<GapContact> elsewhere_;  // of round parts that touch at another place, if at all
+};
+
+}  // namespace scree
