@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -24,11 +25,17 @@ constexpr double kSameNormals = 1e-12;
 
 constexpr double kOnEdge = -1e-9;  // a corner weight above this is not outside
 
-/// Where a facet meets one this many times as wide, the normal between them is that of the wide
-/// one: with the mean of both, the face of a box with rounded edges would be a pillow to roll on.
-constexpr double kWider = 3.0;
-constexpr double kBend = 1e-3;     // sine of the angle between facets below which they are one
+/// Of the facets around a point those smaller than this share of the largest have no say in its
+/// normal: with the mean of all, the face of a box with rounded edges would be a pillow to roll on,
+/// and the side of a capsule a barrel.
+constexpr double kSmallest = 0.2;
 constexpr double kHollow = -1e-6;  // sine of how far an edge may sag inward; for rounding
+
+/// Volume of the normals of a facet, or area of those of an edge, below which it does not bend both
+/// ways, or not at all. Points may be of single precision.
+constexpr double kBendsBothWays = 1e-6, kBends = 1e-3;
+/// Sine of how far the way that is faced may lie off the normals of a surface that bends one way.
+constexpr double kTilt = 0.3;
 
 /// How the surface curves away along an edge: over places of the edge with weights p and q of its
 /// ends, the smooth surface lies this times p q above it [m].
@@ -44,16 +51,41 @@ struct FacingWeights {
 };
 
 /// Nothing when the normals lie in one plane, or look the other way.
-std::optional<FacingWeights> facingWeights(const Mat3& normals, const Vec3& direction)
+std::optional<FacingWeights> facingWeights(const Mat3& normals, const Vec3& direction,
+                                           double leastVolume)
 {
     Mat3 inverse;
     bool isInvertible = false;
-    normals.computeInverseWithCheck(inverse, isInvertible, kSameNormals);
+    normals.computeInverseWithCheck(inverse, isInvertible, leastVolume);
     if (!isInvertible) return std::nullopt;
     const Vec3 weights = inverse * direction;
     const double sum = weights.sum();
     if (!(sum > 0.0)) return std::nullopt;
     return FacingWeights{weights / sum, inverse / sum};
+}
+
+/// The same of the edge opposite a corner, give or take a tilt along the other way.
+std::optional<FacingWeights> facingEdge(const Mat3& normals, Eigen::Index opposite,
+                                        const Vec3& direction)
+{
+    const Eigen::Index i = (opposite + 1) % 3, j = (opposite + 2) % 3;
+    const Vec3 p = normals.col(i), q = normals.col(j), out = p.cross(q);
+    if (out.norm() < kBends) return std::nullopt;
+    if (std::abs(out.dot(direction)) > kTilt * out.norm()) return std::nullopt;
+    Mat3 edge;
+    edge.col(0) = p;
+    edge.col(1) = q;
+    edge.col(2) = out.normalized();
+    const Mat3 inverse = edge.inverse();
+    const double sum = (inverse.row(0) + inverse.row(1)).dot(direction);
+    if (!(sum > 0.0)) return std::nullopt;
+    FacingWeights found{Vec3::Zero(), Mat3::Zero()};
+    for (const auto& [corner, row] : {std::pair(i, 0), std::pair(j, 1)}) {
+        found.weights[corner] = inverse.row(row).dot(direction) / sum;
+        found.change.row(corner) = inverse.row(row) / sum;
+    }
+    if (found.weights.minCoeff() < kOnEdge) return std::nullopt;
+    return found;
 }
 
 }  // namespace
@@ -109,22 +141,24 @@ void SmoothSurface::findRoundNormals()
         const Vec3 c = mesh_.points.col(mesh_.triangles(2, f));
         return (b - a).cross(c - a);
     };
-    const auto isNarrowBeside = [&](const Vec3& own, const Vec3& other) {
-        const bool isBent = own.cross(other).norm() > kBend * own.norm() * other.norm();
-        return isBent && other.norm() > kWider * own.norm();  // over one edge, widths are as areas
-    };
-    roundNormals_.setZero(3, mesh_.points.cols());
-    for (std::int32_t f = 0; f < static_cast<std::int32_t>(beyond_.size()); ++f) {
-        const Vec3 own = scaledNormal(f);
-        bool isNarrow[3];  // over the edge opposite a corner
-        for (int k = 0; k < 3; ++k) isNarrow[k] = isNarrowBeside(own, scaledNormal(beyond_[f][k]));
+    const auto facetCount = static_cast<std::int32_t>(beyond_.size());
+    std::vector<double> largest(fanStart_.size(), 0.0);  // around a vertex, twice the area
+    for (std::int32_t f = 0; f < facetCount; ++f) {
         for (int k = 0; k < 3; ++k) {
-            const int v = mesh_.triangles(k, f), next = (k + 1) % 3, last = (k + 2) % 3;
-            if (isNarrow[next] || isNarrow[last]) continue;
+            double& here = largest[static_cast<std::size_t>(mesh_.triangles(k, f))];
+            here = std::max(here, scaledNormal(f).norm());
+        }
+    }
+    roundNormals_.setZero(3, mesh_.points.cols());
+    for (std::int32_t f = 0; f < facetCount; ++f) {
+        const Vec3 own = scaledNormal(f);
+        for (int k = 0; k < 3; ++k) {
+            const int v = mesh_.triangles(k, f);
+            if (own.norm() < kSmallest * largest[static_cast<std::size_t>(v)]) continue;
             const Vec3 p = mesh_.points.col(v);
-            roundNormals_.col(v) +=
-                own / ((mesh_.points.col(mesh_.triangles(next, f)) - p).squaredNorm() *
-                       (mesh_.points.col(mesh_.triangles(last, f)) - p).squaredNorm());
+            const Vec3 next = mesh_.points.col(mesh_.triangles((k + 1) % 3, f));
+            const Vec3 last = mesh_.points.col(mesh_.triangles((k + 2) % 3, f));
+            roundNormals_.col(v) += own / ((next - p).squaredNorm() * (last - p).squaredNorm());
         }
     }
     for (Eigen::Index v = 0; v < roundNormals_.cols(); ++v) {
@@ -172,7 +206,7 @@ std::int32_t SmoothSurface::roundFacetAt(std::int32_t vertex, const Vec3& direct
     for (std::int32_t i = fanStart_[vertex]; i < fanStart_[vertex + 1]; ++i) {
         if (!isRound_[fan_[i]]) continue;
         const std::optional<FacingWeights> found =
-            facingWeights(facetAt(fan_[i]).normals, direction);
+            facingWeights(facetAt(fan_[i]).normals, direction, kBendsBothWays);
         const double here = found ? found->weights.minCoeff() : least;
         if (best >= 0 && here <= least) continue;
         best = fan_[i];
@@ -181,30 +215,42 @@ std::int32_t SmoothSurface::roundFacetAt(std::int32_t vertex, const Vec3& direct
     return best;
 }
 
+RoundPlace SmoothSurface::placeAt(const Facet& facet, const Vec3& weights, const Mat3& change) const
+{
+    RoundPlace place{facet.points * weights, 0.0, Mat3::Zero()};
+    for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3;
+        place.bulge += weights[k] * weights[next] *
+                       sag(facet.points.col(next) - facet.points.col(k),
+                           facet.normals.col(next) - facet.normals.col(k));
+    }
+    const Mat3 fromPlace = facet.points.colwise() - place.point;
+    place.advance = fromPlace * change;
+    return place;
+}
+
 SmoothSurface::Search SmoothSurface::findFacing(std::int32_t& triangle, const Vec3& direction,
                                                 RoundPlace& place) const
 {
     for (int step = 0; step <= kMostSteps; ++step) {
         const Facet facet = facetAt(triangle);
-        const std::optional<FacingWeights> found = facingWeights(facet.normals, direction);
+        const std::optional<FacingWeights> found =
+            facingWeights(facet.normals, direction, kBendsBothWays);
         if (!found) return Search::notRound;
-        const Vec3& weights = found->weights;
         Eigen::Index leaving = 0;
-        if (weights.minCoeff(&leaving) >= kOnEdge) {
-            place.point = facet.points * weights;
-            place.bulge = 0.0;
-            for (int k = 0; k < 3; ++k) {
-                const int next = (k + 1) % 3;
-                place.bulge += weights[k] * weights[next] *
-                               sag(facet.points.col(next) - facet.points.col(k),
-                                   facet.normals.col(next) - facet.normals.col(k));
-            }
-            const Mat3 fromPlace = facet.points.colwise() - place.point;
-            place.advance = fromPlace * found->change;
+        if (found->weights.minCoeff(&leaving) >= kOnEdge) {
+            place = placeAt(facet, found->weights, found->change);
             return Search::found;
         }
         const std::int32_t next = beyond_[triangle][leaving];
         if (!isRound_[next]) return Search::notRound;
+        if (std::abs(facetAt(next).normals.determinant()) <= kBendsBothWays) {
+            // The side of a capsule bends one way only: it is faced where it ends.
+            const auto onEdge = facingEdge(facet.normals, leaving, direction);
+            if (!onEdge) return Search::notRound;
+            place = placeAt(facet, onEdge->weights, onEdge->change);
+            return Search::found;
+        }
         triangle = next;
     }
     return Search::elsewhere;
@@ -217,7 +263,7 @@ std::optional<Vec3> SmoothSurface::weightsFacing(std::int32_t triangle, const Ve
     for (int k = 0; k < 3; ++k) {
         if (normals.col(k).dot(normals.col((k + 1) % 3)) < kFineFacet) return std::nullopt;
     }
-    const std::optional<FacingWeights> found = facingWeights(normals, direction);
+    const std::optional<FacingWeights> found = facingWeights(normals, direction, kSameNormals);
     if (!found) return std::nullopt;
     return found->weights;
 }

@@ -56,6 +56,7 @@ private:
         Mat3 points, normals;  // columns by corner
     };
     Facet facetAt(std::int32_t triangle) const;
+    RoundPlace placeAt(const Facet& facet, const Vec3& weights, const Mat3& change) const;
     void findRoundNormals();
     void findRoundFacets();
     /// Corner weights of the triangle's place that faces `direction`; they add up to 1 and one is

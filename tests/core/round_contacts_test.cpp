@@ -120,7 +120,7 @@ TEST(RoundContacts, ATurningBallNeverLeavesTheFloorNorSinksIntoIt)
 /// Box of 2 m with rounded edges: every octant of a ball shifted outwards, and flat between.
 TriMesh roundedBox(double radius)
 {
-    TriMesh mesh = makeBox({2.0, 2.0, 2.0}, {11, 11, 11});
+    TriMesh mesh = makeBox({2.0, 2.0, 2.0}, {21, 21, 21});
     for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
         const Vec3 p = mesh.points.col(v);
         const Vec3 octant = p.cwiseSign();
@@ -192,6 +192,19 @@ TEST(RoundContacts, ABoxWithRoundedEdgesLiesOnItsFlatFaceAndDoesNotRollOffIt)
     EXPECT_LT(angularVelocityOf(scene.world, scene.body).norm(), 1e-3);
     EXPECT_LT(heightOf(scene.world, scene.body), 1e-3);
     EXPECT_GT(heightOf(scene.world, scene.body), -1e-3);
+}
+
+TEST(RoundContacts, ACapsuleThatLiesOnItsSideRollsOnAtItsSpeed)
+{
+    const auto capsule = buildMeshShape("capsule", makeCapsule(0.3, 2.0, 32, 8));
+    // Its axis along z, and so the lowest points of both its ends on the floor.
+    Pose lying{{0.0, 0.3, 0.0}, exponentialMap(Vec3(0.5 * kPi, 0.0, 0.0))};
+    Scene scene = onFloor(capsule, lying, {1.5, 0.0, 0.0}, {0.0, 0.0, -5.0});
+    Stepper stepper(screeSettings());
+    for (int i = 0; i < 240; ++i) stepper.step(scene.world, 1.0 / 120.0);
+    EXPECT_NEAR(scene.world.motion[scene.body].velocity.x(), 1.5, 0.015);
+    EXPECT_NEAR(scene.world.motion[scene.body].position.y(), 0.3, 3e-4);
+    EXPECT_LT(std::abs(scene.world.motion[scene.body].position.z()), 0.02);
 }
 
 TEST(RoundContacts, AnEggComesToRestOnItsSideWithoutHovering)
