@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "core/collision/ball_contacts.h"
@@ -122,20 +123,31 @@ void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::
     std::sort(near.begin(), near.end());
 }
 
-/// Of the points of one body that turns with the frame of the other [m].
+/// Of the points of the first body that turn in the frame of the second [m]. Seen from there
+/// nothing else moves, so that no distance between the two changes faster. Of a plane only what is
+/// near the second matters.
 double leverOf(const RelativePair& pair)
 {
-    const double ofSecond =
-        pair.second.isPlane ? 0.0 : pair.second.boundingRadius + pair.translation.norm();
-    return std::max(pair.first.isPlane ? 0.0 : pair.first.boundingRadius, ofSecond);
+    return pair.first.isPlane ? pair.second.boundingRadius + pair.translation.norm()
+                              : pair.first.boundingRadius;
+}
+
+/// What an odometer counts of a way, at the least: the points of the first body turn with the
+/// second on a longer lever than its own.
+double countedOfWay(const RelativePair& pair)
+{
+    if (pair.first.isPlane || pair.second.isPlane) return 1.0;
+    const double lever = pair.first.boundingRadius + pair.translation.norm();
+    return std::min(1.0, pair.second.boundingRadius / lever);
 }
 
 }  // namespace
 
 void NearFeatures::moveTo(const RelativePair& pair)
 {
-    way_ += (pair.translation - translation_).norm() +
-            (pair.rotation - rotation_).norm() * leverOf(pair);
+    // The norm of what two rotations differ by is √2 times the chord of a point at unit distance.
+    const double chord = (pair.rotation - rotation_).norm() / std::numbers::sqrt2;
+    way_ += (pair.translation - translation_).norm() + chord * leverOf(pair);
     rotation_ = pair.rotation;
     translation_ = pair.translation;
 }
@@ -192,7 +204,7 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     fillLanes(pair.second.features, nearB, ofB);
     const double deepest = deepestEdges(pair), end = way_ + window_;
     const double farthest = std::max(reach, deepest) + window_;
-    const double turn = window_ / std::max(pair.first.boundingRadius, pair.second.boundingRadius);
+    const double turn = window_ / leverOf(pair);
     for (std::int32_t e : nearA) {
         const ConvexEdge& edge = pair.first.features.edges()[e];
         const Segment segment = placed(pair, edge);
@@ -306,8 +318,7 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
                      shapeB.features.edges()[candidate.ofB], deepest, candidate);
             }
         }
-        // Seen from B, A moves by what B turns, with a longer lever than the odometer counts.
-        const double outside = (candidate.outsideUntil - way_) / leverOf(pair) * smaller;
+        const double outside = (candidate.outsideUntil - way_) * countedOfWay(pair);
         farUntil = std::min({farUntil, candidate.farUntil, way_ + outside});
     }
     list.finish();
