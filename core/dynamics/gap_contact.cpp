@@ -28,7 +28,7 @@ constexpr int kMostSweeps = 400;
 
 /// What a sweep may still change, as a share of what gravity does in a step, and in a heap of what
 /// the first sweep changed. Forty cubes of which each step left a hundredth drifted 15 mm in 10 s.
-constexpr double kEnough = 1e-7, kLeftToNextStep = 1e-2;
+constexpr double kEnough = 1e-6, kLeftToNextStep = 1e-2;
 constexpr std::size_t kRowsOfAHeap = 200;
 
 void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
@@ -88,7 +88,7 @@ void forRows(GapScratch& scratch, const GapIsland& island, const Visit& visit)
     }
 }
 
-/// One sweep up and one down; answers the largest change of a normal velocity [m/s].
+/// One sweep up and one down; answers the largest change of a velocity at a row [m/s].
 double sweep(GapScratch& scratch, const GapIsland& island)
 {
     forRows(scratch, island, [](GapRow& row) { row.before = row.impulse; });
@@ -237,10 +237,11 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
             t2 *= limit / length;
         }
     }
-    const Vec3 change = (t1 - row.impulse.y()) * row.tangent + (t2 - row.impulse.z()) * s;
+    const double d1 = t1 - row.impulse.y(), d2 = t2 - row.impulse.z();
     row.impulse.y() = t1;
     row.impulse.z() = t2;
-    applyRow(row, a, b, change);
+    applyRow(row, a, b, d1 * row.tangent + d2 * s);
+    changed = std::max(changed, std::max(std::abs(d1), std::abs(d2)) / row.slideMass);
     return changed;
 }
 

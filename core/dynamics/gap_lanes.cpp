@@ -201,8 +201,10 @@ inline Lanes GapLanes::visit(Row& row, const Batch& batch, Motion& motion) const
     const Lanes length = sqrtOf(slideT * slideT + slideS * slideS);
     const Lanes shorter = length > limit ? limit / length : lanesOf(1.0);
     row.impulse = {normal, slides ? shorter * slideT : stickT, slides ? shorter * slideS : stickS};
-    apply(row, batch, row.impulse - old, motion);
-    return absOf(pushed) * row.inverseNormalMass;
+    const Lanes3 change = row.impulse - old;
+    apply(row, batch, change, motion);
+    return maxOf(absOf(pushed) * row.inverseNormalMass,
+                 maxOf(absOf(change.y), absOf(change.z)) * row.inverseSlideMass);
 }
 
 void GapLanes::sweepUp(Section& section)

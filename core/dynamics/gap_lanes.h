@@ -29,7 +29,7 @@ public:
     /// and one more that no row has.
     void build(const GapScratch& scratch, const GapIsland& island, std::vector<LaneBody>& bodies);
 
-    /// One sweep up and one down; answers the largest change of a normal velocity [m/s].
+    /// One sweep up and one down; answers the largest change of a velocity at a row [m/s].
     double sweep();
 
     /// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].

@@ -76,7 +76,9 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
         if (!isLasting[row.island]) continue;
         const GapBody& a = scratch.bodies[row.a];
         const GapBody& b = scratch.bodies[row.b];
-        if (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b))) {
+        const bool settles =
+            world.contactMemory.isAsleep(row.a) || world.contactMemory.isAsleep(row.b);
+        if (settles || (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b)))) {
             isLasting[row.island] = 0;
             continue;
         }

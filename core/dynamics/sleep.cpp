@@ -16,6 +16,7 @@ namespace {
 /// on a ring of 2.5 m. A domino at the point of falling passes it within a few frames.
 constexpr double kStill = 1e-4;
 constexpr std::int32_t kStillFrames = 12;
+constexpr std::int32_t kCheckFrames = 4;  // of one that has been woken and did not move
 
 /// What has stayed within this share of its size of one place for kSettleWait loses its motion by
 /// and by, 1/e of it in kSettleTime; both times in √(size / acceleration), a third of a second for
@@ -23,9 +24,24 @@ constexpr std::int32_t kStillFrames = 12;
 constexpr double kNearby = 0.05;
 constexpr double kSettleWait = 6.0, kSettleTime = 1.5;
 
+/// What does not balance of the forces on a body, as a share of those of its contacts: below the
+/// first it may fall asleep, above the second it wakes. What sleeps for good hardly changes the
+/// load of its neighbours; what comes to lie on a body of its own weight adds a third.
+constexpr double kBalanced = 0.02, kUnbalanced = 0.1;
+
+/// What gives a sleeper less than this share of √(size · acceleration) in a step, 4 cm/s for that
+/// ring, is no blow: it learns of it by its load, after the step.
+constexpr double kGentle = 0.01;
+
 bool isStepped(const World& world, BodyId body)
 {
     return world.mass[body].isMovable() && !world.contactMemory.isAsleep(body);
+}
+
+void wake(BodyRest& rest)
+{
+    rest.isAsleep = false;
+    rest.still.frames = kStillFrames - kCheckFrames;
 }
 
 /// Upper bound of how far a point of the body has come from where it was.
@@ -58,23 +74,37 @@ void settle(World& world, BodyId body, double acceleration, const Stay& nearby)
     world.motion[body].angularMomentum *= kept;
 }
 
-/// Wakes every sleeping body that lies with one of `roots`, through contacts that carried.
-void wakeWith(World& world, std::vector<BodyId> roots)
+/// From a body that is struck, sleepers wake this many contacts far; those beyond feel it by their
+/// loads.
+constexpr int kWakeFar = 2;
+
+/// Wakes `roots` and the sleepers around them. What was put to sleep touching, before any force
+/// acted, wakes together.
+void wakeAround(World& world, const std::vector<BodyId>& roots)
 {
     DisjointSets sets(world.bodyCount());
+    std::vector<const RememberedContact*> bearing;
     const ContactMemory& memory = world.contactMemory;
     for (const RememberedContact& contact : memory.contacts) {
-        if (memory.isAsleep(contact.a) && memory.isAsleep(contact.b)) {
+        if (!memory.isAsleep(contact.a) || !memory.isAsleep(contact.b)) continue;
+        if (contact.force.isZero(0.0))
             sets.join(static_cast<std::size_t>(contact.a), static_cast<std::size_t>(contact.b));
+        else
+            bearing.push_back(&contact);
+    }
+    const auto setOf = [&](BodyId body) { return sets.find(static_cast<std::size_t>(body)); };
+    std::vector<char> wakes(world.bodyCount(), 0);
+    for (const BodyId root : roots) wakes[setOf(root)] = 1;
+    for (int far = 0; far < kWakeFar; ++far) {
+        const std::vector<char> before = wakes;
+        for (const RememberedContact* contact : bearing) {
+            const std::size_t a = setOf(contact->a), b = setOf(contact->b);
+            if (before[a] || before[b]) wakes[a] = wakes[b] = 1;
         }
     }
-    std::vector<char> wakes(world.bodyCount(), 0);
-    for (BodyId root : roots) wakes[sets.find(static_cast<std::size_t>(root))] = 1;
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         BodyRest& rest = world.contactMemory.rest[i];
-        if (!rest.isAsleep || !wakes[sets.find(i)]) continue;
-        rest.isAsleep = false;
-        rest.still.frames = 0;
+        if (rest.isAsleep && wakes[sets.find(i)]) wake(rest);
     }
 }
 
@@ -82,7 +112,7 @@ void wakeWith(World& world, std::vector<BodyId> roots)
 /// them press on each other yet, so the eye decides.
 constexpr double kTouching = 0.01;
 
-/// Contacts without force between sleeping bodies: what wakeWith follows.
+/// Contacts without force between sleeping bodies: what wakeAround follows.
 std::vector<RememberedContact> contactsOfSleepers(const World& world)
 {
     std::vector<Aabb> boxes(world.bodyCount());
@@ -112,7 +142,122 @@ std::vector<RememberedContact> contactsOfSleepers(const World& world)
     return found;
 }
 
+/// What the contacts of a body do to it.
+struct ContactLoad {
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // about its centre of mass, world [N], [N m]
+    double total = 0.0;                                // of the magnitudes of the forces [N]
+
+    void add(const Vec3& r, const Vec3& f)
+    {
+        force += f;
+        torque += r.cross(f);
+        total += f.norm();
+    }
+};
+
+void addContact(const World& world, const RememberedContact& contact,
+                std::vector<ContactLoad>& loads)
+{
+    const BodyMotion &a = world.motion[contact.a], &b = world.motion[contact.b];
+    const Vec3 r = a.orientation * contact.place;
+    loads[contact.a].add(r, contact.force);
+    loads[contact.b].add(a.position + r - b.position, -contact.force);
+}
+
+std::vector<ContactLoad> contactLoads(const World& world)
+{
+    std::vector<ContactLoad> loads(world.bodyCount());
+    for (const RememberedContact& contact : world.contactMemory.contacts)
+        addContact(world, contact, loads);
+    return loads;
+}
+
+/// Those of a step that is not over: what lies between sleepers is remembered, the rest solved.
+std::vector<ContactLoad> contactLoads(const World& world, double dt, const GapScratch& scratch)
+{
+    std::vector<ContactLoad> loads(world.bodyCount());
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        if (!isStepped(world, contact.a) && !isStepped(world, contact.b))
+            addContact(world, contact, loads);
+    }
+    const auto add = [&](const GapRow& row, const Vec3& impulse) {
+        loads[row.a].add(row.rA, impulse / dt);
+        loads[row.b].add(row.rB, -impulse / dt);
+    };
+    for (const GapRow& row : scratch.rows) add(row, row.worldImpulse());
+    for (const GapImpact& impact : scratch.impacts) add(scratch.rows[impact.row], impact.impulse);
+    return loads;
+}
+
+/// What was put to sleep where it is, held up or not, and has not been touched yet. It has never
+/// been seen to lie still.
+bool awaitsTouch(const World& world, BodyId body, const ContactLoad& load)
+{
+    return load.total == 0.0 && world.contactMemory.rest[body].still.frames < kStillFrames;
+}
+
+/// What remains of the forces on a body when those that hold it are taken off.
+struct Unbalance {
+    double force, torque;  // [N], [N m]
+
+    Unbalance(const World& world, BodyId body, const ContactLoad& load, const AppliedForce& other)
+        : force((load.force + other.acceleration / world.mass[body].inverseMass).norm()),
+          torque((load.torque + other.torque).norm())
+    {
+    }
+};
+
+/// Whether the forces on a body cancel but for a share of those of its contacts.
+bool isBalanced(const World& world, BodyId body, const ContactLoad& load, const AppliedForce& other,
+                double share)
+{
+    const Unbalance rest(world, body, load, other);
+    const double allowed = share * load.total;
+    return rest.force <= allowed && rest.torque <= allowed * world.shapeOf(body).boundingRadius;
+}
+
+/// Whether a row holds the body up that its normal impulse pushes along `push`.
+bool isHeldUpBy(const GapRow& row, const Vec3& impulse, const Vec3& pull)
+{
+    return impulse.dot(-pull) > kBalanced * row.impulse.norm() * pull.norm() || pull.isZero(0.0);
+}
+
+/// Who of the still bodies may sleep: nothing that is awake, and nothing that a script moves, holds
+/// one of them up.
+void keepWhoIsHeldUp(const World& world, const GapScratch& scratch, std::vector<char>& maySleep)
+{
+    const auto lies = [&](BodyId body) {
+        return maySleep[body] || world.contactMemory.isAsleep(body) ||
+               (scratch.bodies[body].inverseMass == 0.0 && !isDriven(scratch.bodies[body]));
+    };
+    bool isSettled = false;
+    while (!isSettled) {
+        isSettled = true;
+        for (const std::size_t i : scratch.order) {  // bottom to top: few rounds
+            for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+                const GapRow& row = scratch.rows[r];
+                if (row.impulse.x() == 0.0) continue;
+                const Vec3 impulse = row.worldImpulse();
+                const auto wakeIfHeldUp = [&](BodyId body, BodyId by, const Vec3& push) {
+                    if (!maySleep[body] || lies(by)) return;
+                    if (!isHeldUpBy(row, push, scratch.forces[body].acceleration)) return;
+                    maySleep[body] = 0;
+                    isSettled = false;
+                };
+                wakeIfHeldUp(row.a, row.b, impulse);
+                wakeIfHeldUp(row.b, row.a, -impulse);
+            }
+        }
+    }
+}
+
 }  // namespace
+
+bool anyAsleep(const World& world)
+{
+    const std::vector<BodyRest>& rest = world.contactMemory.rest;
+    return std::any_of(rest.begin(), rest.end(), [](const BodyRest& r) { return r.isAsleep; });
+}
 
 void sleepFromTheStart(World& world, const StepSettings& settings,
                        const std::vector<BodyId>& bodies)
@@ -123,7 +268,7 @@ void sleepFromTheStart(World& world, const StepSettings& settings,
     world.contactMemory.rest.resize(world.bodyCount());
     for (const BodyId body : bodies) {
         const BodyMotion& motion = world.motion[body];
-        const Stay here{motion.position, motion.orientation, kStillFrames};
+        const Stay here{motion.position, motion.orientation, 0};
         world.contactMemory.rest[body] = {here, here, forces[body].acceleration, true};
     }
     world.contactMemory.contacts = contactsOfSleepers(world);
@@ -140,10 +285,9 @@ void fallAsleep(World& world, GapScratch& scratch)
         goOn(world, body, kNearby, rest[i].nearby);
     }
 
-    // A set sleeps when all of it is still and nothing that moves by a script carries it.
+    // What a script moves is not to be calmed, nor what lies on it.
     DisjointSets sets(world.bodyCount());
-    std::vector<char> isCarried(world.bodyCount(), 0), isDrivenSet(world.bodyCount(), 0),
-        isRestless(world.bodyCount(), 0);
+    std::vector<char> isCarried(world.bodyCount(), 0), isDrivenSet(world.bodyCount(), 0);
     for (const GapRow& row : scratch.rows) {
         if (row.impulse.x() == 0.0) continue;
         const auto a = static_cast<std::size_t>(row.a), b = static_cast<std::size_t>(row.b);
@@ -157,19 +301,56 @@ void fallAsleep(World& world, GapScratch& scratch)
                 isDrivenSet[sets.find(static_cast<std::size_t>(carried))] = 1;
         }
     }
+
+    const std::vector<ContactLoad> loads = contactLoads(world);
+    std::vector<char> maySleep(world.bodyCount(), 0);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (!isStepped(world, body)) continue;
-        const std::size_t set = sets.find(i);
-        if (rest[i].still.frames < kStillFrames || isDrivenSet[set]) isRestless[set] = 1;
-        if (isCarried[i] && !isDrivenSet[set])
+        maySleep[i] = rest[i].still.frames >= kStillFrames &&
+                      isBalanced(world, body, loads[i], scratch.forces[i], kBalanced);
+        if (isCarried[i] && !isDrivenSet[sets.find(i)])
             settle(world, body, scratch.forces[i].acceleration.norm(), rest[i].nearby);
     }
+    keepWhoIsHeldUp(world, scratch, maySleep);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        if (!isStepped(world, static_cast<BodyId>(i)) || isRestless[sets.find(i)]) continue;
+        if (!maySleep[i]) continue;
         rest[i].isAsleep = true;
         rest[i].pull = scratch.forces[i].acceleration;
         world.motion[i].velocity = world.motion[i].angularMomentum = Vec3::Zero();
+    }
+}
+
+bool wakeStruck(World& world, double dt, const GapScratch& scratch)
+{
+    if (!anyAsleep(world)) return false;
+    const std::vector<ContactLoad> loads = contactLoads(world, dt, scratch);
+    std::vector<BodyId> roots;
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (!world.contactMemory.isAsleep(body) || awaitsTouch(world, body, loads[i])) continue;
+        const AppliedForce& other = scratch.forces[i];
+        if (isBalanced(world, body, loads[i], other, kUnbalanced)) continue;
+        const double radius = world.shapeOf(body).boundingRadius;
+        const Unbalance rest(world, body, loads[i], other);
+        const double speed = dt * world.mass[i].inverseMass * (rest.force + rest.torque / radius);
+        if (speed > kGentle * std::sqrt(radius * other.acceleration.norm())) roots.push_back(body);
+    }
+    if (roots.empty()) return false;
+    wakeAround(world, roots);
+    return true;
+}
+
+void wakeUnbalanced(World& world, const std::vector<AppliedForce>& forces)
+{
+    if (!anyAsleep(world)) return;
+    std::vector<BodyRest>& rest = world.contactMemory.rest;
+    const std::vector<ContactLoad> loads = contactLoads(world);
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (!rest[i].isAsleep || awaitsTouch(world, body, loads[i])) continue;
+        if (isBalanced(world, body, loads[i], forces[i], kUnbalanced)) continue;
+        wake(rest[i]);
     }
 }
 
@@ -182,11 +363,15 @@ void wakeByForces(World& world, const std::vector<AppliedForce>& forces)
             roots.push_back(static_cast<BodyId>(i));
         }
     }
-    if (!roots.empty()) wakeWith(world, std::move(roots));
+    if (!roots.empty()) wakeAround(world, roots);
 }
 
 bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
 {
+    std::vector<char> bears(world.bodyCount(), 0);
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        if (!contact.force.isZero(0.0)) bears[contact.a] = bears[contact.b] = 1;
+    }
     std::vector<BodyId> roots;
     for (const GapPair& pair : scratch.pairs) {
         const auto [a, b] = pair.bodies;
@@ -194,17 +379,19 @@ bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
         if (aSleeps == world.contactMemory.isAsleep(b)) continue;
         const GapBody& bodyA = scratch.bodies[a];
         const GapBody& bodyB = scratch.bodies[b];
+        const BodyId sleeper = aSleeps ? a : b, other = aSleeps ? b : a;
+        if (bears[sleeper] && !isDriven(scratch.bodies[other])) continue;
         const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
         for (const GapContact& contact : pair.contacts) {
             const Vec3 u = bodyA.velocity + dt * bodyA.pull + bodyA.spin.cross(contact.rA) -
                            bodyB.velocity - dt * bodyB.pull - bodyB.spin.cross(contact.rA + bFromA);
             if (std::max(contact.gap, 0.0) + dt * u.dot(contact.normal) >= 0.0) continue;
-            roots.push_back(aSleeps ? a : b);
+            roots.push_back(sleeper);
             break;
         }
     }
     if (roots.empty()) return false;
-    wakeWith(world, std::move(roots));
+    wakeAround(world, roots);
     return true;
 }
 

@@ -231,12 +231,10 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     return report;
 }
 
-StepReport Stepper::stepGaps(World& world, double dt)
+/// New velocities, in the scratch alone: the world is as it was.
+GapLevels Stepper::solveGaps(World& world, double dt, StepReport& report)
 {
-    StepReport report;
-    report.dt = dt;
     GapScratch& scratch = *gaps_;
-    aimKeyedBodies(world, dt);
     {
         const PhaseTimer timer(report, Phase::contactGraph);
         findGaps(world, settings_, dt, scratch);
@@ -259,11 +257,23 @@ StepReport Stepper::stepGaps(World& world, double dt)
         const PhaseTimer timer(report, Phase::shock);
         propagateShockUp(world, settings_, dt, levels, scratch);
     }
+    return levels;
+}
+
+StepReport Stepper::stepGaps(World& world, double dt)
+{
+    StepReport report;
+    report.dt = dt;
+    GapScratch& scratch = *gaps_;
+    aimKeyedBodies(world, dt);
+    GapLevels levels = solveGaps(world, dt, report);
+    while (wakeStruck(world, dt, scratch)) levels = solveGaps(world, dt, report);
     if (observer_) observer_->stepDone(seeGaps(world, scratch, levels.graph, dt));
     {
         const PhaseTimer timer(report, Phase::position);
         writeVelocities(world, dt, scratch);
         moveBodies(world, settings_, dt, scratch);
+        wakeUnbalanced(world, scratch.forces);
     }
     findNonFinite(world, Phase::position, report);
     report.deepestBeforePushOut = findDeepestGap(scratch).depth;

@@ -12,6 +12,7 @@
 namespace scree {
 
 struct StepScratch;
+struct GapLevels;
 struct GapScratch;
 
 /// Serves one world: what it remembers of pairs from step to step is found again by their bodies.
@@ -43,6 +44,7 @@ private:
     /// The step proper, with the pairs that may meet already in scratch.
     StepReport stepFoundPairs(World& world, double dt);
     StepReport stepGaps(World& world, double dt);
+    GapLevels solveGaps(World& world, double dt, StepReport& report);
 
     StepSettings settings_;
     StepObserver* observer_ = nullptr;

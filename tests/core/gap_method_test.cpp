@@ -303,5 +303,75 @@ TEST(GapMethod, SleepersWakeAndMoveWhenStruckAndOnlyThen)
     EXPECT_TRUE(world.contactMemory.isAsleep(4));
 }
 
+TEST(GapMethod, WhatRollsOnABodyThatLiesStillKeepsItNotAwake)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const BodyId slab = addBody(world, boxShape({20.0, 1.0, 4.0}, 1), material,
+                                {Vec3(0.0, 0.5, 0.0), Quat::Identity()}, 100.0);
+    const BodyId ball =
+        addBody(world, exactSphere(0.25), material, {Vec3(-5.0, 1.25, 0.0), Quat::Identity()}, 1.0,
+                Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -4.0));
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 72; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_TRUE(world.contactMemory.isAsleep(slab));
+    EXPECT_FALSE(world.contactMemory.isAsleep(ball));
+    EXPECT_NEAR(world.motion[ball].position.x(), -2.0, 1e-3);
+    EXPECT_NEAR(world.motion[ball].position.y(), 1.25, 1e-4);
+}
+
+TEST(GapMethod, ABlowGoesThroughSleepersAsThroughWhatIsAwake)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 1.0);
+    addPlane(world, material);
+    const auto addBall = [&](double x, double speed) {
+        return addBody(world, exactSphere(0.5), material, {Vec3(x, 0.5, 0.0), Quat::Identity()},
+                       1.0, Vec3(speed, 0.0, 0.0));
+    };
+    constexpr int kBalls = 9;
+    for (int i = 0; i < kBalls; ++i) addBall(i, 0.0);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    for (BodyId b = 1; b <= kBalls; ++b) ASSERT_TRUE(world.contactMemory.isAsleep(b)) << b;
+
+    addBall(-3.0, 4.0);
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    // Were those out of reach of the first look left asleep, the blow would come back from them.
+    EXPECT_NEAR(world.motion[kBalls].velocity.x(), 4.0, 0.05);
+    for (BodyId b = 1; b < kBalls; ++b) EXPECT_NEAR(world.motion[b].velocity.x(), 0.0, 0.05) << b;
+}
+
+TEST(GapMethod, ASleeperPassesOnTheWeightOfWhatIsLaidOnIt)
+{
+    World world = makeStack(1, 1.0, 0.0);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    ASSERT_TRUE(world.contactMemory.isAsleep(1));
+
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), 0, {Vec3(0.0, 1.5, 0.0), Quat::Identity()}, 0.2);
+    for (int f = 0; f < 48; ++f) stepper.advanceFrame(world, kFrame);
+    double onGround = 0.0;  // on body 0, the plane
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        if (contact.a == 0) onGround -= contact.force.y();
+    }
+    EXPECT_NEAR(onGround, 1.2 * experimentSettings().gravity.norm(), 0.1);
+    EXPECT_TRUE(world.contactMemory.isAsleep(2));
+}
+
+TEST(GapMethod, SleepersThatLoseWhatHoldsThemFall)
+{
+    World world = makeStack(3, 1.0, 0.0);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    for (BodyId b = 1; b <= 3; ++b) ASSERT_TRUE(world.contactMemory.isAsleep(b)) << b;
+    // The middle one is carried away.
+    world.motion[2].position.x() = 5.0;
+    world.contactMemory.rest[2].isAsleep = false;
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_NEAR(world.motion[3].position.y(), 1.5, 1e-2);
+}
+
 }  // namespace
 }  // namespace scree::test
