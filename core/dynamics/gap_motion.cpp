@@ -68,7 +68,8 @@ void addCouplesOfImpacts(World& world, const GapScratch& scratch)
 /// End-of-step velocities are what contacts need, and move what speeds up or slows down by half a
 /// step's change too far. Where all contacts of an island last, its bodies move by the mean of the
 /// velocities before and after instead, as in free flight. What a keyed body carries it carries
-/// along: its velocity is the mean of the step already.
+/// along: its velocity is the mean of the step already. Nor beside a sleeper: there a heap comes to
+/// rest, and what the other way damps is what rocks in it.
 void moveByTheMean(World& world, double dt, GapScratch& scratch)
 {
     std::vector<char> isLasting(scratch.islands.size(), 1);
@@ -76,9 +77,9 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
         if (!isLasting[row.island]) continue;
         const GapBody& a = scratch.bodies[row.a];
         const GapBody& b = scratch.bodies[row.b];
-        const bool settles =
+        const bool isBesideSleeper =
             world.contactMemory.isAsleep(row.a) || world.contactMemory.isAsleep(row.b);
-        if (settles || (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b)))) {
+        if (isBesideSleeper || (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b)))) {
             isLasting[row.island] = 0;
             continue;
         }
