@@ -70,54 +70,85 @@ std::array<std::vector<std::size_t>, 3> cutInTwo(const GapScratch& scratch, cons
 
 }  // namespace
 
+/// Calls work(i) for all batches. Small islands keep to their thread: while it waited for others it
+/// might begin another island, in the same GapLanes.
+template <class Work>
+void GapLanes::forBatches(const Work& work) const
+{
+    const std::size_t grain = isCut() ? 16 : batches_.size();
+    parallelFor(batches_.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) work(i);
+    });
+}
+
 void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
                      std::vector<LaneBody>& bodies)
 {
     bodies_ = &bodies;
     batches_.clear();
-    lanesUsed_.clear();
     firstFree_.resize(bodies_->size(), 0);
     const std::array<std::vector<std::size_t>, 3> parts = cutInTwo(scratch, island);
     sections_ = {};
     for (std::size_t s = 0; s < parts.size(); ++s) schedule(scratch, parts[s], sections_[s]);
-    rows_.clear();
-    for (Batch& batch : batches_) fill(scratch, batch);
+    std::size_t rowCount = 0;
+    for (Batch& batch : batches_) {
+        batch.end += rowCount;
+        batch.begin = rowCount;
+        rowCount = batch.end;
+    }
+    rows_.resize(rowCount);
+    forBatches([&](std::size_t i) { fill(scratch, batches_[i]); });
 }
 
-/// Every pair goes into the first batch after those of the pairs before it that share a body with
+/// The first batch with an idle lane for so many rows, not before `earliest`; a new one if none is.
+std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest)
+{
+    std::vector<std::int32_t>& open = open_[rows];
+    const auto found = std::lower_bound(open.begin(), open.end(), earliest);
+    if (found != open.end()) {
+        const std::int32_t place = *found;
+        if (batches_[place].lanesUsed == kLanes - 1) open.erase(found);
+        return place;
+    }
+    const auto dummy = static_cast<std::int32_t>(bodies_->size() - 1);
+    const auto place = static_cast<std::int32_t>(batches_.size());
+    Batch& batch = batches_.emplace_back();
+    batch.end = rows;
+    for (int lane = 0; lane < kLanes; ++lane) {
+        batch.from[lane] = -1;
+        batch.a.body[lane] = batch.b.body[lane] = dummy;
+        batch.a.isMovable[lane] = batch.b.isMovable[lane] = false;
+    }
+    open.push_back(place);
+    return place;
+}
+
+/// The rows of every pair go into batches after those of the pairs before it that share a body with
 /// it: the outcome of a sweep is that of visiting the pairs one by one.
 void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
                         Section& section)
 {
     section.begin = batches_.size();
-    const auto begin = static_cast<std::int32_t>(section.begin);
-    const auto dummy = static_cast<std::int32_t>(bodies_->size() - 1);
+    for (std::vector<std::int32_t>& open : open_) open.clear();
     for (const std::size_t i : pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
+        const GapPair& pair = scratch.pairs[i];
+        const auto [a, b] = pair.bodies;
         const bool movesA = scratch.bodies[a].inverseMass > 0.0;
         const bool movesB = scratch.bodies[b].inverseMass > 0.0;
-        std::int32_t place =
-            std::max({begin, movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0});
-        const auto count = static_cast<std::int32_t>(batches_.size());
-        while (place < count && lanesUsed_[place] == kLanes) ++place;
-        if (place == count) {
-            Batch& batch = batches_.emplace_back();
-            for (int lane = 0; lane < kLanes; ++lane) {
-                batch.pair[lane] = -1;
-                batch.a.body[lane] = batch.b.body[lane] = dummy;
-                batch.a.isMovable[lane] = batch.b.isMovable[lane] = false;
-            }
-            lanesUsed_.push_back(0);
+        for (std::size_t r = pair.begin; r < pair.end; r += kRowsTogether) {
+            const std::int32_t earliest =
+                std::max(movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0);
+            const std::int32_t place = batchFor(std::min(kRowsTogether, pair.end - r), earliest);
+            Batch& batch = batches_[place];
+            const int lane = batch.lanesUsed++;
+            batch.from[lane] = static_cast<std::int32_t>(r);
+            batch.a.body[lane] = a;
+            batch.b.body[lane] = b;
+            batch.a.isMovable[lane] = movesA;
+            batch.b.isMovable[lane] = movesB;
+            if (movesA) firstFree_[a] = place + 1;
+            if (movesB) firstFree_[b] = place + 1;
         }
-        Batch& batch = batches_[place];
-        const int lane = lanesUsed_[place]++;
-        batch.pair[lane] = static_cast<std::int32_t>(i);
-        batch.a.body[lane] = a;
-        batch.b.body[lane] = b;
-        batch.a.isMovable[lane] = movesA;
-        batch.b.isMovable[lane] = movesB;
-        if (movesA) firstFree_[a] = place + 1;
-        if (movesB) firstFree_[b] = place + 1;
     }
     for (const std::size_t i : pairs) {
         const auto [a, b] = scratch.pairs[i].bodies;
@@ -128,45 +159,39 @@ void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t
 
 void GapLanes::fill(const GapScratch& scratch, Batch& batch)
 {
-    std::size_t count = 0;
-    for (std::int32_t p : batch.pair) {
-        if (p >= 0) count = std::max(count, scratch.pairs[p].end - scratch.pairs[p].begin);
-    }
-    batch.begin = rows_.size();
-    batch.end = batch.begin + count;
-    rows_.resize(batch.end);
-    for (int lane = 0; lane < kLanes; ++lane) {
-        if (batch.pair[lane] < 0) continue;
-        const GapPair& pair = scratch.pairs[batch.pair[lane]];
-        const GapRow& any = scratch.rows[pair.begin];
-        const auto place = [&](Side& side, const GapBody& body, bool moves) {
-            if (!moves) return;
-            side.inverseMass[lane] = body.inverseMass;
-            side.inverseInertia.set(lane, body.inverseInertia);
-        };
-        place(batch.a, scratch.bodies[any.a], any.movesA);
-        place(batch.b, scratch.bodies[any.b], any.movesB);
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& from = scratch.rows[r];
-            Row& row = rows_[batch.begin + (r - pair.begin)];
-            row.rA.set(lane, from.rA);
-            row.rB.set(lane, from.rB);
-            row.normal.set(lane, from.normal);
-            row.tangent.set(lane, from.tangent);
-            row.second.set(lane, from.secondTangent());
-            row.target[lane] = from.target;
-            row.friction[lane] = from.friction;
-            row.normalMass[lane] = 1.0 / from.inverseNormalMass;
-            row.inverseNormalMass[lane] = from.inverseNormalMass;
-            row.turnsIntoTangent[lane] = from.normalIntoFriction[0];
-            row.turnsIntoSecond[lane] = from.normalIntoFriction[1];
-            row.massTt[lane] = from.frictionMass[0];
-            row.massTs[lane] = from.frictionMass[1];
-            row.massSs[lane] = from.frictionMass[2];
-            row.slideMass[lane] = from.slideMass;
-            row.inverseSlideMass[lane] = 1.0 / from.slideMass;
-            row.impulse.set(lane, from.impulse);
-        }
+    for (std::size_t r = batch.begin; r < batch.end; ++r) rows_[r] = Row{};
+    for (int lane = 0; lane < batch.lanesUsed; ++lane) fillLane(scratch, batch, lane);
+}
+
+void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
+{
+    const GapRow* from = &scratch.rows[batch.from[lane]];
+    const auto place = [&](Side& side, const GapBody& body, bool moves) {
+        if (!moves) return;
+        side.inverseMass[lane] = body.inverseMass;
+        side.inverseInertia.set(lane, body.inverseInertia);
+    };
+    place(batch.a, scratch.bodies[from->a], from->movesA);
+    place(batch.b, scratch.bodies[from->b], from->movesB);
+    for (std::size_t r = batch.begin; r < batch.end; ++r, ++from) {
+        Row& row = rows_[r];
+        row.rA.set(lane, from->rA);
+        row.rB.set(lane, from->rB);
+        row.normal.set(lane, from->normal);
+        row.tangent.set(lane, from->tangent);
+        row.second.set(lane, from->secondTangent());
+        row.target[lane] = from->target;
+        row.friction[lane] = from->friction;
+        row.normalMass[lane] = 1.0 / from->inverseNormalMass;
+        row.inverseNormalMass[lane] = from->inverseNormalMass;
+        row.turnsIntoTangent[lane] = from->normalIntoFriction[0];
+        row.turnsIntoSecond[lane] = from->normalIntoFriction[1];
+        row.massTt[lane] = from->frictionMass[0];
+        row.massTs[lane] = from->frictionMass[1];
+        row.massSs[lane] = from->frictionMass[2];
+        row.slideMass[lane] = from->slideMass;
+        row.inverseSlideMass[lane] = 1.0 / from->slideMass;
+        row.impulse.set(lane, from->impulse);
     }
 }
 
@@ -263,8 +288,7 @@ void GapLanes::goOn(const Section& section, double beta)
 template <class Work>
 void GapLanes::inHalves(const Work& work)
 {
-    const std::size_t halves = sections_[1].end > sections_[1].begin ? 2 : 1;
-    parallelFor(halves, 1, [&](std::size_t begin, std::size_t end) {
+    parallelFor(isCut() ? 2 : 1, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) work(sections_[s]);
     });
 }
@@ -300,16 +324,19 @@ void GapLanes::store(GapScratch& scratch) const
         scratch.bodies[side.body[lane]].spin = body.spin;
     };
     for (const Batch& batch : batches_) {
-        for (int lane = 0; lane < kLanes; ++lane) {
-            if (batch.pair[lane] < 0) continue;
+        for (int lane = 0; lane < batch.lanesUsed; ++lane) {
             hand(batch.a, lane);
             hand(batch.b, lane);
-            const GapPair& pair = scratch.pairs[batch.pair[lane]];
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                scratch.rows[r].impulse = rows_[batch.begin + (r - pair.begin)].impulse.get(lane);
-            }
         }
     }
+    forBatches([&](std::size_t i) {
+        const Batch& batch = batches_[i];
+        for (int lane = 0; lane < batch.lanesUsed; ++lane) {
+            GapRow* to = &scratch.rows[batch.from[lane]];
+            for (std::size_t r = batch.begin; r < batch.end; ++r, ++to)
+                to->impulse = rows_[r].impulse.get(lane);
+        }
+    });
 }
 
 }  // namespace scree

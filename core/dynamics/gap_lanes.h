@@ -56,10 +56,12 @@ private:
         Lanes inverseMass = kNoLanes;
         SymmetricLanes inverseInertia;
     };
+    /// Up to kRowsTogether rows each of up to kLanes pairs that share no movable body.
     struct Batch {
         Side a, b;
-        std::int32_t pair[kLanes];  // index into GapScratch::pairs, −1 for none
-        std::size_t begin = 0, end = 0;
+        std::int32_t from[kLanes];  // the first row of each in GapScratch::rows, −1 for none
+        int lanesUsed = 0;
+        std::size_t begin = 0, end = 0;  // its rows here
     };
     struct Motion;
     /// Batches that are visited one after the other.
@@ -68,20 +70,30 @@ private:
         Lanes residual = kNoLanes, energy = kNoLanes;
     };
 
+    /// As many rows of different pairs go into one batch as those that come first: lanes that run
+    /// out of rows are idle, and pairs of a heap have from one row to dozens.
+    static constexpr std::size_t kRowsTogether = 4;
+
     void schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
                   Section& section);
+    std::int32_t batchFor(std::size_t rows, std::int32_t earliest);
     template <class Work>
     void inHalves(const Work& work);
+    template <class Work>
+    void forBatches(const Work& work) const;
+    bool isCut() const { return sections_[1].end > sections_[1].begin; }
     void sweepUp(Section& section);
     void sweepDown(Section& section);
     void goOn(const Section& section, double beta);
     void fill(const GapScratch& scratch, Batch& batch);
+    void fillLane(const GapScratch& scratch, Batch& batch, int lane);
     Lanes visit(Row& row, const Batch& batch, Motion& motion) const;
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
     std::vector<LaneBody>* bodies_ = nullptr;
     std::vector<Batch> batches_;
-    std::vector<std::int32_t> lanesUsed_, firstFree_;
+    std::vector<std::int32_t> firstFree_;  // per body: the batch after the last that has it
+    std::array<std::vector<std::int32_t>, kRowsTogether + 1> open_;  // batches with idle lanes
     std::vector<Row> rows_;
     std::array<Section, 3> sections_;  // either half, and what lies across the cut
 };
