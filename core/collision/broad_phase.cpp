@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/parallel.h"
+
 namespace scree {
 namespace {
 
@@ -66,9 +68,14 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
         }
         findRoomyPairs(mass);
     }
+    meets_.resize(roomyPairs_.size());
+    parallelFor(roomyPairs_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            meets_[i] = boxes[roomyPairs_[i].a].overlaps(boxes[roomyPairs_[i].b]);
+    });
     pairs_.clear();
-    for (BodyPair pair : roomyPairs_) {
-        if (boxes[pair.a].overlaps(boxes[pair.b])) pairs_.push_back(pair);
+    for (std::size_t i = 0; i < roomyPairs_.size(); ++i) {
+        if (meets_[i]) pairs_.push_back(roomyPairs_[i]);
     }
     return pairs_;
 }
@@ -76,14 +83,14 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
 void BroadPhase::findRoomyPairs(const std::vector<BodyMass>& mass)
 {
     const std::vector<Aabb>& boxes = roomy_;
+    found_.clear();
     roomyPairs_.clear();
     entries_.clear();
     large_.clear();
     edges_.clear();
     const auto report = [&](BodyId a, BodyId b) {
         if (!mass[a].isMovable() && !mass[b].isMovable()) return;
-        if (!boxes[a].overlaps(boxes[b])) return;
-        roomyPairs_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
+        found_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
     };
 
     for (const Aabb& box : boxes) {
@@ -120,6 +127,7 @@ void BroadPhase::findRoomyPairs(const std::vector<BodyMass>& mass)
         while (end < entries_.size() && entries_[end].cell == entries_[begin].cell) ++end;
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t j = i + 1; j < end; ++j) {
+                if (!boxes[entries_[i].body].overlaps(boxes[entries_[j].body])) continue;
                 // Boxes that share several cells meet in the first of them.
                 const auto &p = firstCells_[entries_[i].body], &q = firstCells_[entries_[j].body];
                 const std::uint64_t first =
@@ -134,11 +142,26 @@ void BroadPhase::findRoomyPairs(const std::vector<BodyMass>& mass)
             // Two large bodies meet once, when the first of them is walked.
             const bool alsoLarge = std::binary_search(large_.begin(), large_.end(), body);
             if (alsoLarge && body <= large_[i]) continue;
-            report(large_[i], body);
+            if (boxes[large_[i]].overlaps(boxes[body])) report(large_[i], body);
         }
     }
+    sortFound();
+}
 
-    std::sort(roomyPairs_.begin(), roomyPairs_.end());
+/// By the first body at a stroke, then the few of each by the second.
+void BroadPhase::sortFound()
+{
+    std::vector<std::size_t> end(roomy_.size() + 1, 0);
+    for (const BodyPair& pair : found_) ++end[pair.a + 1];
+    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
+    roomyPairs_.resize(found_.size());
+    for (const BodyPair& pair : found_) roomyPairs_[end[pair.a]++] = pair;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < roomy_.size(); ++i) {
+        std::sort(roomyPairs_.begin() + static_cast<std::ptrdiff_t>(begin),
+                  roomyPairs_.begin() + static_cast<std::ptrdiff_t>(end[i]));
+        begin = end[i];
+    }
 }
 
 }  // namespace scree

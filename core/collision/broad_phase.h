@@ -34,10 +34,12 @@ private:
         BodyId body;
     };
     void findRoomyPairs(const std::vector<BodyMass>& mass);
+    void sortFound();
 
-    std::vector<Aabb> roomy_;      // the boxes of the last search
-    std::vector<char> isMovable_;  // then
-    std::vector<BodyPair> roomyPairs_;
+    std::vector<Aabb> roomy_;                   // the boxes of the last search
+    std::vector<char> isMovable_;               // then
+    std::vector<BodyPair> found_, roomyPairs_;  // as found, and sorted
+    std::vector<char> meets_;                   // of each of these: whether the boxes asked for do
     std::vector<Entry> entries_;
     std::vector<std::array<std::int64_t, 3>> firstCells_;  // of each body
     std::vector<BodyId> large_;

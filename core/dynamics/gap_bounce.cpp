@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -84,7 +85,6 @@ public:
           dt_(dt),
           slowest_(slowestApproach(settings, dt)),
           scratch_(scratch),
-          pairsOf_(scratch),
           impacts_(scratch.bodies.size()),
           doneAt_(scratch.pairs.size(), 0),
           gatheredAt_(scratch.pairs.size(), 0),
@@ -96,6 +96,7 @@ public:
     ImpulseCounts run(std::int64_t& loopsAtTheirCap)
     {
         ImpulseCounts counts;
+        passOverQuietPairs();
         for (int sweep = 0; sweep < settings_.collisionIterations; ++sweep) {
             const std::int64_t before = counts.total();
             // There and back: a blow runs along a row of touching bodies whichever way it lies.
@@ -108,6 +109,20 @@ public:
     }
 
 private:
+    /// Most pairs are hit by nothing yet: they are done until a blow comes to one of their bodies.
+    void passOverQuietPairs()
+    {
+        ++visits_;
+        forPairsWithRows(scratch_, [&](std::size_t p) {
+            const GapPair& pair = scratch_.pairs[p];
+            Impact impact{};
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                if (impactOf(scratch_.rows[r], impact)) return;
+            }
+            doneAt_[p] = visits_;
+        });
+    }
+
     /// False when the row is not going to be hit within the step.
     bool impactOf(GapRow& row, Impact& impact) const
     {
@@ -142,7 +157,6 @@ private:
         return true;
     }
 
-    /// Most pairs are not hit, and stay so until a blow comes to one of their bodies.
     void visit(std::size_t p, ImpulseCounts& counts)
     {
         const auto [a, b] = scratch_.pairs[p].bodies;
@@ -184,7 +198,7 @@ private:
         while (!toSpread_.empty()) {
             const BodyId body = toSpread_.back();
             toSpread_.pop_back();
-            for (const std::size_t q : pairsOf_.of(body)) {
+            for (const std::size_t q : pairsOf(body)) {
                 if (gatheredAt_[q] == gathers_ || scratch_.rows[scratch_.pairs[q].begin].isCarried)
                     continue;
                 gatheredAt_[q] = gathers_;
@@ -197,6 +211,12 @@ private:
                 if (hits_.size() > before) toSpread_.push_back(a == body ? b : a);
             }
         }
+    }
+
+    std::span<const std::size_t> pairsOf(BodyId body)
+    {
+        if (!pairsOf_) pairsOf_.emplace(scratch_);
+        return pairsOf_->of(body);
     }
 
     /// Of all places of a pair that would be hit, those that are hit first: what would follow may
@@ -358,7 +378,7 @@ private:
     const StepSettings& settings_;
     double dt_, slowest_;
     GapScratch& scratch_;
-    PairsOfBodies pairsOf_;
+    std::optional<PairsOfBodies> pairsOf_;  // once asked for
     std::vector<Impacts> impacts_;
     std::int64_t visits_ = 0;           // that ended with nothing left to be hit
     std::vector<std::int64_t> doneAt_;  // the last of them, of each pair; 0: none

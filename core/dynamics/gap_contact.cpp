@@ -11,6 +11,7 @@
 #include "core/dynamics/gap_contact.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/base/parallel.h"
@@ -78,70 +79,70 @@ double energyOf(const GapRow& row, const Vec3& impulse)
            (impulse.y() * impulse.y() + impulse.z() * impulse.z()) / row.slideMass;
 }
 
-/// Calls visit(row) for all rows of an island, bottom to top.
-template <class Visit>
-void forRows(GapScratch& scratch, const GapIsland& island, const Visit& visit)
-{
-    for (std::size_t i : island.pairs) {
-        const GapPair& pair = scratch.pairs[i];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) visit(scratch.rows[r]);
-    }
-}
-
-/// One sweep up and one down; answers the largest change of a velocity at a row [m/s].
-double sweep(GapScratch& scratch, const GapIsland& island)
-{
-    forRows(scratch, island, [](GapRow& row) { row.before = row.impulse; });
-    double residual = 0.0;
-    const auto solve = [&](GapRow& row) {
-        const double changed = visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]);
-        residual = std::max(residual, changed);
-    };
-    forRows(scratch, island, solve);
-    for (std::size_t place = island.pairs.size(); place-- > 0;) {
-        const GapPair& pair = scratch.pairs[island.pairs[place]];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) solve(scratch.rows[r]);
-    }
-    return residual;
-}
-
-/// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].
-/// Answers the energy of that change.
-double goOn(GapScratch& scratch, const GapIsland& island, double energyBefore)
-{
-    double energy = 0.0;
-    forRows(scratch, island,
-            [&](const GapRow& row) { energy += energyOf(row, row.impulse - row.before); });
-    const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
-    forRows(scratch, island, [&](GapRow& row) {
-        const Vec3 gradient = row.impulse - row.before;
-        if (beta > 1.0) {
-            row.way = Vec3::Zero();  // the active set has changed: start again
-            return;
-        }
-        const Vec3 step = beta * row.way;
-        row.way = step + gradient;
-        if (step.isZero(0.0)) return;
-        row.impulse += step;
-        applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b],
-                 step.x() * row.normal + step.y() * row.tangent + step.z() * row.secondTangent());
-    });
-    return energy;
-}
-
 /// The plain twin of GapLanes, for one row after the other.
 class PlainRows {
 public:
-    PlainRows(GapScratch& scratch, const GapIsland& island) : scratch_(scratch), island_(island)
+    PlainRows(GapScratch& scratch, const GapIsland& island) : scratch_(scratch)
     {
-        forRows(scratch_, island_, [](GapRow& row) { row.way = Vec3::Zero(); });
+        for (const std::size_t i : island.pairs) {
+            const GapPair& pair = scratch.pairs[i];
+            for (std::size_t r = pair.begin; r < pair.end; ++r)
+                visits_.push_back({&scratch.rows[r]});
+        }
     }
-    double sweep() { return scree::sweep(scratch_, island_); }
-    double goOn(double energyBefore) { return scree::goOn(scratch_, island_, energyBefore); }
+
+    void begin()
+    {
+        for (const Visit& visit : visits_) apply(*visit.row, visit.row->worldImpulse());
+    }
+
+    double sweep()
+    {
+        for (Visit& visit : visits_) visit.before = visit.row->impulse;
+        double residual = 0.0;
+        const auto solve = [&](GapRow& row) {
+            const double changed = visitRow(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
+            residual = std::max(residual, changed);
+        };
+        for (const Visit& visit : visits_) solve(*visit.row);
+        for (std::size_t i = visits_.size(); i-- > 0;) solve(*visits_[i].row);
+        return residual;
+    }
+
+    double goOn(double energyBefore)
+    {
+        double energy = 0.0;
+        for (const Visit& visit : visits_)
+            energy += energyOf(*visit.row, visit.row->impulse - visit.before);
+        const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
+        for (Visit& visit : visits_) {
+            if (beta > 1.0) {
+                visit.way = Vec3::Zero();  // the active set has changed: start again
+                continue;
+            }
+            GapRow& row = *visit.row;
+            const Vec3 step = beta * visit.way;
+            visit.way = step + (row.impulse - visit.before);
+            row.impulse += step;
+            apply(row,
+                  step.x() * row.normal + step.y() * row.tangent + step.z() * row.secondTangent());
+        }
+        return energy;
+    }
 
 private:
+    struct Visit {
+        GapRow* row;
+        Vec3 before = Vec3::Zero(), way = Vec3::Zero();  // of its impulse
+    };
+
+    void apply(const GapRow& row, const Vec3& impulse)
+    {
+        applyRow(row, scratch_.bodies[row.a], scratch_.bodies[row.b], impulse);
+    }
+
     GapScratch& scratch_;
-    const GapIsland& island_;
+    std::vector<Visit> visits_;  // bottom to top
 };
 
 /// Until a sweep changes next to nothing, or in a heap a hundredth of what the first one changed:
@@ -152,6 +153,8 @@ void solve(const StepSettings& settings, double dt, const GapIsland& island, Row
     double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
     const int most = mostSweeps(settings, island);
     const bool isHeap = island.rowCount > kRowsOfAHeap;
+    // What is new begins with the weight handed down, which its bodies feel already.
+    if (island.isRemembered) rows.begin();
     double energy = 0.0;
     for (int done = 1;; ++done) {
         const double residual = rows.sweep();
@@ -186,14 +189,22 @@ void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
     lanes.store(scratch);
 }
 
-void countImpulses(const GapScratch& scratch, ImpulseCounts& counts)
+ImpulseCounts countImpulses(const GapScratch& scratch)
 {
-    for (const GapRow& row : scratch.rows) {
-        if (row.impulse.x() == 0.0) continue;
-        const double tangential = std::hypot(row.impulse.y(), row.impulse.z());
-        const bool slides = tangential >= row.friction * row.impulse.x() * (1.0 - 1e-9);
-        ++(slides ? counts.sliding : counts.sticking);
-    }
+    std::atomic<std::int64_t> sliding = 0, sticking = 0;
+    forPairsWithRows(scratch, [&](std::size_t i) {
+        std::int64_t slide = 0, stick = 0;
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            if (row.impulse.x() > 0.0) ++(sticks(row) ? stick : slide);
+        }
+        sliding += slide;
+        sticking += stick;
+    });
+    ImpulseCounts counts;
+    counts.sliding = sliding;
+    counts.sticking = sticking;
+    return counts;
 }
 
 }  // namespace
@@ -249,14 +260,23 @@ void addForcesToGaps(double dt, GapScratch& scratch)
 {
     // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
     // g dt²/2 too far.
+    std::vector<char> stops(scratch.pairs.size(), 0);
+    forPairsWithRows(scratch, [&](std::size_t i) {
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end && !stops[i]; ++r) {
+            const GapRow& row = scratch.rows[r];
+            const GapBody& a = scratch.bodies[row.a];
+            const GapBody& b = scratch.bodies[row.b];
+            const double g = (a.pull - b.pull).dot(row.normal);
+            const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
+                               dt * (velocityAt(row, a, b).dot(row.normal) + 0.5 * dt * g);
+            stops[i] = end < 0.0 || row.impulse.x() > 0.0;
+        }
+    });
     for (GapBody& body : scratch.bodies) body.isStopped = false;
-    for (const GapRow& row : scratch.rows) {
-        GapBody& a = scratch.bodies[row.a];
-        GapBody& b = scratch.bodies[row.b];
-        const double g = (a.pull - b.pull).dot(row.normal);
-        const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
-                           dt * (velocityAt(row, a, b).dot(row.normal) + 0.5 * dt * g);
-        if (end < 0.0 || row.impulse.x() > 0.0) a.isStopped = b.isStopped = true;
+    for (const std::size_t i : scratch.order) {
+        if (!stops[i]) continue;
+        scratch.bodies[scratch.pairs[i].bodies.a].isStopped = true;
+        scratch.bodies[scratch.pairs[i].bodies.b].isStopped = true;
     }
     for (GapBody& body : scratch.bodies) {
         body.velocityBefore = body.velocity;
@@ -270,19 +290,18 @@ void addForcesToGaps(double dt, GapScratch& scratch)
         body.shift -= 0.5 * dt * dt * body.pull;
         body.turn -= 0.5 * dt * dt * turning;
     }
-    for (GapRow& row : scratch.rows) {
-        const GapBody& a = scratch.bodies[row.a];
-        const GapBody& b = scratch.bodies[row.b];
-        row.target = -std::max(std::max(row.gap, 0.0) + shiftAt(row, a, b), 0.0) / dt;
-    }
+    forPairsWithRows(scratch, [&](std::size_t i) {
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+            GapRow& row = scratch.rows[r];
+            const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+            row.target = -std::max(std::max(row.gap, 0.0) + shift, 0.0) / dt;
+        }
+    });
 }
 
 ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
                           GapScratch& scratch)
 {
-    for (GapRow& row : scratch.rows) {
-        applyRow(row, scratch.bodies[row.a], scratch.bodies[row.b], row.worldImpulse());
-    }
     handWeightDown(settings, dt, levels, scratch);
     std::vector<LaneBody> laneBodies(scratch.bodies.size() + 1);
     for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
@@ -301,9 +320,7 @@ ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLeve
         for (std::size_t i = begin; i < end; ++i)
             solveIsland(settings, dt, scratch, *small[i], laneBodies);
     });
-    ImpulseCounts counts;
-    countImpulses(scratch, counts);
-    return counts;
+    return countImpulses(scratch);
 }
 
 }  // namespace scree

@@ -232,6 +232,17 @@ inline Lanes GapLanes::visit(Row& row, const Batch& batch, Motion& motion) const
                  maxOf(absOf(change.y), absOf(change.z)) * row.inverseSlideMass);
 }
 
+void GapLanes::begin(const Section& section)
+{
+    for (std::size_t place = section.begin; place < section.end; ++place) {
+        const Batch& batch = batches_[place];
+        Motion motion(batch, *bodies_);
+        for (std::size_t r = batch.begin; r < batch.end; ++r)
+            apply(rows_[r], batch, rows_[r].impulse, motion);
+        motion.store(batch, *bodies_);
+    }
+}
+
 void GapLanes::sweepUp(Section& section)
 {
     section.residual = kNoLanes;
@@ -291,6 +302,12 @@ void GapLanes::inHalves(const Work& work)
     parallelFor(isCut() ? 2 : 1, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) work(sections_[s]);
     });
+}
+
+void GapLanes::begin()
+{
+    inHalves([&](const Section& section) { begin(section); });
+    begin(sections_[2]);
 }
 
 double GapLanes::sweep()

@@ -29,6 +29,9 @@ public:
     /// and one more that no row has.
     void build(const GapScratch& scratch, const GapIsland& island, std::vector<LaneBody>& bodies);
 
+    /// The bodies take the impulses that the rows begin with.
+    void begin();
+
     /// One sweep up and one down; answers the largest change of a velocity at a row [m/s].
     double sweep();
 
@@ -84,6 +87,7 @@ private:
     bool isCut() const { return sections_[1].end > sections_[1].begin; }
     void sweepUp(Section& section);
     void sweepDown(Section& section);
+    void begin(const Section& section);
     void goOn(const Section& section, double beta);
     void fill(const GapScratch& scratch, Batch& batch);
     void fillLane(const GapScratch& scratch, Batch& batch, int lane);

@@ -164,8 +164,10 @@ std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std
                                 const std::vector<char>& isChosen)
 {
     std::vector<std::size_t> rows;
-    for (std::size_t r : level) {
-        if (isChosen[scratch.rows[r].island]) rows.push_back(r);
+    for (const std::size_t i : level) {
+        const GapPair& pair = scratch.pairs[i];
+        if (!isChosen[scratch.rows[pair.begin].island]) continue;
+        for (std::size_t r = pair.begin; r < pair.end; ++r) rows.push_back(r);
     }
     return rows;
 }
@@ -174,28 +176,42 @@ std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std
 
 GapLevels buildGapLevels(double dt, const GapScratch& scratch)
 {
+    struct Falls {
+        bool ofA = false, ofB = false;  // onto the other
+    };
+    std::vector<Falls> falls(scratch.pairs.size());
+    forPairsWithRows(scratch, [&](std::size_t i) {
+        const auto [idA, idB] = scratch.pairs[i].bodies;
+        const GapBody &a = scratch.bodies[idA], &b = scratch.bodies[idB];
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            const double drift = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
+                                 dt * velocityAt(row, a, b).dot(row.normal);
+            const double fallOfA = dt * dt * a.pull.dot(row.normal);
+            const double fallOfB = dt * dt * b.pull.dot(row.normal);
+            falls[i].ofA |= a.inverseMass > 0.0 && drift + fallOfA < 0.0;
+            falls[i].ofB |= b.inverseMass > 0.0 && drift - fallOfB < 0.0;
+        }
+    });
     const std::size_t count = scratch.bodies.size();
     std::vector<char> isFixed(count);
     for (std::size_t i = 0; i < count; ++i) isFixed[i] = scratch.bodies[i].inverseMass == 0.0;
     std::vector<SupportEdge> edges;
-    for (const GapRow& row : scratch.rows) {
-        const GapBody& a = scratch.bodies[row.a];
-        const GapBody& b = scratch.bodies[row.b];
-        const double drift = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
-                             dt * velocityAt(row, a, b).dot(row.normal);
-        const double fallOfA = dt * dt * a.pull.dot(row.normal);
-        const double fallOfB = dt * dt * b.pull.dot(row.normal);
-        if (a.inverseMass > 0.0 && drift + fallOfA < 0.0) edges.push_back({row.b, row.a});
-        if (b.inverseMass > 0.0 && drift - fallOfB < 0.0) edges.push_back({row.a, row.b});
+    for (std::size_t i = 0; i < falls.size(); ++i) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (falls[i].ofA) edges.push_back({b, a});
+        if (falls[i].ofB) edges.push_back({a, b});
     }
     GapLevels levels;
     levels.graph = computeLevels(count, edges, isFixed);
-    for (std::size_t r = 0; r < scratch.rows.size(); ++r) {
-        const GapRow& row = scratch.rows[r];
-        const auto level = static_cast<std::size_t>(
-            std::max(levels.graph.level[row.a], levels.graph.level[row.b]));
-        if (levels.rows.size() <= level) levels.rows.resize(level + 1);
-        levels.rows[level].push_back(r);
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
+        const GapPair& pair = scratch.pairs[i];
+        if (pair.begin == pair.end) continue;
+        const auto [a, b] = pair.bodies;
+        const auto level =
+            static_cast<std::size_t>(std::max(levels.graph.level[a], levels.graph.level[b]));
+        if (levels.pairs.size() <= level) levels.pairs.resize(level + 1);
+        levels.pairs[level].push_back(i);
     }
     return levels;
 }
@@ -207,8 +223,8 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
     for (std::size_t i = 0; i < isNew.size(); ++i) isNew[i] = !scratch.islands[i].isRemembered;
     if (std::find(isNew.begin(), isNew.end(), 1) == isNew.end()) return;
     HeldBodies held(scratch);
-    for (std::size_t level = levels.rows.size(); level-- > 0;) {
-        const std::vector<std::size_t> rows = rowsOf(scratch, levels.rows[level], isNew);
+    for (std::size_t level = levels.pairs.size(); level-- > 0;) {
+        const std::vector<std::size_t> rows = rowsOf(scratch, levels.pairs[level], isNew);
         const auto hold = [&](BodyId body) {
             GapBody& b = scratch.bodies[body];
             if (b.inverseMass == 0.0 || levels.graph.level[body] == static_cast<int>(level)) return;
@@ -248,8 +264,8 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
     if (std::find(closes.begin(), closes.end(), 1) == closes.end()) return;
     HeldBodies held(scratch);
     std::vector<Vec3> remembered;
-    for (std::size_t level = 0; level < levels.rows.size(); ++level) {
-        const std::vector<std::size_t> rows = rowsOf(scratch, levels.rows[level], closes);
+    for (std::size_t level = 0; level < levels.pairs.size(); ++level) {
+        const std::vector<std::size_t> rows = rowsOf(scratch, levels.pairs[level], closes);
         const auto holdIfSupported = [&](BodyId body) {
             if (scratch.bodies[body].inverseMass == 0.0 || !levels.graph.isSupported[body]) return;
             if (levels.graph.level[body] != static_cast<int>(level)) held.hold(body);

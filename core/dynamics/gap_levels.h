@@ -7,10 +7,11 @@
 
 namespace scree {
 
-/// The same levels as those of the paper's graph, and the rows of each.
+/// The same levels as those of the paper's graph, and the pairs of each.
 struct GapLevels {
     GraphLevels graph;
-    std::vector<std::vector<std::size_t>> rows;  ///< by level: rows whose higher body is in it
+    std::vector<std::vector<std::size_t>> pairs;  ///< by level: those with rows whose higher body
+                                                  ///< is in it
 };
 
 /// With the velocities before forces.

@@ -38,6 +38,11 @@ bool lasts(const GapRow& row, const Vec3& s, double gapAtEnd, double blind)
     return slides || (s - apart * row.normal).norm() <= blind;
 }
 
+/// What the impulses of a pair add to the angular momenta of its bodies [kg m²/s].
+struct PairTurn {
+    Vec3 ofA = Vec3::Zero(), ofB = Vec3::Zero();
+};
+
 /// Impulses have the lever arms of the beginning of the step. A body that moves for a while without
 /// one - up to the blow, or by the mean velocity - has its centre elsewhere when it acts, and two
 /// that slide along each other meanwhile, by `slid`, would gain or lose angular momentum. They take
@@ -65,6 +70,29 @@ void addCouplesOfImpacts(World& world, const GapScratch& scratch)
     }
 }
 
+/// Whether all contacts of an island last through a step of mean motion.
+bool lasts(const World& world, double dt, const GapScratch& scratch, const GapIsland& island)
+{
+    for (const std::size_t i : island.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        const auto [idA, idB] = pair.bodies;
+        if (world.contactMemory.isAsleep(idA) || world.contactMemory.isAsleep(idB)) return false;
+        const GapBody& a = scratch.bodies[idA];
+        const GapBody& b = scratch.bodies[idB];
+        const MeanMotion ofA(a, dt), ofB(b, dt);
+        const double blind = kLasting * smallerRadius(world, idA, idB);
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            if (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b))) return false;
+            const Vec3 s = ofA.shift + ofA.turn.cross(row.rA) - ofB.shift - ofB.turn.cross(row.rB);
+            const double gapAtEnd =
+                row.gap + shiftAt(row, a, b) + dt * velocityAt(row, a, b).dot(row.normal);
+            if (!lasts(row, s, gapAtEnd, blind)) return false;
+        }
+    }
+    return true;
+}
+
 /// End-of-step velocities are what contacts need, and move what speeds up or slows down by half a
 /// step's change too far. Where all contacts of an island last, its bodies move by the mean of the
 /// velocities before and after instead, as in free flight. What a keyed body carries it carries
@@ -72,38 +100,26 @@ void addCouplesOfImpacts(World& world, const GapScratch& scratch)
 /// rest, and what the other way damps is what rocks in it.
 void moveByTheMean(World& world, double dt, GapScratch& scratch)
 {
-    std::vector<char> isLasting(scratch.islands.size(), 1);
-    for (const GapRow& row : scratch.rows) {
-        if (!isLasting[row.island]) continue;
-        const GapBody& a = scratch.bodies[row.a];
-        const GapBody& b = scratch.bodies[row.b];
-        const bool isBesideSleeper =
-            world.contactMemory.isAsleep(row.a) || world.contactMemory.isAsleep(row.b);
-        if (isBesideSleeper || (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b)))) {
-            isLasting[row.island] = 0;
-            continue;
-        }
-        const MeanMotion ofA(a, dt), ofB(b, dt);
-        const Vec3 s = ofA.shift + ofA.turn.cross(row.rA) - ofB.shift - ofB.turn.cross(row.rB);
-        const double gapAtEnd =
-            row.gap + shiftAt(row, a, b) + dt * velocityAt(row, a, b).dot(row.normal);
-        isLasting[row.island] =
-            lasts(row, s, gapAtEnd, kLasting * smallerRadius(world, row.a, row.b));
-    }
-    std::vector<char> isMoved(scratch.bodies.size(), 0);
-    for (const GapRow& row : scratch.rows) {
-        if (!isLasting[row.island]) continue;
+    for (const GapIsland& island : scratch.islands) {
+        if (!lasts(world, dt, scratch, island)) continue;
         const auto late = [dt](const GapBody& body) {
             return body.isStopped ? Vec3(0.5 * dt * body.velocity) : Vec3(Vec3::Zero());
         };
-        if (row.impulse.x() > 0.0) {
-            addCouple(world, scratch, row, row.worldImpulse(),
-                      late(scratch.bodies[row.a]) - late(scratch.bodies[row.b]));
+        std::vector<BodyId> movers;
+        for (const std::size_t i : island.pairs) {
+            const GapPair& pair = scratch.pairs[i];
+            movers.insert(movers.end(), {pair.bodies.a, pair.bodies.b});
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                const GapRow& row = scratch.rows[r];
+                if (row.impulse.x() == 0.0) continue;
+                addCouple(world, scratch, row, row.worldImpulse(),
+                          late(scratch.bodies[row.a]) - late(scratch.bodies[row.b]));
+            }
         }
-        for (const BodyId id : {row.a, row.b}) {
-            if (isMoved[id]) continue;
-            isMoved[id] = 1;
-            GapBody& body = scratch.bodies[id];
+        std::sort(movers.begin(), movers.end());
+        movers.erase(std::unique(movers.begin(), movers.end()), movers.end());
+        for (const BodyId mover : movers) {
+            GapBody& body = scratch.bodies[mover];
             const MeanMotion mean(body, dt);
             body.shift += mean.shift;
             body.turn += mean.turn;
@@ -116,6 +132,7 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
 void writeVelocities(World& world, double dt, const GapScratch& scratch)
 {
     const auto isStepped = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    const auto bears = [](const GapRow& row) { return row.impulse.x() != 0.0; };
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         if (!isStepped(static_cast<BodyId>(i))) continue;
         world.motion[i].velocity = scratch.bodies[i].velocity;
@@ -130,21 +147,37 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
         if (sleeps && !isStepped(contact.a) && !isStepped(contact.b)) kept.push_back(contact);
     }
     const auto ofSleepers = static_cast<std::ptrdiff_t>(kept.size());
-    for (const GapPair& pair : scratch.pairs) {
+    std::vector<PairTurn> turns(scratch.pairs.size());
+    std::vector<std::size_t> first(scratch.pairs.size() + 1);  // of each pair in `kept`
+    first[0] = kept.size();
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
+        const auto begin =
+            scratch.rows.begin() + static_cast<std::ptrdiff_t>(scratch.pairs[i].begin);
+        const auto end = scratch.rows.begin() + static_cast<std::ptrdiff_t>(scratch.pairs[i].end);
+        first[i + 1] = first[i] + static_cast<std::size_t>(std::count_if(begin, end, bears));
+    }
+    kept.resize(first.back());
+    forPairsWithRows(scratch, [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        const Quat aFromWorld = world.motion[pair.bodies.a].orientation.conjugate();
+        std::size_t place = first[i];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
-            if (row.impulse.x() == 0.0) continue;
+            if (!bears(row)) continue;
             const Vec3 impulse = row.worldImpulse();
             // What changes the angular momentum is the impulse itself: a product with an inertia
             // and its inverse would lose bits every step.
-            if (row.movesA)
-                world.motion[row.a].angularMomentum += row.rA.cross(impulse) + row.couple;
-            if (row.movesB)
-                world.motion[row.b].angularMomentum -= row.rB.cross(impulse) + row.couple;
-            const Quat aFromWorld = world.motion[row.a].orientation.conjugate();
-            kept.push_back({row.a, row.b, pair.contacts[r - pair.begin].feature,
-                            aFromWorld * row.rA, impulse / dt});
+            turns[i].ofA += row.rA.cross(impulse) + row.couple;
+            turns[i].ofB -= row.rB.cross(impulse) + row.couple;
+            kept[place++] = {row.a, row.b, pair.contacts[r - pair.begin].feature,
+                             aFromWorld * row.rA, impulse / dt};
         }
+    });
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
+        if (first[i] == first[i + 1]) continue;
+        const GapRow& any = scratch.rows[scratch.pairs[i].begin];
+        if (any.movesA) world.motion[any.a].angularMomentum += turns[i].ofA;
+        if (any.movesB) world.motion[any.b].angularMomentum += turns[i].ofB;
     }
     // Both parts are sorted: the memory is, and so are the pairs.
     std::inplace_merge(kept.begin(), kept.begin() + ofSleepers, kept.end(),

@@ -230,7 +230,7 @@ private:
                                 world_.motion[a].worldFromBody(), world_.motion[b].worldFromBody()};
         contacts_.clear();
         // Bodies have moved since their ways were measured: nothing follows from them.
-        pair.near.findContacts(placed, reach, contacts_, -std::numeric_limits<double>::infinity());
+        pair.near->findContacts(placed, reach, contacts_, -std::numeric_limits<double>::infinity());
         return deepestOf(contacts_);
     }
 
@@ -258,14 +258,19 @@ private:
 /// What steps leave: a share of it.
 PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratch& scratch)
 {
-    std::vector<RowPush> pushes;
-    for (const std::size_t i : scratch.order) {
-        if (deep.isLookedAt(i)) continue;
+    std::vector<double> wanted(scratch.rows.size(), 0.0);
+    forPairsWithRows(scratch, [&](std::size_t i) {
+        if (deep.isLookedAt(i)) return;
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
             const GapRow& row = scratch.rows[r];
             const double gap = row.gap + shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
-            const double excess = excessOf(world, row, gap);
-            if (excess > 0.0) pushes.push_back({&row, kShare * excess});
+            wanted[r] = kShare * std::max(excessOf(world, row, gap), 0.0);
+        }
+    });
+    std::vector<RowPush> pushes;
+    for (const std::size_t i : scratch.order) {
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+            if (wanted[r] > 0.0) pushes.push_back({&scratch.rows[r], wanted[r]});
         }
     }
     if (pushes.empty()) return {};

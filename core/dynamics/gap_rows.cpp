@@ -106,9 +106,10 @@ Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, doubl
 void findGapPairs(const World& world, double dt, GapScratch& scratch)
 {
     scratch.boxes.resize(world.bodyCount());
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        scratch.boxes[i] = boxWithin(world, scratch, static_cast<BodyId>(i), dt);
-    }
+    parallelFor(world.bodyCount(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            scratch.boxes[i] = boxWithin(world, scratch, static_cast<BodyId>(i), dt);
+    });
     std::vector<BodyPair>& found = scratch.candidates;
     found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
     std::erase_if(found, [&](BodyPair pair) {
@@ -119,16 +120,18 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
     });
 
     // Both lists are sorted: pairs that stay keep what they know.
-    std::vector<GapPair> pairs(found.size());
+    std::vector<GapPair>& former = scratch.formerPairs;
+    std::swap(scratch.pairs, former);
+    scratch.pairs.clear();
     std::size_t old = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        while (old < scratch.pairs.size() && scratch.pairs[old].bodies < found[i]) ++old;
-        if (old < scratch.pairs.size() && scratch.pairs[old].bodies == found[i]) {
-            pairs[i] = std::move(scratch.pairs[old++]);
+    for (const BodyPair& bodies : found) {
+        while (old < former.size() && former[old].bodies < bodies) ++old;
+        if (old < former.size() && former[old].bodies == bodies) {
+            scratch.pairs.push_back(std::move(former[old++]));
+        } else {
+            scratch.pairs.emplace_back().bodies = bodies;
         }
-        pairs[i].bodies = found[i];
     }
-    scratch.pairs = std::move(pairs);
 }
 
 Vec3 anyTangent(const Vec3& normal)
@@ -324,14 +327,16 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
             for (std::size_t i = begin; i < end; ++i) {
                 GapPair& pair = scratch.pairs[i];
                 pair.contacts.clear();
+                pair.depth = 0.0;
                 const auto [a, b] = pair.bodies;
                 const double reach = reachOf(world, scratch, pair.bodies, dt);
                 const double odometer = scratch.odometer[a] + scratch.odometer[b];
-                if (pair.near.isApart(reach, odometer)) continue;
+                if (pair.near->isApart(reach, odometer)) continue;
                 const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
                                         world.motion[a].worldFromBody(),
                                         world.motion[b].worldFromBody()};
-                pair.near.findContacts(placed, reach, pair.contacts, odometer);
+                pair.near->findContacts(placed, reach, pair.contacts, odometer);
+                pair.depth = deepestOf(pair.contacts);
             }
         });
     } while (wakeByTouch(world, dt, scratch));
@@ -342,15 +347,17 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
     std::size_t count = 0;
     scratch.order.clear();
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        const auto [a, b] = scratch.pairs[i].bodies;
+        GapPair& pair = scratch.pairs[i];
+        const auto [a, b] = pair.bodies;
         // A keyed body beside a sleeping one moves nothing.
-        if (scratch.bodies[a].inverseMass == 0.0 && scratch.bodies[b].inverseMass == 0.0)
-            scratch.pairs[i].contacts.clear();
-        scratch.pairs[i].depth = deepestOf(scratch.pairs[i].contacts);
-        scratch.pairs[i].begin = count;
-        count += scratch.pairs[i].contacts.size();
-        scratch.pairs[i].end = count;
-        if (scratch.pairs[i].end > scratch.pairs[i].begin) scratch.order.push_back(i);
+        if (scratch.bodies[a].inverseMass == 0.0 && scratch.bodies[b].inverseMass == 0.0) {
+            pair.contacts.clear();
+            pair.depth = 0.0;
+        }
+        pair.begin = count;
+        count += pair.contacts.size();
+        pair.end = count;
+        if (pair.end > pair.begin) scratch.order.push_back(i);
     }
     scratch.rows.resize(count);
 

@@ -7,8 +7,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/collision/near_features.h"
 #include "core/dynamics/scratch.h"
 
@@ -35,9 +37,8 @@ struct GapRow {
     Vec3 normal, tangent;  ///< from B to A; the second tangent is normal × tangent
     double gap;            ///< [m]
     double friction, restitution;
-    double target;     ///< normal velocity that closes the gap within the step [m/s], ≤ 0
-    Vec3 before, way;  ///< of the sweep: impulse before it, and the conjugate direction
-    Vec3 impulse;      ///< along normal, tangent and second tangent, on A [N s]
+    double target;  ///< normal velocity that closes the gap within the step [m/s], ≤ 0
+    Vec3 impulse;   ///< along normal, tangent and second tangent, on A [N s]
     double inverseNormalMass;
     double frictionMass[3];          ///< inverse of the tangential 2×2 block: tt, ts, ss
     double slideMass;                ///< 1 / largest eigenvalue of that block
@@ -59,10 +60,10 @@ struct GapRow {
     }
 };
 
-/// The pairs of a step and what they remember.
+/// The pairs of a step and what they remember. Small: every step lays them out anew.
 struct GapPair {
     BodyPair bodies;
-    NearFeatures near;
+    std::unique_ptr<NearFeatures> near = std::make_unique<NearFeatures>();
     std::vector<GapContact> contacts;
     std::size_t begin = 0, end = 0;  ///< its rows
     double depth = 0.0;              ///< of its deepest overlap, as last seen [m]
@@ -88,7 +89,8 @@ struct GapScratch {
     std::vector<Aabb> boxes;
     std::vector<BodyPair> candidates;  ///< what it found, without pairs that groups keep apart
     std::vector<AppliedForce> forces;
-    std::vector<GapPair> pairs;  ///< sorted by bodies
+    std::vector<GapPair> pairs;        ///< sorted by bodies
+    std::vector<GapPair> formerPairs;  ///< of the last step, without those that are left
     /// Per body: where it was last, and how far its points have moved in all at most [m].
     std::vector<Pose> seenAt;
     std::vector<double> odometer;
@@ -105,6 +107,16 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
 /// Lays the contacts out as rows, with the impulses that
 /// the world remembers. Keyed bodies must have been aimed.
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
+
+/// Calls work(pair) for every pair that has rows, shared by threads: it may write to what belongs
+/// to the pair alone, its rows among that.
+template <class Work>
+void forPairsWithRows(const GapScratch& scratch, const Work& work)
+{
+    parallelFor(scratch.order.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t place = begin; place < end; ++place) work(scratch.order[place]);
+    });
+}
 
 /// Cannot be moved by impulses, and moves.
 inline bool isDriven(const GapBody& body)

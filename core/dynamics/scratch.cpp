@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/rolling_friction.h"
 
@@ -177,10 +178,12 @@ void findCandidates(const World& world, const StepSettings& settings, double rem
     const std::size_t bodies = world.bodyCount();
     findForces(world, settings, remaining, scratch.forces);
     scratch.sweptBoxes.resize(bodies);
-    for (std::size_t b = 0; b < bodies; ++b) {
-        scratch.sweptBoxes[b] =
-            sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
-    }
+    parallelFor(bodies, 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            scratch.sweptBoxes[b] =
+                sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
+        }
+    });
     meetingBoxes(world, scratch);
 }
 

@@ -172,8 +172,23 @@ std::vector<ContactLoad> contactLoads(const World& world)
     return loads;
 }
 
+bool touchesSleeper(const World& world, BodyId a, BodyId b)
+{
+    return world.contactMemory.isAsleep(a) || world.contactMemory.isAsleep(b);
+}
+
+/// Right for sleepers alone.
+std::vector<ContactLoad> loadsOfSleepers(const World& world)
+{
+    std::vector<ContactLoad> loads(world.bodyCount());
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        if (touchesSleeper(world, contact.a, contact.b)) addContact(world, contact, loads);
+    }
+    return loads;
+}
+
 /// Those of a step that is not over: what lies between sleepers is remembered, the rest solved.
-std::vector<ContactLoad> contactLoads(const World& world, double dt, const GapScratch& scratch)
+std::vector<ContactLoad> loadsOfSleepers(const World& world, double dt, const GapScratch& scratch)
 {
     std::vector<ContactLoad> loads(world.bodyCount());
     for (const RememberedContact& contact : world.contactMemory.contacts) {
@@ -184,7 +199,12 @@ std::vector<ContactLoad> contactLoads(const World& world, double dt, const GapSc
         loads[row.a].add(row.rA, impulse / dt);
         loads[row.b].add(row.rB, -impulse / dt);
     };
-    for (const GapRow& row : scratch.rows) add(row, row.worldImpulse());
+    for (const std::size_t i : scratch.order) {
+        const GapPair& pair = scratch.pairs[i];
+        if (!touchesSleeper(world, pair.bodies.a, pair.bodies.b)) continue;
+        for (std::size_t r = pair.begin; r < pair.end; ++r)
+            add(scratch.rows[r], scratch.rows[r].worldImpulse());
+    }
     for (const GapImpact& impact : scratch.impacts) add(scratch.rows[impact.row], impact.impulse);
     return loads;
 }
@@ -324,7 +344,7 @@ void fallAsleep(World& world, GapScratch& scratch)
 bool wakeStruck(World& world, double dt, const GapScratch& scratch)
 {
     if (!anyAsleep(world)) return false;
-    const std::vector<ContactLoad> loads = contactLoads(world, dt, scratch);
+    const std::vector<ContactLoad> loads = loadsOfSleepers(world, dt, scratch);
     std::vector<BodyId> roots;
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
@@ -345,7 +365,7 @@ void wakeUnbalanced(World& world, const std::vector<AppliedForce>& forces)
 {
     if (!anyAsleep(world)) return;
     std::vector<BodyRest>& rest = world.contactMemory.rest;
-    const std::vector<ContactLoad> loads = contactLoads(world);
+    const std::vector<ContactLoad> loads = loadsOfSleepers(world);
     for (std::size_t i = 0; i < rest.size(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (!rest[i].isAsleep || awaitsTouch(world, body, loads[i])) continue;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/integrator.h"
 
 namespace scree {
@@ -30,9 +32,15 @@ double thickness(const World& world, BodyId body)
 
 /// How a body may move in the rest of the frame, as far as its present motion or its script tell.
 struct Outlook {
-    std::vector<Vec3> velocities;  // of a keyed body anything in their hull, else the present one
-    double spin = 0.0;             // [rad/s]
-    double surfaceSpeed = 0.0;     // by the spin [m/s]
+    Vec3 velocity = Vec3::Zero();
+    std::vector<Vec3> scripted;  // of a keyed body instead: anything in their hull
+    double spin = 0.0;           // [rad/s]
+    double surfaceSpeed = 0.0;   // by the spin [m/s]
+
+    std::span<const Vec3> velocities() const
+    {
+        return scripted.empty() ? std::span(&velocity, 1) : std::span(scripted);
+    }
 };
 
 Outlook outlookOf(const World& world, BodyId body, double remaining)
@@ -43,18 +51,18 @@ Outlook outlookOf(const World& world, BodyId body, double remaining)
             world.info[body].script->boundsBetween(world.time(), world.time(remaining));
         // The script moves the asset's origin, about which the centre of mass turns.
         const double arm = shape.bodyFromAsset.position.norm() + shape.boundingRadius;
-        return {bounds.velocities, bounds.spin, bounds.spin * arm};
+        return {Vec3::Zero(), bounds.velocities, bounds.spin, bounds.spin * arm};
     }
     const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
-    return {{world.motion[body].velocity}, spin, spin > 0.0 ? spin * shape.boundingRadius : 0.0};
+    return {world.motion[body].velocity, {}, spin, spin > 0.0 ? spin * shape.boundingRadius : 0.0};
 }
 
 /// The largest relative speed of two surfaces.
 double relativeSpeed(const Outlook& a, const Outlook& b)
 {
     double fastest = 0.0;
-    for (const Vec3& v : a.velocities) {
-        for (const Vec3& w : b.velocities) fastest = std::max(fastest, (v - w).norm());
+    for (const Vec3& v : a.velocities()) {
+        for (const Vec3& w : b.velocities()) fastest = std::max(fastest, (v - w).norm());
     }
     return fastest + a.surfaceSpeed + b.surfaceSpeed;
 }
@@ -69,6 +77,26 @@ double timeToPass(double length, double s, double g)
 void tighten(StepLength& limit, double dt, StepLimit by, BodyId body)
 {
     if (dt < limit.dt) limit = {dt, by, body, false};
+}
+
+void limitByPair(const World& world, const StepSettings& settings, const StepScratch& scratch,
+                 const std::vector<Outlook>& outlooks, BodyPair pair, StepLength& limit)
+{
+    const auto [a, b] = pair;
+    const double alpha = kAlphaPerSafety * settings.substeps.safety;
+    const double thinner = std::min(thickness(world, a), thickness(world, b));
+    const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
+    const BodyId faster =
+        world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
+    const double s = relativeSpeed(outlooks[a], outlooks[b]);
+    tighten(limit, timeToPass(alpha * thinner, s, (pullA - pullB).norm()), StepLimit::relativeSpeed,
+            faster);
+    const double g = std::max(pullA.norm(), pullB.norm());
+    const bool isPaper = settings.method == Method::paper;
+    if (g > 0.0 && (isPaper || isStepped(world, a) || isStepped(world, b))) {
+        const double share = isPaper ? settings.hoverLimit : kFallPerStep;
+        tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
+    }
 }
 
 /// For method `scree`: a heap whose step length changes all the time never finds its rest, since
@@ -94,29 +122,27 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
                       double remaining, const StepScratch& scratch)
 {
-    const double alpha = kAlphaPerSafety * settings.substeps.safety;
-    std::vector<Outlook> outlooks;
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        outlooks.push_back(outlookOf(world, static_cast<BodyId>(b), remaining));
-    }
+    std::vector<Outlook> outlooks(world.bodyCount());
+    parallelFor(world.bodyCount(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b)
+            outlooks[b] = outlookOf(world, static_cast<BodyId>(b), remaining);
+    });
     // What is left of the frame is no wish of the motion: steps that had to fit into it would
     // halve, and halve again.
     const double longest = frameDuration / std::max(settings.substeps.min, 1);
     StepLength limit{longest, StepLimit::frame, -1, false};
-    for (const auto& [a, b] : scratch.candidates) {
-        const double thinner = std::min(thickness(world, a), thickness(world, b));
-        const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
-        const BodyId faster =
-            world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
-        const double s = relativeSpeed(outlooks[a], outlooks[b]);
-        tighten(limit, timeToPass(alpha * thinner, s, (pullA - pullB).norm()),
-                StepLimit::relativeSpeed, faster);
-        const double g = std::max(pullA.norm(), pullB.norm());
-        const bool isPaper = settings.method == Method::paper;
-        if (g > 0.0 && (isPaper || isStepped(world, a) || isStepped(world, b))) {
-            const double share = isPaper ? settings.hoverLimit : kFallPerStep;
-            tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
+    // The first of equal limits counts, in the order of the pairs, however many threads there are.
+    constexpr std::size_t kPairsTogether = 1024;
+    const std::vector<BodyPair>& pairs = scratch.candidates;
+    std::vector<StepLength> limits((pairs.size() + kPairsTogether - 1) / kPairsTogether, limit);
+    parallelFor(limits.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin * kPairsTogether;
+             i < std::min(end * kPairsTogether, pairs.size()); ++i) {
+            limitByPair(world, settings, scratch, outlooks, pairs[i], limits[i / kPairsTogether]);
         }
+    });
+    for (const StepLength& found : limits) {
+        if (found.dt < limit.dt) limit = found;
     }
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         if (outlooks[b].spin > 0.0) {

@@ -289,7 +289,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.deepestAfterPushOut = deepest.depth;
     report.deepestA = deepest.a;
     report.deepestB = deepest.b;
-    report.levels = static_cast<int>(levels.rows.size());
+    report.levels = static_cast<int>(levels.pairs.size());
     report.broadPairs = static_cast<std::int64_t>(scratch.pairs.size());
     report.touchingPairs = static_cast<std::int64_t>(scratch.order.size());
     report.contactPairs = static_cast<std::int64_t>(scratch.rows.size());

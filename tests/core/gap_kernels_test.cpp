@@ -193,15 +193,15 @@ GapScratch randomHeap(std::uint64_t seed)
             row.a = a;
             row.b = b;
             row.rA = signedUnits(seed, 5000 + 20 * r);
-            row.rB = signedUnits(seed, 5003 + 20 * r);
+            row.rB = row.rA + signedUnits(seed, 5003 + 20 * pair.begin);
             row.normal = signedUnits(seed, 5006 + 20 * r).normalized();
-            row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
+            row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * pair.begin);
             row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
             prepareRow(scratch, row);
             scratch.rows.push_back(row);
         }
         island.pairs.push_back(scratch.pairs.size());
-        scratch.pairs.push_back(pair);
+        scratch.pairs.push_back(std::move(pair));
     }
     scratch.islands = {island};
     return scratch;
@@ -210,7 +210,7 @@ GapScratch randomHeap(std::uint64_t seed)
 TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
 {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        GapScratch plain = randomHeap(seed), abreast = plain;
+        GapScratch plain = randomHeap(seed), abreast = randomHeap(seed);
         std::vector<LaneBody> bodies(abreast.bodies.size() + 1);
         for (std::size_t i = 0; i < abreast.bodies.size(); ++i) {
             bodies[i] = {abreast.bodies[i].velocity, abreast.bodies[i].spin};
