@@ -137,9 +137,12 @@ private:
         if (end >= 0.0) return false;
         const double root = u * u - 2.0 * g * s;
         if (root < 0.0) return false;
-        // Once hit, what it hits again in the same step was not a fall: the parabola is used up.
+        // Once hit, what it hits again in the same step was not a fall: the parabola is used up. What
+        // would be brought back within the step by all of gravity bounces no more; in a heap each
+        // blow makes many such, and they would go on for ever.
         if (row.wasHit) {
-            if (u >= -slowest_) return false;
+            const double fall = dt_ * std::max(a.pull.norm(), b.pull.norm());
+            if (u >= -slowest_ || 2.0 * row.restitution * -u <= fall) return false;
             impact = {&row, relative, 0.0, -row.restitution * u, Vec3::Zero()};
             return true;
         }
