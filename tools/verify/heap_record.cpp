@@ -105,14 +105,18 @@ std::optional<HeapRecord> largeTake(const Context& context, const std::string& n
     return {};
 }
 
+double speedOf(const HeapRecord& record, std::size_t frame, std::size_t body)
+{
+    const Vec3 moved = record.frames[frame].worldFromAsset[body].position -
+                       record.frames[frame - 1].worldFromAsset[body].position;
+    return moved.norm() * record.scene.framesPerSecond;
+}
+
 std::vector<double> speedsAt(const HeapRecord& record, std::size_t frame)
 {
     std::vector<double> speeds;
     for (std::size_t b = 0; b < record.scene.bodies.size(); ++b) {
-        if (!record.moves(b)) continue;
-        const Vec3 moved = record.frames[frame].worldFromAsset[b].position -
-                           record.frames[frame - 1].worldFromAsset[b].position;
-        speeds.push_back(moved.norm() * record.scene.framesPerSecond);
+        if (record.moves(b)) speeds.push_back(speedOf(record, frame, b));
     }
     std::sort(speeds.begin(), speeds.end());
     return speeds;

@@ -43,7 +43,9 @@ std::optional<HeapRecord> largeTake(const Context& context, const std::string& n
                                     Findings& findings);
 std::filesystem::path folderOfTake(const Context& context, const std::string& name);
 
-/// Speed of every movable body's origin in the frame, from the pose before [m/s], ascending.
+/// Speed of the body's origin in the frame, from the pose before [m/s].
+double speedOf(const HeapRecord& record, std::size_t frame, std::size_t body);
+/// The same of every movable body, ascending.
 std::vector<double> speedsAt(const HeapRecord& record, std::size_t frame);
 
 /// The value below which a part of the (ascending) values lies.
