@@ -137,9 +137,9 @@ private:
         if (end >= 0.0) return false;
         const double root = u * u - 2.0 * g * s;
         if (root < 0.0) return false;
-        // Once hit, what it hits again in the same step was not a fall: the parabola is used up. What
-        // would be brought back within the step by all of gravity bounces no more; in a heap each
-        // blow makes many such, and they would go on for ever.
+        // Once hit, what it hits again in the same step was not a fall: the parabola is used up.
+        // What all of gravity would bring back within the step bounces no more: in a heap each blow
+        // makes many such, and they would go on for ever.
         if (row.wasHit) {
             const double fall = dt_ * std::max(a.pull.norm(), b.pull.norm());
             if (u >= -slowest_ || 2.0 * row.restitution * -u <= fall) return false;
