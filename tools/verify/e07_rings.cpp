@@ -189,8 +189,8 @@ void addRestRows(const HeapRecord& record, const std::string& name, Findings& fi
     for (std::size_t f = first; f <= last; ++f)
         high = std::max(high, quantile(speedsAt(record, f), 0.95));
     const MeanSpeeds mean = meanSpeeds(record);
-    findings.report(name + ": rings that roll alone on the floor, last 2 s", mean.mostAlone, "");
-    findings.atMost(must, name + ": mean speed in the last 2 s, those apart", mean.inHeap, 0.1,
+    findings.report(name + ": rings alone on the floor, last 2 s", mean.mostAlone, "");
+    findings.atMost(must, name + ": mean speed in the last 2 s, of the others", mean.inHeap, 0.1,
                     "m/s");
     findings.atMost(departure, name + ": mean speed in the last 2 s, of all", mean.all, 0.1, "m/s",
                     "rings that have left the heap upright: without rolling friction nothing "
