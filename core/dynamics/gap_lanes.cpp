@@ -115,7 +115,6 @@ std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest)
     Batch& batch = batches_.emplace_back();
     batch.end = rows;
     for (int lane = 0; lane < kLanes; ++lane) {
-        batch.from[lane] = -1;
         batch.a.body[lane] = batch.b.body[lane] = dummy;
         batch.a.isMovable[lane] = batch.b.isMovable[lane] = false;
     }

@@ -62,7 +62,7 @@ private:
     /// Up to kRowsTogether rows each of up to kLanes pairs that share no movable body.
     struct Batch {
         Side a, b;
-        std::int32_t from[kLanes];  // the first row of each in GapScratch::rows, −1 for none
+        std::int32_t from[kLanes];  // the first row of each in GapScratch::rows
         int lanesUsed = 0;
         std::size_t begin = 0, end = 0;  // its rows here
     };

@@ -164,11 +164,14 @@ void addContact(const World& world, const RememberedContact& contact,
     loads[contact.b].add(a.position + r - b.position, -contact.force);
 }
 
-std::vector<ContactLoad> contactLoads(const World& world)
+/// Of the remembered contacts that `counts` accepts, told their bodies.
+template <class Counts>
+std::vector<ContactLoad> contactLoads(const World& world, const Counts& counts)
 {
     std::vector<ContactLoad> loads(world.bodyCount());
-    for (const RememberedContact& contact : world.contactMemory.contacts)
-        addContact(world, contact, loads);
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        if (counts(contact.a, contact.b)) addContact(world, contact, loads);
+    }
     return loads;
 }
 
@@ -180,21 +183,14 @@ bool touchesSleeper(const World& world, BodyId a, BodyId b)
 /// Right for sleepers alone.
 std::vector<ContactLoad> loadsOfSleepers(const World& world)
 {
-    std::vector<ContactLoad> loads(world.bodyCount());
-    for (const RememberedContact& contact : world.contactMemory.contacts) {
-        if (touchesSleeper(world, contact.a, contact.b)) addContact(world, contact, loads);
-    }
-    return loads;
+    return contactLoads(world, [&](BodyId a, BodyId b) { return touchesSleeper(world, a, b); });
 }
 
 /// Those of a step that is not over: what lies between sleepers is remembered, the rest solved.
 std::vector<ContactLoad> loadsOfSleepers(const World& world, double dt, const GapScratch& scratch)
 {
-    std::vector<ContactLoad> loads(world.bodyCount());
-    for (const RememberedContact& contact : world.contactMemory.contacts) {
-        if (!isStepped(world, contact.a) && !isStepped(world, contact.b))
-            addContact(world, contact, loads);
-    }
+    std::vector<ContactLoad> loads = contactLoads(
+        world, [&](BodyId a, BodyId b) { return !isStepped(world, a) && !isStepped(world, b); });
     const auto add = [&](const GapRow& row, const Vec3& impulse) {
         loads[row.a].add(row.rA, impulse / dt);
         loads[row.b].add(row.rB, -impulse / dt);
@@ -322,7 +318,7 @@ void fallAsleep(World& world, GapScratch& scratch)
         }
     }
 
-    const std::vector<ContactLoad> loads = contactLoads(world);
+    const std::vector<ContactLoad> loads = contactLoads(world, [](BodyId, BodyId) { return true; });
     std::vector<char> maySleep(world.bodyCount(), 0);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);

@@ -187,15 +187,15 @@ GapScratch randomHeap(std::uint64_t seed)
         GapPair pair;
         pair.bodies = {a, b};
         pair.begin = scratch.rows.size();
-        pair.end = pair.begin + 1 + randomIndex(5, seed, 3, p);
+        pair.end = pair.begin + 1 + randomIndex(14, seed, 3, p);
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             GapRow row{};
             row.a = a;
             row.b = b;
             row.rA = signedUnits(seed, 5000 + 20 * r);
-            row.rB = row.rA + signedUnits(seed, 5003 + 20 * pair.begin);
+            row.rB = signedUnits(seed, 5003 + 20 * r);
             row.normal = signedUnits(seed, 5006 + 20 * r).normalized();
-            row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * pair.begin);
+            row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
             row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
             prepareRow(scratch, row);
             scratch.rows.push_back(row);
