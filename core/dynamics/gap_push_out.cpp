@@ -11,7 +11,10 @@
 // Departs from A52. The rows of a level are solved together: one pair after the other, the first to
 // be pushed decides where all the others go. And all levels take a fraction before any takes the
 // next: with the lowest finished first, what lies on it was for a while as deep in it as the whole
-// column had to rise, and deep inside a body hardly a feature tells the way out.
+// column had to rise, and deep inside a body hardly a feature tells the way out. And what is only in
+// the way of others gives way no farther than until it is not deep: the rest is left to steps. In a
+// row of fallen dominoes each had handed on a little more than it was given, by its lever, and a
+// quarter of a millimetre at one end was metres at the other.
 #include "core/dynamics/gap_push_out.h"
 
 #include <algorithm>
@@ -29,8 +32,9 @@ constexpr double kSlop = 1e-4;
 constexpr double kShare = 0.2;
 constexpr int kSweeps = 8;
 
-/// Deeper than this share of the smaller body is deep.
-constexpr double kDeep = 0.01;
+/// Deeper than this share of the smaller body is deep, and deeper than the other goes at once as a
+/// whole; between the two more and more of it, since nothing may jump at a border.
+constexpr double kDeep = 0.01, kWhollyDeep = 0.0125;
 /// Deep ones are solved to this share of the deepest, if these sweeps do.
 constexpr double kEnough = 1e-9;
 constexpr int kMostSweeps = 100;
@@ -49,9 +53,9 @@ struct RowPush {
     double impulse = 0.0;
 };
 
-double excessOf(const World& world, const GapRow& row, double gap)
+double excessOf(const World& world, const GapRow& row, double gap, double left = kSlop)
 {
-    return -gap - kSlop * smallerRadius(world, row.a, row.b);
+    return -gap - left * smallerRadius(world, row.a, row.b);
 }
 
 double separationAt(const GapRow& row, const Displacement& a, const Displacement& b)
@@ -117,7 +121,8 @@ public:
           graph_(levels.graph),
           scratch_(scratch),
           isLookedAt_(scratch.pairs.size(), 0),
-          isPushed_(scratch.bodies.size(), 0)
+          isPushed_(scratch.bodies.size(), 0),
+          left_(scratch.pairs.size(), kDeep)
     {
     }
 
@@ -145,6 +150,11 @@ public:
     bool isLookedAt(std::size_t pair) const { return isLookedAt_[pair] != 0; }
 
 private:
+    struct RowToPush {
+        GapRow row;
+        double left;  // for the steps to remove, as a share of the smaller body
+    };
+
     int levelOf(const GapPair& pair) const
     {
         return std::max(graph_.level[pair.bodies.a], graph_.level[pair.bodies.b]);
@@ -160,6 +170,7 @@ private:
     {
         for (const std::size_t i : scratch_.order) {
             const GapPair& pair = scratch_.pairs[i];
+            double deepest = 0.0;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapRow& row = scratch_.rows[r];
                 const double opened = shiftAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
@@ -167,7 +178,11 @@ private:
                 if (!isDeep(pair, depth) || (!row.movesA && !row.movesB)) continue;
                 isLookedAt_[i] = 1;
                 reach_ = std::max(reach_, depth);
+                deepest = std::max(deepest, depth);
             }
+            const double share = deepest / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
+            left_[i] = std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop,
+                                  kDeep);
         }
     }
 
@@ -177,9 +192,9 @@ private:
         rows_.clear();
         for (const std::size_t i : level) addRows(i);
         pushes_.clear();
-        for (const GapRow& row : rows_) {
-            const double excess = excessOf(world_, row, row.gap);
-            pushes_.push_back({&row, excess > 0.0 ? fraction * excess : excess});
+        for (const RowToPush& one : rows_) {
+            const double excess = excessOf(world_, one.row, one.row.gap, one.left);
+            pushes_.push_back({&one.row, excess > 0.0 ? fraction * excess : excess});
             tally_.pushes += excess > 0.0;
         }
         solve(scratch_, pushes_, kGive, kMostSweeps, kEnough * reach_, displacements_);
@@ -213,7 +228,7 @@ private:
             row.isHeldA = isHeldBy(world_, a, b) || isFrozen(a, level);
             row.isHeldB = isHeldBy(world_, b, a) || isFrozen(b, level);
             prepareRow(scratch_, row);
-            if (row.movesA || row.movesB) rows_.push_back(row);
+            if (row.movesA || row.movesB) rows_.push_back({row, left_[i]});
         }
     }
 
@@ -249,8 +264,9 @@ private:
     PushOutTally tally_;
     double reach_ = 0.0;  // of contacts that pushes may close: the deepest overlap [m]
     std::vector<char> isLookedAt_, isPushed_;  // per pair; per body
+    std::vector<double> left_;  // per pair: as of RowToPush
     std::vector<GapContact> contacts_;
-    std::vector<GapRow> rows_;
+    std::vector<RowToPush> rows_;
     std::vector<RowPush> pushes_;
     std::vector<Displacement> displacements_;
 };
