@@ -11,10 +11,10 @@
 // Departs from A52. The rows of a level are solved together: one pair after the other, the first to
 // be pushed decides where all the others go. And all levels take a fraction before any takes the
 // next: with the lowest finished first, what lies on it was for a while as deep in it as the whole
-// column had to rise, and deep inside a body hardly a feature tells the way out. And what is only in
-// the way of others gives way no farther than until it is not deep: the rest is left to steps. In a
-// row of fallen dominoes each had handed on a little more than it was given, by its lever, and a
-// quarter of a millimetre at one end was metres at the other.
+// column had to rise, and deep inside a body hardly a feature tells the way out. And what is only
+// in the way of others gives way no farther than until it is not deep: the rest is left to steps.
+// In a row of fallen dominoes each had handed on a little more than it was given, by its lever, and
+// a quarter of a millimetre at one end was metres at the other.
 #include "core/dynamics/gap_push_out.h"
 
 #include <algorithm>
@@ -181,8 +181,8 @@ private:
                 deepest = std::max(deepest, depth);
             }
             const double share = deepest / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
-            left_[i] = std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop,
-                                  kDeep);
+            left_[i] =
+                std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop, kDeep);
         }
     }
 
@@ -264,7 +264,7 @@ private:
     PushOutTally tally_;
     double reach_ = 0.0;  // of contacts that pushes may close: the deepest overlap [m]
     std::vector<char> isLookedAt_, isPushed_;  // per pair; per body
-    std::vector<double> left_;  // per pair: as of RowToPush
+    std::vector<double> left_;                 // per pair: as of RowToPush
     std::vector<GapContact> contacts_;
     std::vector<RowToPush> rows_;
     std::vector<RowPush> pushes_;

@@ -10,16 +10,17 @@ namespace {
 constexpr int kSectors = 48;
 
 /// Radius and height of the profile, counter-clockwise with the axis on its left [m]: down the
-/// inside, up the outside. The outlet is 1.4 m wide, and the longest bone reaches 0.85 m; the wall
-/// is 0.3 m thick and slopes by 45 degrees.
-constexpr std::array<std::array<double, 2>, 8> kProfile = {{{2.9, 2.55},
-                                                            {2.9, 2.2},
-                                                            {1.8, 1.1},
-                                                            {0.7, 0.0},
-                                                            {1.0, -0.124},
-                                                            {2.1, 0.976},
-                                                            {3.2, 2.076},
-                                                            {3.2, 2.55}}};
+/// inside, up the outside. The outlet is 3 m wide, and the longest bone reaches 0.85 m: half as
+/// wide it jams as soon as the columns arrive, and bones leap over the rim. The collar takes all
+/// that columns of 1 m about 1.75 m from the axis drop. The wall is 0.3 m thick.
+constexpr std::array<std::array<double, 2>, 8> kProfile = {{{3.4, 3.4},
+                                                            {3.4, 2.4},
+                                                            {2.45, 1.2},
+                                                            {1.5, 0.0},
+                                                            {1.735, -0.186},
+                                                            {2.685, 1.014},
+                                                            {3.7, 2.296},
+                                                            {3.7, 3.4}}};
 
 }  // namespace
 

@@ -16,7 +16,7 @@ namespace {
 /// Samples lie no farther apart than this part of the longest edge of the box.
 constexpr double kSampleSpacing = 1.0 / 30.0;
 
-constexpr int kCells = 32;  // along the longest edge, to tell at once what is well outside
+constexpr int kCells = 64;  // along the longest edge, to tell at once how deep a point may be
 
 TriMesh toTriMesh(const SceneMesh& mesh)
 {
@@ -72,39 +72,46 @@ struct PoseJudge::Solid {
         samples = sampleFaces(mesh, kSampleSpacing * box.longestEdge());
         rays = SurfaceRays(mesh);
         winding = std::make_unique<WindingNumber>(mesh);
-        markCells();
+        measureCells();
     }
 
-    double distanceTo(const Vec3& p) const
+    /// Negative inside. Nothing of the surface lies between a point and what is closest to it, so
+    /// where that is inside a face, the face tells the side.
+    double signedDistance(const Vec3& p) const
     {
-        const auto corner = [&](int k, int f) {
-            return Vec3(mesh.points.col(mesh.triangles(k, f)));
-        };
         const int f = rays.closestTriangle(p);
-        return (p - closestOnTriangle(p, corner(0, f), corner(1, f), corner(2, f)).point).norm();
+        std::array<Vec3, 3> corner;
+        for (int k = 0; k < 3; ++k) corner[k] = mesh.points.col(mesh.triangles(k, f));
+        const auto [q, feature] = closestOnTriangle(p, corner[0], corner[1], corner[2]);
+        const Vec3 outward = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+        const bool isInside =
+            feature == TriangleFeature::face ? outward.dot(p - q) < 0.0 : winding->at(p) > 0.5;
+        return isInside ? -(p - q).norm() : (p - q).norm();
     }
 
-    void markCells()
+    Vec3 centreOfCell(std::size_t i) const
+    {
+        const auto x = static_cast<double>(i % counts[0]);
+        const auto y = static_cast<double>(i / counts[0] % counts[1]);
+        const auto z = static_cast<double>(i / counts[0] / counts[1]);
+        return box.min + cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
+    }
+
+    void measureCells()
     {
         cell = box.longestEdge() / kCells;
         for (int k = 0; k < 3; ++k) {
             counts[k] = std::max(1, static_cast<int>(std::ceil(box.size()[k] / cell)));
         }
-        mayHold.resize(static_cast<std::size_t>(counts[0]) * counts[1] * counts[2]);
-        parallelFor(mayHold.size(), 64, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const auto x = static_cast<double>(i % counts[0]);
-                const auto y = static_cast<double>(i / counts[0] % counts[1]);
-                const auto z = static_cast<double>(i / counts[0] / counts[1]);
-                const Vec3 p = box.min + cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
-                // Half the cell's diagonal, and a little for rounding.
-                mayHold[i] = distanceTo(p) < 0.9 * cell || winding->at(p) > 0.5;
-            }
+        distances.resize(static_cast<std::size_t>(counts[0]) * counts[1] * counts[2]);
+        parallelFor(distances.size(), 1024, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                distances[i] = signedDistance(centreOfCell(i));
         });
     }
 
-    /// Depth of a point of the artist's frame; 0 outside.
-    double depthAt(const Vec3& p) const
+    /// Depth of a point of the artist's frame, if it is more than `least`; else 0.
+    double depthAt(const Vec3& p, double least = 0.0) const
     {
         if (isGround) return std::max(0.0, centre.y() - p.y());
         std::size_t index = 0;
@@ -113,8 +120,11 @@ struct PoseJudge::Solid {
             if (!(place >= 0.0 && place < counts[k])) return 0.0;
             index = index * counts[k] + static_cast<std::size_t>(place);
         }
-        if (!mayHold[index] || winding->at(p) < 0.5) return 0.0;
-        return distanceTo(p);
+        // A little for rounding.
+        const double away = 1.001 * (p - centreOfCell(index)).norm();
+        if (away - distances[index] <= least) return 0.0;
+        const double depth = -signedDistance(p);
+        return depth > least ? depth : 0.0;
     }
 
     TriMesh mesh;
@@ -127,7 +137,7 @@ struct PoseJudge::Solid {
     std::unique_ptr<WindingNumber> winding;
     double cell = 0.0;
     std::array<int, 3> counts = {};
-    std::vector<char> mayHold;
+    std::vector<double> distances;  // of the centres of cells, negative inside [m]
 };
 
 PoseJudge::PoseJudge(const SceneDescription& scene)
@@ -157,7 +167,7 @@ double PoseJudge::deepest(const SceneFrame& frame, std::size_t a, std::size_t b)
         const Pose relative = inverse(frame.worldFromAsset[to]) * frame.worldFromAsset[from];
         double depth = 0.0;
         for (const Vec3& p : solidOf(from).samples) {
-            depth = std::max(depth, solidOf(to).depthAt(relative * p));
+            depth = std::max(depth, solidOf(to).depthAt(relative * p, depth));
         }
         return depth;
     };

@@ -1,6 +1,6 @@
 // A judge of poses that knows nothing of any solver: dense points on the faces of one mesh, and
-// whether they lie inside the other, by solid angle and the distance to its triangles. It reads
-// what a take or a cache holds: meshes and poses.
+// how deep they lie in the other, by the closest of its triangles and, where that is no clear case,
+// by solid angle. It reads what a take or a cache holds: meshes and poses.
 #pragma once
 
 #include <memory>
