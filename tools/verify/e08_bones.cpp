@@ -13,7 +13,7 @@ namespace {
 using enum Weight;
 
 constexpr double kTriangles = 2766000.0;  // of the five hundred; the paper: about 2.8 million
-constexpr double kInnerWall = 3.0, kWallHeight = 2.5;  // of the shots [m]
+constexpr double kInnerWall = 3.0, kWallHeight = 2.5;  // of the shots, the height at least [m]
 
 struct Judgement {
     std::vector<double> ratios;  // ascending: of overlaps of bones, of the shorter edge of the two
