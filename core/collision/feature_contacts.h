@@ -60,29 +60,4 @@ std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t 
 std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,
                                         std::int32_t ofSecond, double reach, double sharpness);
 
-struct Segment {
-    Vec3 start, direction;  ///< unit
-    double length;          ///< [m]
-};
-
-struct SegmentGap {
-    double distance;  ///< [m]; where they are nearly parallel a hair less
-    Vec3 between;     ///< from the nearest point of the second to that of the first [m]
-};
-
-inline SegmentGap segmentGap(const Segment& a, const Segment& b)
-{
-    const Vec3 between = a.start - b.start;
-    const double cosine = a.direction.dot(b.direction);
-    const double alongA = a.direction.dot(between), alongB = b.direction.dot(between);
-    const double sineSquared = 1.0 - cosine * cosine;
-    const bool isParallel = sineSquared < kParallel * kParallel;
-    double s =
-        isParallel ? 0.0 : std::clamp((cosine * alongB - alongA) / sineSquared, 0.0, a.length);
-    const double t = std::clamp(alongB + s * cosine, 0.0, b.length);
-    s = std::clamp(t * cosine - alongA, 0.0, a.length);
-    const Vec3 nearest = between + s * a.direction - t * b.direction;
-    return {nearest.norm() - (isParallel ? kParallel * a.length : 0.0), nearest};
-}
-
 }  // namespace scree

@@ -9,7 +9,7 @@
 
 #include "core/collision/ball_contacts.h"
 #include "core/collision/contact_list.h"
-#include "core/math/lanes.h"
+#include "core/collision/edge_lanes.h"
 
 namespace scree {
 namespace {
@@ -20,11 +20,6 @@ constexpr double kLookAhead = 2.0;        // times the reach
 constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
 
 using Part = ContactPart::Kind;
-
-Segment placed(const RelativePair& pair, const ConvexEdge& edge)
-{
-    return {pair * edge.start, pair.rotation * edge.direction, edge.length};
-}
 
 /// Lower bound of the distance between what the tree of the first shape holds and the second.
 double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
@@ -37,73 +32,45 @@ double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
     return atLeast;
 }
 
-/// One edge, or four.
-template <class Number, class Vector>
-struct FacingEdges {
-    Vector middle, direction, intoFace[2], outward;
-    Number half;  // of the length [m]
-};
-using EdgeLanes = FacingEdges<Lanes, Lanes3>;
-
-Lanes3 everywhere(const Vec3& v)
+/// An edge of the first shape in the frame of the second.
+ConvexEdge placed(const RelativePair& pair, const ConvexEdge& edge)
 {
-    return Lanes3::of(v, v, v, v);
+    ConvexEdge moved = edge;
+    moved.start = pair * edge.start;
+    moved.direction = pair.rotation * edge.direction;
+    moved.outward = pair.rotation * edge.outward;
+    for (Vec3& intoFace : moved.intoFace) intoFace = pair.rotation * intoFace;
+    return moved;
 }
 
-/// Edges of the second shape, four abreast.
+void setFacing(FacingLanes& four, int lane, const ConvexEdge& edge)
+{
+    four.edge.set(lane, edge);
+    for (int k : {0, 1}) four.intoFace[k].set(lane, edge.intoFace[k]);
+}
+
+/// Edges of the second shape, four abreast; lanes that are left over are nowhere.
 void fillLanes(const ContactFeatures& features, const std::vector<std::int32_t>& chosen,
-               std::vector<EdgeLanes>& lanes)
+               std::vector<FacingLanes>& lanes)
 {
     constexpr double kNowhere = 1e100;
     lanes.resize((chosen.size() + kLanes - 1) / kLanes);
     for (std::size_t i = 0; i < lanes.size() * kLanes; ++i) {
-        EdgeLanes& four = lanes[i / kLanes];
+        FacingLanes& four = lanes[i / kLanes];
         const int lane = static_cast<int>(i % kLanes);
-        if (i >= chosen.size()) {
-            four.middle.set(lane, Vec3::Constant(kNowhere));
-            continue;
+        if (i < chosen.size()) {
+            setFacing(four, lane, features.edges()[chosen[i]]);
+        } else {
+            four.edge.start.set(lane, Vec3::Constant(kNowhere));
         }
-        const ConvexEdge& edge = features.edges()[chosen[i]];
-        const double half = 0.5 * edge.length;
-        four.half[lane] = half;
-        four.middle.set(lane, edge.start + half * edge.direction);
-        four.direction.set(lane, edge.direction);
-        for (int k : {0, 1}) four.intoFace[k].set(lane, edge.intoFace[k]);
-        four.outward.set(lane, edge.outward);
     }
 }
 
-EdgeLanes inAllLanes(const RelativePair& pair, const ConvexEdge& edge)
+FacingLanes inAllLanes(const ConvexEdge& edge)
 {
-    const double half = 0.5 * edge.length;
-    const auto turned = [&](const Vec3& v) { return everywhere(pair.rotation * v); };
-    return {everywhere(pair * Vec3(edge.start + half * edge.direction)),
-            turned(edge.direction),
-            {turned(edge.intoFace[0]), turned(edge.intoFace[1])},
-            turned(edge.outward),
-            lanesOf(half)};
-}
-
-/// Which of four edges can come to touch one of the first shape while nothing moves by more than
-/// `farthest` - no point, and no direction by more than `turn` [rad]: those that are near, and
-/// whose common normal either supports (edgeSupports), give or take that turn. Most edges beside
-/// each other never can.
-unsigned mayFace(const EdgeLanes& ofA, const EdgeLanes& ofB, double farthest, double turn)
-{
-    const Lanes3 between = ofB.middle - ofA.middle;
-    const Lanes far = ofA.half + ofB.half + farthest;
-    const Lanes3 normal = cross(ofA.direction, ofB.direction);  // not unit; turns by `turn` at most
-    const Lanes slack = kSupportSlack * sqrtOf(dot(normal, normal));
-    const Lanes ofB0 = dot(ofB.intoFace[0], normal), ofB1 = dot(ofB.intoFace[1], normal);
-    const Lanes ofA0 = dot(ofA.intoFace[0], normal), ofA1 = dot(ofA.intoFace[1], normal);
-    const Lanes out = dot(ofB.outward, normal);
-    const Lanes slackB = slack + (1.0 + kSupportSlack) * turn;
-    const Lanes slackA = slack + (2.0 + kSupportSlack) * turn;
-    const LaneMask isOut =
-        (out >= -turn) & (maxOf(ofB0, ofB1) <= slackB) & (maxOf(-ofA0, -ofA1) <= slackA);
-    const LaneMask isOutReversed =
-        (out <= turn) & (maxOf(-ofB0, -ofB1) <= slackB) & (maxOf(ofA0, ofA1) <= slackA);
-    return bitsOf((dot(between, between) <= far * far) & (isOut | isOutReversed));
+    FacingLanes four;
+    for (int lane = 0; lane < kLanes; ++lane) setFacing(four, lane, edge);
+    return four;
 }
 
 /// Edges of the first shape that may come within `clearance` of the second, by index.
@@ -175,29 +142,11 @@ void NearFeatures::lookAtCorners(const RelativePair& pair, double clearance,
               [](const NearCorner& p, const NearCorner& q) { return p.corner < q.corner; });
 }
 
-/// Edges may be deep in each other and still touch, so of two that are apart it also matters when
-/// they can have crossed. Nearest points of segments wander: when no point moves farther than δ,
-/// the line between those at distance d changes by up to δ + 2 √(δ(d + δ)). Until that is as much
-/// as it points out of B, o, they are outside.
-void NearFeatures::look(const Segment& ofA, const ConvexEdge& ofB, double deepest,
-                        NearEdges& edges) const
-{
-    const SegmentGap gap = segmentGap(ofA, {ofB.start, ofB.direction, ofB.length});
-    const double d = gap.distance;
-    edges.farUntil = way_ + d;
-    edges.outsideUntil = way_ + d - deepest;
-    const double o = gap.between.dot(ofB.outward);
-    if (o <= 0.0 || d > 2.0 * deepest) return;
-    const double half = 2.0 * d + o;
-    const double mayCrossAfter = (std::sqrt(half * half + 3.0 * o * o) - half) / 3.0;
-    edges.outsideUntil = std::max(edges.outsideUntil, way_ + mayCrossAfter);
-}
-
 void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach)
 {
     if (pair.first.features.edges().empty() || pair.second.features.edges().empty()) return;
     thread_local std::vector<std::int32_t> nearA, nearB;
-    thread_local std::vector<EdgeLanes> ofB;
+    thread_local std::vector<FacingLanes> ofB;
     findEdgesNear(pair, clearance_, nearA);
     if (nearA.empty()) return;
     findEdgesNear(back, clearance_, nearB);
@@ -206,14 +155,15 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     const double farthest = std::max(reach, deepest) + window_;
     const double turn = window_ / leverOf(pair);
     for (std::int32_t e : nearA) {
-        const ConvexEdge& edge = pair.first.features.edges()[e];
-        const Segment segment = placed(pair, edge);
-        const EdgeLanes ofA = inAllLanes(pair, edge);
+        const FacingLanes ofA = inAllLanes(placed(pair, pair.first.features.edges()[e]));
         for (std::size_t four = 0; four < ofB.size(); ++four) {
-            for (unsigned bits = mayFace(ofA, ofB[four], farthest, turn); bits; bits &= bits - 1) {
-                const std::int32_t other = nearB[four * kLanes + std::countr_zero(bits)];
-                NearEdges edges{0.0, 0.0, e, other};
-                look(segment, pair.second.features.edges()[other], deepest, edges);
+            unsigned bits = mayFace(ofA, ofB[four], farthest, turn);
+            if (!bits) continue;
+            const EdgeGaps gaps = edgeGaps(ofA.edge, ofB[four].edge, deepest, reach);
+            for (; bits; bits &= bits - 1) {
+                const int lane = std::countr_zero(bits);
+                const NearEdges edges{way_ + gaps.distance[lane], way_ + gaps.outside[lane], e,
+                                      nearB[four * kLanes + static_cast<std::size_t>(lane)]};
                 if (edges.farUntil - end < reach || edges.outsideUntil <= end)
                     edges_.push_back(edges);
             }
@@ -245,6 +195,44 @@ void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back,
     lookAtCorners(pair, clearance_, cornersOfA_);
     lookAtCorners(back, clearance_, cornersOfB_);
     lookAtEdges(pair, back, reach);
+}
+
+void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
+                              ContactList& list)
+{
+    const double deepest = deepestEdges(pair);
+    const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
+    const std::vector<ConvexEdge>& first = pair.first.features.edges();
+    const std::vector<ConvexEdge>& second = pair.second.features.edges();
+    EdgeLanes ofFirst, ofSecond;
+    NearEdges* four[kLanes];
+    int filled = 0;
+    const auto flush = [&] {
+        const EdgeGaps gaps = edgeGaps(ofFirst, ofSecond, deepest, reach);
+        const unsigned mayTouch = bitsOf(gaps.mayTouch);
+        for (int lane = 0; lane < filled; ++lane) {
+            NearEdges& edges = *four[lane];
+            edges.farUntil = way_ + gaps.distance[lane];
+            edges.outsideUntil = way_ + gaps.outside[lane];
+            if (!(mayTouch >> lane & 1u)) continue;
+            const auto contact = faceEdges(pair, edges.ofA, edges.ofB, reach, sharpness);
+            if (!contact) continue;
+            list.add(pair, {Part::edge, edges.ofA}, {Part::edge, edges.ofB}, toWorld,
+                     featureId(FeatureKind::edges, edges.ofA, edges.ofB), *contact);
+        }
+        filled = 0;
+    };
+    for (NearEdges& edges : edges_) {
+        if (edges.farUntil - way_ >= reach && edges.outsideUntil > way_) continue;
+        const ConvexEdge& edge = first[edges.ofA];
+        ofFirst.start.set(filled, pair * edge.start);
+        ofFirst.direction.set(filled, pair.rotation * edge.direction);
+        ofFirst.length[filled] = edge.length;
+        ofSecond.set(filled, second[edges.ofB]);
+        four[filled++] = &edges;
+        if (filled == kLanes) flush();
+    }
+    if (filled > 0) flush();
 }
 
 void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
@@ -305,19 +293,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     };
     faceCorners(pair, cornersOfA_, FeatureKind::cornerOfA, ofA);
     faceCorners(back, cornersOfB_, FeatureKind::cornerOfB, ofB);
-    const double deepest = deepestEdges(pair);
-    for (NearEdges& candidate : edges_) {
-        if (candidate.farUntil - way_ < reach || candidate.outsideUntil <= way_) {
-            const auto contact = faceEdges(pair, candidate.ofA, candidate.ofB, reach, sharpness);
-            if (contact) {
-                const auto feature = featureId(FeatureKind::edges, candidate.ofA, candidate.ofB);
-                list.add(pair, {Part::edge, candidate.ofA}, {Part::edge, candidate.ofB}, ofA,
-                         feature, *contact);
-            } else {
-                look(placed(pair, shapeA.features.edges()[candidate.ofA]),
-                     shapeB.features.edges()[candidate.ofB], deepest, candidate);
-            }
-        }
+    touchEdges(pair, ofA, reach, list);
+    for (const NearEdges& candidate : edges_) {
         const double outside = (candidate.outsideUntil - way_) * countedOfWay(pair);
         farUntil = std::min({farUntil, candidate.farUntil, way_ + outside});
     }

@@ -26,6 +26,9 @@ struct GapContact {
     double gap;   ///< [m], negative when they overlap
 };
 
+class ContactList;
+struct ToWorld;
+
 /// The features of a pair that may come within reach, remembered while the pair moves little. The
 /// memory changes no result: what is found depends on the poses and the reach alone.
 ///
@@ -62,7 +65,8 @@ private:
     void lookAtCorners(const RelativePair& pair, double clearance,
                        std::vector<NearCorner>& near) const;
     void lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach);
-    void look(const Segment& ofA, const ConvexEdge& ofB, double deepest, NearEdges& edges) const;
+    void touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
+                    ContactList& list);
 
     bool isKnown_ = false;
     double apart_ = 0.0;  // distance of the bodies at odometerThen_; 0 if not known to be [m]

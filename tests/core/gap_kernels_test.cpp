@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/collision/edge_lanes.h"
 #include "core/collision/near_features.h"
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_lanes.h"
@@ -162,6 +164,63 @@ TEST(NearFeatures, BodiesWithEdgesSharperThanSquareTouchAsDeepAsTheyOverlapToo)
     EXPECT_GE(prisms.all, 100);
     EXPECT_EQ(prisms.found, prisms.all);
     EXPECT_EQ(prisms.overstated, 0);
+}
+
+/// The plain twin: distance of two segments as the least of a convex function.
+double segmentDistance(const ConvexEdge& a, const ConvexEdge& b)
+{
+    const auto toB = [&](double s) {
+        const Vec3 p = a.start + s * a.direction;
+        const double t = std::clamp(b.direction.dot(p - b.start), 0.0, b.length);
+        return (p - b.start - t * b.direction).norm();
+    };
+    double low = 0.0, high = a.length;
+    for (int i = 0; i < 100; ++i) {
+        const double third = (high - low) / 3.0;
+        if (toB(low + third) < toB(high - third))
+            high -= third;
+        else
+            low += third;
+    }
+    return toB(0.5 * (low + high));
+}
+
+TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const auto hatchet = buildMeshShape("prism", makeCylinder(0.6, 1.0, 3, 1));
+    std::size_t touching = 0, spared = 0;
+    for (std::uint64_t run = 0; run < 40; ++run) {
+        const Shape& other = run % 2 == 0 ? *ring : *hatchet;
+        const RelativePair pair{*ring, other,
+                                exponentialMap(3.0 * signedUnits(run, 0)).toRotationMatrix(),
+                                0.9 * signedUnits(run, 3)};
+        const double reach = 0.1, deepest = deepestEdges(pair);
+        for (std::int32_t i = 0; i < std::ssize(ring->features.edges()); ++i) {
+            ConvexEdge placed = ring->features.edges()[i];
+            placed.start = pair * placed.start;
+            placed.direction = pair.rotation * placed.direction;
+            EdgeLanes first, second;
+            for (int lane = 0; lane < kLanes; ++lane) first.set(lane, placed);
+            const std::vector<ConvexEdge>& edges = other.features.edges();
+            for (std::int32_t j = 0; j < std::ssize(edges); ++j) {
+                const int lane = j % kLanes;
+                second.set(lane, edges[j]);
+                const EdgeGaps gaps = edgeGaps(first, second, deepest, reach);
+                const bool mayTouch = bitsOf(gaps.mayTouch) >> lane & 1u;
+                const bool touches = faceEdges(pair, i, j, reach, 1e-3).has_value();
+                EXPECT_TRUE(mayTouch || !touches);
+                touching += touches;
+                spared += !mayTouch;
+                if ((i + j) % 17 != 0) continue;
+                const double distance = segmentDistance(placed, edges[j]);
+                EXPECT_LE(gaps.distance[lane], distance + 1e-9);
+                EXPECT_GE(gaps.distance[lane], distance - 1e-3);
+            }
+        }
+    }
+    EXPECT_GT(touching, 50u);
+    EXPECT_GT(spared, 1000 * touching);
 }
 
 GapScratch randomHeap(std::uint64_t seed)
