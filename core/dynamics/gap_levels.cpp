@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/parallel.h"
+#include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/gap_contact.h"
 
 namespace scree {
@@ -54,7 +56,7 @@ private:
     std::vector<char> isHeld_;
 };
 
-/// The motion of the bodies that a level's solve may move, so that it can be undone. Held bodies
+/// The motion of the bodies that a solve may move, so that it can be undone. Held bodies
 /// are as heavy as the world: what is wedged between two of them that close cannot obey both, and
 /// each sweep throws it harder. More than twice the energy there was and that of a step's fall is
 /// such a throw.
@@ -145,16 +147,21 @@ double visibleSpeed(const World& world, const StepSettings& settings, double dt,
     return visible * smallerRadius(world, row.a, row.b) / dt;
 }
 
+bool closesVisibly(const World& world, const StepSettings& settings, double dt,
+                   const GapScratch& scratch, const GapRow& row)
+{
+    const double u = velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
+    return row.target - u > visibleSpeed(world, settings, dt, scratch, row);
+}
+
 /// Per island: whether a row of it still closes visibly.
 std::vector<char> closingIslands(const World& world, const StepSettings& settings, double dt,
                                  const GapScratch& scratch)
 {
     std::vector<char> closes(scratch.islands.size(), 0);
     for (const GapRow& row : scratch.rows) {
-        if (closes[row.island]) continue;
-        const double u =
-            velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
-        closes[row.island] = row.target - u > visibleSpeed(world, settings, dt, scratch, row);
+        if (!closes[row.island])
+            closes[row.island] = closesVisibly(world, settings, dt, scratch, row);
     }
     return closes;
 }
@@ -170,6 +177,66 @@ std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std
         for (std::size_t r = pair.begin; r < pair.end; ++r) rows.push_back(r);
     }
     return rows;
+}
+
+/// The rows of the pairs, together those that share movable bodies.
+std::vector<std::vector<std::size_t>> clustersOf(const GapScratch& scratch,
+                                                 const std::vector<std::size_t>& pairs)
+{
+    DisjointSets sets(scratch.bodies.size());
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    for (const std::size_t i : pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (isMovable(a) && isMovable(b))
+            sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    }
+    std::vector<std::int32_t> clusterOf(scratch.bodies.size(), -1);
+    std::vector<std::vector<std::size_t>> clusters;
+    for (const std::size_t i : pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        if (!isMovable(pair.bodies.a) && !isMovable(pair.bodies.b)) continue;
+        const BodyId mover = isMovable(pair.bodies.a) ? pair.bodies.a : pair.bodies.b;
+        std::int32_t& index = clusterOf[sets.find(static_cast<std::size_t>(mover))];
+        if (index < 0) {
+            index = static_cast<std::int32_t>(clusters.size());
+            clusters.emplace_back();
+        }
+        for (std::size_t r = pair.begin; r < pair.end; ++r) clusters[index].push_back(r);
+    }
+    return clusters;
+}
+
+/// Solves the rows of a cluster beside bodies that are held, if one closes visibly. The rows keep
+/// their impulses. False when nothing was to be done.
+bool shake(const World& world, const StepSettings& settings, double dt,
+           const std::vector<std::size_t>& rows, GapScratch& scratch)
+{
+    const bool closes = std::any_of(rows.begin(), rows.end(), [&](std::size_t r) {
+        return closesVisibly(world, settings, dt, scratch, scratch.rows[r]);
+    });
+    if (!closes) return false;
+    std::vector<Vec3> remembered;
+    double enough = solvedEnough(settings, dt);
+    for (const std::size_t r : rows) {
+        GapRow& row = scratch.rows[r];
+        remembered.push_back(row.impulse);
+        prepareRow(scratch, row);
+        enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, scratch, row));
+    }
+    const LevelMotion before(scratch, rows);
+    solveRows(scratch, rows, enough);
+    const bool isThrown = before.isThrown(scratch, dt);
+    if (isThrown) before.restore(scratch);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        GapRow& row = scratch.rows[rows[i]];
+        const Vec3 withShock = row.worldImpulse();
+        row.impulse = remembered[i];
+        if (isThrown) continue;
+        const Vec3 extra = withShock - row.worldImpulse();
+        if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra);
+        if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra);
+    }
+    return true;
 }
 
 }  // namespace
@@ -263,40 +330,29 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
     const std::vector<char> closes = closingIslands(world, settings, dt, scratch);
     if (std::find(closes.begin(), closes.end(), 1) == closes.end()) return;
     HeldBodies held(scratch);
-    std::vector<Vec3> remembered;
     for (std::size_t level = 0; level < levels.pairs.size(); ++level) {
-        const std::vector<std::size_t> rows = rowsOf(scratch, levels.pairs[level], closes);
-        const auto holdIfSupported = [&](BodyId body) {
-            if (scratch.bodies[body].inverseMass == 0.0 || !levels.graph.isSupported[body]) return;
-            if (levels.graph.level[body] != static_cast<int>(level)) held.hold(body);
-        };
-        remembered.clear();
-        for (std::size_t r : rows) {
-            holdIfSupported(scratch.rows[r].a);
-            holdIfSupported(scratch.rows[r].b);
-            remembered.push_back(scratch.rows[r].impulse);
+        std::vector<std::size_t> pairs;
+        for (const std::size_t i : levels.pairs[level]) {
+            if (closes[scratch.rows[scratch.pairs[i].begin].island]) pairs.push_back(i);
         }
-        for (std::size_t r : rows) prepareRow(scratch, scratch.rows[r]);
-        double enough = solvedEnough(settings, dt);
-        for (std::size_t r : rows) {
-            const double visible = visibleSpeed(world, settings, dt, scratch, scratch.rows[r]);
-            enough = std::max(enough, kWellBelow * visible);
+        for (const std::size_t i : pairs) {
+            for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+                if (levels.graph.isSupported[body] &&
+                    levels.graph.level[body] != static_cast<int>(level))
+                    held.hold(body);
+            }
         }
-        const LevelMotion before(scratch, rows);
-        solveRows(scratch, rows, enough);
-        const bool isThrown = before.isThrown(scratch, dt);
-        if (isThrown) before.restore(scratch);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            GapRow& row = scratch.rows[rows[i]];
-            const Vec3 withShock = row.worldImpulse();
-            row.impulse = remembered[i];
-            if (isThrown) continue;
-            const Vec3 extra = withShock - row.worldImpulse();
-            if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra);
-            if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra);
-        }
+        const std::vector<std::vector<std::size_t>> clusters = clustersOf(scratch, pairs);
+        std::vector<char> isShaken(clusters.size());
+        parallelFor(clusters.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c)
+                isShaken[c] = shake(world, settings, dt, clusters[c], scratch);
+        });
         held.release();
-        for (std::size_t r : rows) prepareRow(scratch, scratch.rows[r]);
+        for (std::size_t c = 0; c < clusters.size(); ++c) {
+            if (!isShaken[c]) continue;
+            for (const std::size_t r : clusters[c]) prepareRow(scratch, scratch.rows[r]);
+        }
     }
 }
 

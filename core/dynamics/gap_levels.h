@@ -24,7 +24,8 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
                     GapScratch& scratch);
 
 /// One sweep up the levels: what rests is made to rest on what is below as if that could not give
-/// way. Only on islands whose solved velocities would still overlap bodies visibly.
+/// way. Only where solved velocities would still overlap bodies visibly: of a level those clusters,
+/// connected by bodies that are not held, in which one does.
 /// The impulses that rows remember stay those of the symmetric problem: begun from shock's, the
 /// next step of a heap blew up.
 void propagateShockUp(const World& world, const StepSettings& settings, double dt,
