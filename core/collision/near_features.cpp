@@ -9,6 +9,7 @@
 
 #include "core/collision/ball_contacts.h"
 #include "core/collision/contact_list.h"
+#include "core/collision/contact_reduction.h"
 #include "core/collision/edge_lanes.h"
 
 namespace scree {
@@ -16,7 +17,7 @@ namespace {
 
 /// How much farther than asked a look reaches, so that it need not be repeated at once. Only time
 /// depends on it.
-constexpr double kLookAhead = 2.0;        // times the reach
+constexpr double kLookAhead = 1.0;        // times the reach
 constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
 
 using Part = ContactPart::Kind;
@@ -249,6 +250,7 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const double smaller = smallerRadius(shapeA, shapeB);
     // Facets lie below the round surface that they stand for, and must be seen from farther away.
     const double bulge = shapeA.smooth.bulge() + shapeB.smooth.bulge();
+    const std::size_t known = contacts.size();
     ContactList list(contacts, smaller, reach, bulge > 0.0);
     reach += bulge;
 
@@ -299,6 +301,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         farUntil = std::min({farUntil, candidate.farUntil, way_ + outside});
     }
     list.finish();
+    const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
+    reduceContacts(contacts, known, turnsWithA ? worldFromA : worldFromB, smaller);
     apart_ = farUntil - way_ - bulge;
     odometerThen_ = odometer;
 }

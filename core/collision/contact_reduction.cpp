@@ -1,0 +1,113 @@
+// Symbols: n common normal, d a direction across it, on two axes.
+#include "core/collision/contact_reduction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+/// So many of one normal are no burden.
+constexpr std::size_t kFew = 8;
+/// Cosine of the angle between normals that are one.
+constexpr double kOneNormal = 0.995;
+
+/// The first direction lies this far off an axis of the body: along one, two corners of a regular
+/// body would be as far, and rounding would choose [rad].
+constexpr double kOffAxis = 0.15;
+/// The lower hull is looked for in these directions, and from so steep that what stands on a boss
+/// is seen, to so flat that gaps do not count: lengths per gap.
+constexpr int kDirections = 8;
+constexpr std::array<double, 3> kLengthsPerGap = {1000.0, 30.0, 0.0};
+/// Gaps that differ by less than this share of the body are one: what lies still must not choose
+/// anew for every hair it sinks.
+constexpr double kSameGap = 5e-4;
+
+std::array<Eigen::Vector2d, kDirections> makeDirections()
+{
+    std::array<Eigen::Vector2d, kDirections> directions;
+    for (int k = 0; k < kDirections; ++k) {
+        const double angle = kOffAxis + 2.0 * kPi * k / kDirections;
+        directions[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return directions;
+}
+
+/// A contact among those of its normal.
+struct Place {
+    std::size_t contact;
+    Eigen::Vector2d across;  // [m]
+    double height;           // of its gap above the lowest [m]
+};
+
+/// Marks what the contacts of one normal need.
+void markHull(const std::vector<GapContact>& contacts, std::vector<Place>& group,
+              const Mat3& worldFromBody, double size, std::vector<char>& isKept)
+{
+    static const std::array<Eigen::Vector2d, kDirections> kAround = makeDirections();
+    const Vec3& n = contacts[group[0].contact].normal;
+    const int axis = std::abs(worldFromBody.col(0).dot(n)) < 0.8 ? 0 : 1;
+    const Vec3 along = worldFromBody.col(axis);
+    const Vec3 first = (along - along.dot(n) * n).normalized(), second = n.cross(first);
+    std::size_t nearest = group[0].contact;
+    for (const Place& place : group) {
+        if (contacts[place.contact].gap < contacts[nearest].gap) nearest = place.contact;
+    }
+    isKept[nearest] = 1;
+    const double low = contacts[nearest].gap + kSameGap * size;
+    for (Place& place : group) {
+        const GapContact& contact = contacts[place.contact];
+        place.across = {first.dot(contact.rA), second.dot(contact.rA)};
+        place.height = std::max(contact.gap - low, 0.0);
+    }
+    for (const Eigen::Vector2d& d : kAround) {
+        for (const double lengthPerGap : kLengthsPerGap) {
+            const Place* farthest = nullptr;
+            double most = -std::numeric_limits<double>::infinity();
+            for (const Place& place : group) {
+                const double reach = d.dot(place.across) - lengthPerGap * place.height;
+                if (reach <= most) continue;
+                most = reach;
+                farthest = &place;
+            }
+            isKept[farthest->contact] = 1;
+        }
+    }
+}
+
+}  // namespace
+
+void reduceContacts(std::vector<GapContact>& contacts, std::size_t first, const Mat3& worldFromBody,
+                    double size)
+{
+    if (contacts.size() - first <= kFew) return;
+    thread_local std::vector<char> isKept, isGrouped;
+    thread_local std::vector<Place> group;
+    isKept.assign(contacts.size(), 0);
+    isGrouped.assign(contacts.size(), 0);
+    for (std::size_t i = first; i < contacts.size(); ++i) {
+        if (isGrouped[i]) continue;
+        group.clear();
+        for (std::size_t j = i; j < contacts.size(); ++j) {
+            if (isGrouped[j] || contacts[i].normal.dot(contacts[j].normal) < kOneNormal) continue;
+            isGrouped[j] = 1;
+            group.push_back({j, Eigen::Vector2d::Zero(), 0.0});
+        }
+        if (group.size() > kFew) {
+            markHull(contacts, group, worldFromBody, size, isKept);
+        } else {
+            for (const Place& place : group) isKept[place.contact] = 1;
+        }
+    }
+    std::size_t end = first;
+    for (std::size_t i = first; i < contacts.size(); ++i) {
+        if (isKept[i]) contacts[end++] = contacts[i];
+    }
+    contacts.resize(end);
+}
+
+}  // namespace scree
