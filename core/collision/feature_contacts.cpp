@@ -140,14 +140,19 @@ std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t 
     // Corners of aligned blocks lie within rounding of several faces, of which only one can be
     // stood on, and just off an edge the shortest way to it may point anywhere. Among the faces
     // about as near take the one that has least to give way; of a corner inside, among all that it
-    // may have come in by: of blocks flush with each other the nearest is the one beside.
+    // may have come in by: of blocks flush with each other the nearest is the one beside. Those are
+    // the ones it lies under. Beside a facet of a bent surface, a hair below the next, it is far
+    // below that of which it has never been above.
+    const double about = std::max(4.0 * std::abs(nearest.value), sharpness);
     const double farthest = nearest.value < 0.0 ? deepestEdges(pair) : 0.0;
     thread_local std::vector<NearFace> faces;
     faces.clear();
-    field.facesNear(p, std::max({4.0 * std::abs(nearest.value), sharpness, farthest}), faces);
+    field.facesNear(p, std::max(about, farthest), faces);
     std::optional<FeatureContact> best;
     for (const NearFace& face : faces) {
         if (best && face.height <= best->gap) continue;
+        const bool isUnder = face.distance <= std::abs(face.height) + sharpness;
+        if (!isUnder && face.distance > about) continue;
         if (supports(face.normal)) best = FeatureContact{p, face.normal, face.height};
     }
     if (!best) return refuse(nearest.normal, nearest.value);

@@ -163,7 +163,7 @@ std::optional<Vec3> ExactSolid::entry(const Vec3& from, const Vec3& to, double s
 void ExactSolid::facesNear(const Vec3& point, double tolerance, std::vector<NearFace>& faces) const
 {
     const auto take = [&](double excess, const Vec3& normal) {
-        if (std::abs(excess) <= tolerance) faces.push_back({normal, kPi, excess});
+        if (std::abs(excess) <= tolerance) faces.push_back({normal, kPi, excess, std::abs(excess)});
     };
     switch (form_) {
         case Form::plane:

@@ -20,7 +20,8 @@ namespace scree {
 struct NearFace {
     Vec3 normal;
     double angle;
-    double height;  ///< of the point above the face's plane [m]
+    double height;    ///< of the point above the face's plane [m]
+    double distance;  ///< of the point from the face itself [m]
 };
 
 class ExactSolid {

@@ -191,12 +191,13 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
         if (std::abs(height) > tolerance) continue;
         const ClosestOnTriangle closest =
             closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]);
-        if ((point - closest.point).norm() > tolerance) continue;
+        const double distance = (point - closest.point).norm();
+        if (distance > tolerance) continue;
         double angle = kPi;
         for (int k = 0; k < 3; ++k) {
             if ((point - face.corner[k]).norm() <= tolerance) angle = face.angle[k];
         }
-        faces.push_back({face.normal[6], angle, height});
+        faces.push_back({face.normal[6], angle, height, distance});
     }
 }
 

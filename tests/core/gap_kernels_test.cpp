@@ -166,6 +166,31 @@ TEST(NearFeatures, BodiesWithEdgesSharperThanSquareTouchAsDeepAsTheyOverlapToo)
     EXPECT_EQ(prisms.overstated, 0);
 }
 
+// Seen in shots/rings_1000.toml: a corner a millimetre inside one facet of a tube was said to be
+// centimetres inside the next, under which it had never been, and for a step the two were thrown
+// apart.
+TEST(NearFeatures, RingsThatOverlapByAMillimetreAreNotSaidToOverlapByCentimetres)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const std::array<std::array<Pose, 2>, 3> rings = {
+        {{Pose{{-7.63452, 6.42689, 1.32553}, Quat(0.209242, 0.958144, -0.029493, 0.193153)},
+          Pose{{-8.38436, 7.62323, 0.55407}, Quat(0.476384, 0.383922, 0.760578, -0.217219)}},
+         {Pose{{-1.25341, 1.50198, 13.65355}, Quat(-0.605779, -0.529614, -0.264065, 0.531799)},
+          Pose{{0.10061, 1.69038, 12.55719}, Quat(0.104868, -0.050482, -0.764472, -0.634064)}},
+         {Pose{{-9.63878, 4.54995, 5.04780}, Quat(0.060733, -0.709850, 0.063149, -0.698882)},
+          Pose{{-9.31250, 3.99068, 6.04903}, Quat(-0.692572, -0.434246, -0.080299, -0.570374)}}}};
+    for (const auto& [a, b] : rings) {
+        std::vector<GapContact> contacts;
+        const PlacedPair pair{ring.get(),
+                              ring.get(),
+                              {a.position, a.orientation.normalized()},
+                              {b.position, b.orientation.normalized()}};
+        NearFeatures().findContacts(pair, 0.02, contacts);
+        EXPECT_FALSE(contacts.empty());
+        for (const GapContact& contact : contacts) EXPECT_GT(contact.gap, -2e-3);
+    }
+}
+
 /// The plain twin: distance of two segments as the least of a convex function.
 double segmentDistance(const ConvexEdge& a, const ConvexEdge& b)
 {
