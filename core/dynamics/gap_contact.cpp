@@ -27,10 +27,11 @@ namespace {
 constexpr std::size_t kSpareVisits = 60000, kSpareRows = 160;
 constexpr int kMostSweeps = 400;
 
-/// What a sweep may still change, as a share of what gravity does in a step, and in a heap of what
-/// the first sweep changed. Forty cubes of which each step left a hundredth drifted 15 mm in 10 s.
-constexpr double kEnough = 1e-6, kLeftToNextStep = 1e-2;
-constexpr std::size_t kRowsOfAHeap = 200;
+/// What a sweep may still change, as a share of what gravity does in a step, or, where rows are
+/// many, of what the first sweep changed. Forty cubes of which each step left a hundredth drifted
+/// 15 mm in 10 s.
+constexpr double kEnough = 1e-6, kLeftToNextStep = 1e-3, kLeftInAHeap = 1e-2;
+constexpr std::size_t kFewRows = 32, kRowsOfAHeap = 200;
 
 void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
 {
@@ -145,20 +146,22 @@ private:
     std::vector<Visit> visits_;  // bottom to top
 };
 
-/// Until a sweep changes next to nothing, or in a heap a hundredth of what the first one changed:
-/// the rest is left to the next step, which begins with what this one found.
+/// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
+/// next step, which begins with what this one found.
 template <class Rows>
 void solve(const StepSettings& settings, double dt, const GapIsland& island, Rows& rows)
 {
     double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
     const int most = mostSweeps(settings, island);
-    const bool isHeap = island.rowCount > kRowsOfAHeap;
+    const double left = island.rowCount > kRowsOfAHeap ? kLeftInAHeap
+                        : island.rowCount > kFewRows   ? kLeftToNextStep
+                                                       : 0.0;
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
     double energy = 0.0;
     for (int done = 1;; ++done) {
         const double residual = rows.sweep();
-        if (done == 1 && isHeap) enough = std::max(enough, kLeftToNextStep * residual);
+        if (done == 1) enough = std::max(enough, left * residual);
         if (residual <= enough || done >= most) return;
         energy = rows.goOn(energy);
     }
