@@ -13,11 +13,20 @@
 namespace scree {
 namespace {
 
-constexpr double kAlphaPerSafety = 0.5;  // [A16]
+/// Share of the thinner body that two surfaces may pass in a step at safety 1 [A16]. Method `scree`
+/// knows gaps before they close: a thousand rings overlap by no more at twice the step.
+double alphaPerSafety(Method method)
+{
+    return method == Method::paper ? 0.5 : 1.0;
+}
 
 /// Of method `scree`: what a body may fall in a step, as a share of the inner thickness. Dominoes
 /// that may fall 4 % of theirs are awake for longer after they have fallen, and no faster for it.
 constexpr double kFallPerStep = 0.02;
+
+/// Of method `scree`: how far bodies that may meet may turn in a step at safety 1 [rad]. Gaps are
+/// known to first order: what turns by φ beside another sinks into it by φ²/2 of its radius.
+constexpr double kTurnPerStep = 0.16;
 
 bool isStepped(const World& world, BodyId body)
 {
@@ -83,7 +92,7 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
                  const std::vector<Outlook>& outlooks, BodyPair pair, StepLength& limit)
 {
     const auto [a, b] = pair;
-    const double alpha = kAlphaPerSafety * settings.substeps.safety;
+    const double alpha = alphaPerSafety(settings.method) * settings.substeps.safety;
     const double thinner = std::min(thickness(world, a), thickness(world, b));
     const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
     const BodyId faster =
@@ -91,8 +100,13 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const double s = relativeSpeed(outlooks[a], outlooks[b]);
     tighten(limit, timeToPass(alpha * thinner, s, (pullA - pullB).norm()), StepLimit::relativeSpeed,
             faster);
-    const double g = std::max(pullA.norm(), pullB.norm());
     const bool isPaper = settings.method == Method::paper;
+    const double spin = std::max(outlooks[a].spin, outlooks[b].spin);
+    if (!isPaper && spin > 0.0) {
+        tighten(limit, kTurnPerStep * settings.substeps.safety / spin, StepLimit::spin,
+                outlooks[a].spin > outlooks[b].spin ? a : b);
+    }
+    const double g = std::max(pullA.norm(), pullB.norm());
     if (g > 0.0 && (isPaper || isStepped(world, a) || isStepped(world, b))) {
         const double share = isPaper ? settings.hoverLimit : kFallPerStep;
         tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
