@@ -96,7 +96,7 @@ public:
     ImpulseCounts run(std::int64_t& loopsAtTheirCap)
     {
         ImpulseCounts counts;
-        passOverQuietPairs();
+        for (const std::size_t i : inOrderOfTime()) visit(i, counts);
         for (int sweep = 0; sweep < settings_.collisionIterations; ++sweep) {
             const std::int64_t before = counts.total();
             // There and back: a blow runs along a row of touching bodies whichever way it lies.
@@ -109,18 +109,29 @@ public:
     }
 
 private:
-    /// Most pairs are hit by nothing yet: they are done until a blow comes to one of their bodies.
-    void passOverQuietPairs()
+    /// The pairs that are going to be hit, the first first: a body that moves on as it did until
+    /// its blow would run through what it meets before. Most pairs are hit by nothing yet: they are
+    /// done until a blow comes to one of their bodies.
+    std::vector<std::size_t> inOrderOfTime()
     {
         ++visits_;
+        std::vector<double> times(scratch_.pairs.size(), -1.0);
         forPairsWithRows(scratch_, [&](std::size_t p) {
             const GapPair& pair = scratch_.pairs[p];
             Impact impact{};
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                if (impactOf(scratch_.rows[r], impact)) return;
+                if (!impactOf(scratch_.rows[r], impact)) continue;
+                times[p] = times[p] < 0.0 ? impact.time : std::min(times[p], impact.time);
             }
-            doneAt_[p] = visits_;
+            if (times[p] < 0.0) doneAt_[p] = visits_;
         });
+        std::vector<std::size_t> hit;
+        for (const std::size_t p : scratch_.order) {
+            if (times[p] >= 0.0) hit.push_back(p);
+        }
+        std::stable_sort(hit.begin(), hit.end(),
+                         [&](std::size_t p, std::size_t q) { return times[p] < times[q]; });
+        return hit;
     }
 
     /// False when the row is not going to be hit within the step.

@@ -58,7 +58,7 @@ struct StepSettings {
     int pushOutLevelIterations = 4;  ///< gradual: fraction l/n of the depth in iteration l [-]
     int pushOutPairImpulses = 5;     ///< per visit of a pair [-]
     int gapSweeps =
-        8;  ///< of method `scree`, over all contacts of a large heap [-]; too few: it sinks
+        12;  ///< of method `scree`, over all contacts of a large heap [-]; too few: it sinks
     OrientationUpdate orientation = OrientationUpdate::secondOrder;
     CollisionVariant collision = CollisionVariant::reevolve;
     CombineRule frictionRule = CombineRule::maximum;     ///< of a pair, from its materials  [A27]

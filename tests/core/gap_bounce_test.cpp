@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -70,6 +71,23 @@ TEST(GapBounce, BlowsThatFollowFromEachOtherRunAlongARowWithinAStep)
     const std::vector<double> after = speedsAfter(world, 9);
     const std::array<double, 5> expected = {0.0, 0.0, 0.0, 3.0, 3.0};
     for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(after[k], expected[k], 1e-9) << k;
+}
+
+TEST(GapBounce, ABodyThatIsStruckLateInAStepDoesNotRunThroughWhatItMeetsBefore)
+{
+    // The first ball meets the heavy third after a sixth of the step and leaves it again. If the
+    // second, which would strike it near the end, came first, it would be in the third by then.
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 1.0);
+    const Vec3 aside(0.5, -std::sqrt(0.75), 0.0);
+    addBody(world, exactSphere(0.5), material, Pose{}, 1.0, {3.0, 0.0, 0.0});
+    addBody(world, exactSphere(0.5), material, {1.08 * aside, Quat::Identity()}, 1.0,
+            -20.0 * aside);
+    addBody(world, exactSphere(0.5), material, {Vec3(1.002, 0.0, 0.0), Quat::Identity()}, 1e9);
+    Stepper stepper(weightless());
+    stepper.step(world, kStep);
+    EXPECT_NEAR(world.motion[0].velocity.x(), -3.0, 1e-6);
+    EXPECT_GE((world.motion[2].position - world.motion[0].position).norm(), 1.0);
 }
 
 /// A ball that falls `drop` and keeps all its speed: the heights of its lowest point after each
