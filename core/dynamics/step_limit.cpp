@@ -83,13 +83,25 @@ double timeToPass(double length, double s, double g)
     return 2.0 * length / (s + std::sqrt(s * s + 4.0 * g * length));
 }
 
+/// The box of a plane is all of space, but what is higher above it than it can come in the rest of
+/// the frame does not meet it.
+bool isHighAbove(const World& world, BodyId plane, BodyId body, double way)
+{
+    if (!world.shapeOf(plane).isPlane) return false;
+    const BodyMotion& under = world.motion[plane];
+    const Vec3 place =
+        under.orientation.conjugate() * Vec3(world.motion[body].position - under.position);
+    return place.y() - world.shapeOf(body).boundingRadius > way;
+}
+
 void tighten(StepLength& limit, double dt, StepLimit by, BodyId body)
 {
     if (dt < limit.dt) limit = {dt, by, body, false};
 }
 
 void limitByPair(const World& world, const StepSettings& settings, const StepScratch& scratch,
-                 const std::vector<Outlook>& outlooks, BodyPair pair, StepLength& limit)
+                 const std::vector<Outlook>& outlooks, BodyPair pair, double remaining,
+                 StepLength& limit)
 {
     const auto [a, b] = pair;
     const double alpha = alphaPerSafety(settings.method) * settings.substeps.safety;
@@ -98,15 +110,17 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const BodyId faster =
         world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
     const double s = relativeSpeed(outlooks[a], outlooks[b]);
+    const double g = std::max(pullA.norm(), pullB.norm());
+    const bool isPaper = settings.method == Method::paper;
+    const double way = (s + g * remaining) * remaining;
+    if (!isPaper && (isHighAbove(world, a, b, way) || isHighAbove(world, b, a, way))) return;
     tighten(limit, timeToPass(alpha * thinner, s, (pullA - pullB).norm()), StepLimit::relativeSpeed,
             faster);
-    const bool isPaper = settings.method == Method::paper;
     const double spin = std::max(outlooks[a].spin, outlooks[b].spin);
     if (!isPaper && spin > 0.0) {
         tighten(limit, kTurnPerStep * settings.substeps.safety / spin, StepLimit::spin,
                 outlooks[a].spin > outlooks[b].spin ? a : b);
     }
-    const double g = std::max(pullA.norm(), pullB.norm());
     if (g > 0.0 && (isPaper || isStepped(world, a) || isStepped(world, b))) {
         const double share = isPaper ? settings.hoverLimit : kFallPerStep;
         tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
@@ -152,7 +166,8 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
     parallelFor(limits.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin * kPairsTogether;
              i < std::min(end * kPairsTogether, pairs.size()); ++i) {
-            limitByPair(world, settings, scratch, outlooks, pairs[i], limits[i / kPairsTogether]);
+            limitByPair(world, settings, scratch, outlooks, pairs[i], remaining,
+                        limits[i / kPairsTogether]);
         }
     });
     for (const StepLength& found : limits) {

@@ -15,8 +15,8 @@ TEST(StepLimit, StepsThatMustBecomeShorterWithinAFrameDoNotHalveToItsEnd)
     // What was left of the frame once made the next step halve, and the next, down to the cap.
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
-    // Past a slope as steep as a wall, which it never touches but for all its box can say might.
-    addPlane(world, material, Vec3(-5, 0, 0), Vec3(1.0, 0.05, 0.0).normalized());
+    // Along a wall, which it never touches but for all its speed can say might.
+    addPlane(world, material, Vec3(-0.2, 0, 0), Vec3::UnitX());
     addBody(world, boxShape({0.2, 0.2, 0.2}, 1), material, {Vec3(0, 6000, 0), Quat::Identity()});
     StepSettings settings = experimentSettings();
     settings.method = Method::scree;
@@ -58,6 +58,22 @@ TEST(StepLimit, WhatSpinsBesideAnotherTurnsLittleInAStep)
     EXPECT_EQ(stepsOfSpinning(0.1, 14.0), 8);
     EXPECT_EQ(stepsOfSpinning(0.1, 22.0), 12);
     EXPECT_LE(stepsOfSpinning(60.0, 22.0), 4);  // where it meets nothing
+}
+
+TEST(StepLimit, WhatFliesHighAboveTheGroundDoesNotShortenTheStepsOfAll)
+{
+    const auto stepsAt = [](double height) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.0);
+        addPlane(world, material);
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                {Vec3(0, height, 0), Quat::Identity()}, 1.0, {20.0, -20.0, 0.0}, {0.0, 22.0, 0.0});
+        StepSettings settings = experimentSettings();
+        settings.method = Method::scree;
+        return Stepper(settings).advanceFrame(world, 1.0 / 24.0).steps;
+    };
+    EXPECT_GE(stepsAt(1.5), 12);
+    EXPECT_LE(stepsAt(12.0), 4);
 }
 
 }  // namespace
