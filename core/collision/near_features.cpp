@@ -33,7 +33,7 @@ double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
     return atLeast;
 }
 
-/// An edge of the first shape in the frame of the second.
+/// An edge of the first shape in the frame of the second, all but its face normals.
 ConvexEdge placed(const RelativePair& pair, const ConvexEdge& edge)
 {
     ConvexEdge moved = edge;
