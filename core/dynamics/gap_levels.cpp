@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/base/parallel.h"
-#include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/gap_contact.h"
 
 namespace scree {
@@ -166,44 +165,25 @@ std::vector<char> closingIslands(const World& world, const StepSettings& setting
     return closes;
 }
 
-/// The rows of a level that belong to the chosen islands.
-std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std::size_t>& level,
-                                const std::vector<char>& isChosen)
+std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs)
 {
     std::vector<std::size_t> rows;
-    for (const std::size_t i : level) {
-        const GapPair& pair = scratch.pairs[i];
-        if (!isChosen[scratch.rows[pair.begin].island]) continue;
-        for (std::size_t r = pair.begin; r < pair.end; ++r) rows.push_back(r);
+    for (const std::size_t i : pairs) {
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r)
+            rows.push_back(r);
     }
     return rows;
 }
 
-/// The rows of the pairs, together those that share movable bodies.
-std::vector<std::vector<std::size_t>> clustersOf(const GapScratch& scratch,
-                                                 const std::vector<std::size_t>& pairs)
+/// The pairs of a level that belong to the chosen islands.
+std::vector<std::size_t> pairsOf(const GapScratch& scratch, const std::vector<std::size_t>& level,
+                                 const std::vector<char>& isChosen)
 {
-    DisjointSets sets(scratch.bodies.size());
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
-    for (const std::size_t i : pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        if (isMovable(a) && isMovable(b))
-            sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    std::vector<std::size_t> pairs;
+    for (const std::size_t i : level) {
+        if (isChosen[scratch.rows[scratch.pairs[i].begin].island]) pairs.push_back(i);
     }
-    std::vector<std::int32_t> clusterOf(scratch.bodies.size(), -1);
-    std::vector<std::vector<std::size_t>> clusters;
-    for (const std::size_t i : pairs) {
-        const GapPair& pair = scratch.pairs[i];
-        if (!isMovable(pair.bodies.a) && !isMovable(pair.bodies.b)) continue;
-        const BodyId mover = isMovable(pair.bodies.a) ? pair.bodies.a : pair.bodies.b;
-        std::int32_t& index = clusterOf[sets.find(static_cast<std::size_t>(mover))];
-        if (index < 0) {
-            index = static_cast<std::int32_t>(clusters.size());
-            clusters.emplace_back();
-        }
-        for (std::size_t r = pair.begin; r < pair.end; ++r) clusters[index].push_back(r);
-    }
-    return clusters;
+    return pairs;
 }
 
 /// Solves the rows of a cluster beside bodies that are held, if one closes visibly. The rows keep
@@ -291,7 +271,8 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
     if (std::find(isNew.begin(), isNew.end(), 1) == isNew.end()) return;
     HeldBodies held(scratch);
     for (std::size_t level = levels.pairs.size(); level-- > 0;) {
-        const std::vector<std::size_t> rows = rowsOf(scratch, levels.pairs[level], isNew);
+        const std::vector<std::size_t> rows =
+            rowsOf(scratch, pairsOf(scratch, levels.pairs[level], isNew));
         const auto hold = [&](BodyId body) {
             GapBody& b = scratch.bodies[body];
             if (b.inverseMass == 0.0 || levels.graph.level[body] == static_cast<int>(level)) return;
@@ -331,10 +312,7 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
     if (std::find(closes.begin(), closes.end(), 1) == closes.end()) return;
     HeldBodies held(scratch);
     for (std::size_t level = 0; level < levels.pairs.size(); ++level) {
-        std::vector<std::size_t> pairs;
-        for (const std::size_t i : levels.pairs[level]) {
-            if (closes[scratch.rows[scratch.pairs[i].begin].island]) pairs.push_back(i);
-        }
+        const std::vector<std::size_t> pairs = pairsOf(scratch, levels.pairs[level], closes);
         for (const std::size_t i : pairs) {
             for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
                 if (levels.graph.isSupported[body] &&
@@ -342,7 +320,9 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
                     held.hold(body);
             }
         }
-        const std::vector<std::vector<std::size_t>> clusters = clustersOf(scratch, pairs);
+        std::vector<std::vector<std::size_t>> clusters;  // of rows
+        for (const std::vector<std::size_t>& cluster : pairsByBodies(scratch, pairs))
+            clusters.push_back(rowsOf(scratch, cluster));
         std::vector<char> isShaken(clusters.size());
         parallelFor(clusters.size(), 4, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c)

@@ -238,34 +238,48 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
 /// Islands in the order of their lowest pairs.
 void cutIntoIslands(GapScratch& scratch)
 {
-    DisjointSets sets(scratch.bodies.size());
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
-    for (std::size_t i : scratch.order) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        if (isMovable(a) && isMovable(b))
-            sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-    }
-    std::vector<std::int32_t> islandOf(scratch.bodies.size(), -1);
     scratch.islands.clear();
-    for (std::size_t i : scratch.order) {
-        const GapPair& pair = scratch.pairs[i];
-        const BodyId mover = isMovable(pair.bodies.a) ? pair.bodies.a : pair.bodies.b;
-        std::int32_t& index = islandOf[sets.find(static_cast<std::size_t>(mover))];
-        if (index < 0) {
-            index = static_cast<std::int32_t>(scratch.islands.size());
-            scratch.islands.emplace_back();
-        }
-        GapIsland& island = scratch.islands[index];
-        island.pairs.push_back(i);
-        island.rowCount += pair.end - pair.begin;
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            scratch.rows[r].island = index;
-            island.isRemembered = island.isRemembered || scratch.rows[r].isCarried;
+    for (std::vector<std::size_t>& pairs : pairsByBodies(scratch, scratch.order)) {
+        const auto index = static_cast<std::int32_t>(scratch.islands.size());
+        GapIsland& island = scratch.islands.emplace_back();
+        island.pairs = std::move(pairs);
+        for (const std::size_t i : island.pairs) {
+            const GapPair& pair = scratch.pairs[i];
+            island.rowCount += pair.end - pair.begin;
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                scratch.rows[r].island = index;
+                island.isRemembered = island.isRemembered || scratch.rows[r].isCarried;
+            }
         }
     }
 }
 
 }  // namespace
+
+std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
+                                                    const std::vector<std::size_t>& pairs)
+{
+    DisjointSets sets(scratch.bodies.size());
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    for (const std::size_t i : pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (isMovable(a) && isMovable(b))
+            sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    }
+    std::vector<std::int32_t> placeOf(scratch.bodies.size(), -1);
+    std::vector<std::vector<std::size_t>> together;
+    for (const std::size_t i : pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (!isMovable(a) && !isMovable(b)) continue;
+        std::int32_t& place = placeOf[sets.find(static_cast<std::size_t>(isMovable(a) ? a : b))];
+        if (place < 0) {
+            place = static_cast<std::int32_t>(together.size());
+            together.emplace_back();
+        }
+        together[place].push_back(i);
+    }
+    return together;
+}
 
 bool isHeldBy(const World& world, BodyId body, BodyId other)
 {

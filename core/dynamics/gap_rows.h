@@ -118,6 +118,11 @@ void forPairsWithRows(const GapScratch& scratch, const Work& work)
     });
 }
 
+/// Those of the pairs together that share movable bodies, directly or through others; pairs without
+/// any are left out. In the order of the first of each.
+std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
+                                                    const std::vector<std::size_t>& pairs);
+
 /// Cannot be moved by impulses, and moves.
 inline bool isDriven(const GapBody& body)
 {
