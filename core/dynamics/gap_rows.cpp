@@ -57,6 +57,7 @@ void readOdometers(const World& world, GapScratch& scratch)
 {
     const std::size_t known = scratch.seenAt.size();
     scratch.seenAt.resize(world.bodyCount());
+    scratch.hasMoved.assign(world.bodyCount(), true);
     scratch.odometer.resize(world.bodyCount(), 0.0);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const Pose pose = world.motion[i].worldFromBody();
@@ -70,6 +71,8 @@ void readOdometers(const World& world, GapScratch& scratch)
             const double farthest =
                 shape.isPlane ? std::numeric_limits<double>::infinity() : shape.boundingRadius;
             if (turned > 0.0) scratch.odometer[i] += turned * farthest;
+            scratch.hasMoved[i] = pose.position != then.position ||
+                                  pose.orientation.coeffs() != then.orientation.coeffs();
         }
         scratch.seenAt[i] = pose;
     }
@@ -132,6 +135,27 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
             scratch.pairs.emplace_back().bodies = bodies;
         }
     }
+}
+
+/// A step that wakes somebody asks again, most of it the same.
+void findContacts(const World& world, double dt, bool isAgain, const GapScratch& scratch,
+                  GapPair& pair)
+{
+    const auto [a, b] = pair.bodies;
+    const double reach = reachOf(world, scratch, pair.bodies, dt);
+    const double odometer = scratch.odometer[a] + scratch.odometer[b];
+    const bool hasMoved = !isAgain && (scratch.hasMoved[a] || scratch.hasMoved[b]);
+    if (hasMoved || reach != pair.foundWithin) {
+        pair.contacts.clear();
+        pair.foundWithin = reach;
+        if (!pair.near->isApart(reach, odometer)) {
+            const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
+                                    world.motion[a].worldFromBody(),
+                                    world.motion[b].worldFromBody()};
+            pair.near->findContacts(placed, reach, pair.contacts, odometer);
+        }
+    }
+    pair.depth = deepestOf(pair.contacts);
 }
 
 Vec3 anyTangent(const Vec3& normal)
@@ -334,25 +358,15 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
     findForces(world, settings, dt, scratch.forces);
     wakeByForces(world, scratch.forces);
     readOdometers(world, scratch);
+    bool isAgain = false;
     do {
         readBodies(world, scratch);
         findGapPairs(world, dt, scratch);
         parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                GapPair& pair = scratch.pairs[i];
-                pair.contacts.clear();
-                pair.depth = 0.0;
-                const auto [a, b] = pair.bodies;
-                const double reach = reachOf(world, scratch, pair.bodies, dt);
-                const double odometer = scratch.odometer[a] + scratch.odometer[b];
-                if (pair.near->isApart(reach, odometer)) continue;
-                const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
-                                        world.motion[a].worldFromBody(),
-                                        world.motion[b].worldFromBody()};
-                pair.near->findContacts(placed, reach, pair.contacts, odometer);
-                pair.depth = deepestOf(pair.contacts);
-            }
+            for (std::size_t i = begin; i < end; ++i)
+                findContacts(world, dt, isAgain, scratch, scratch.pairs[i]);
         });
+        isAgain = true;
     } while (wakeByTouch(world, dt, scratch));
 }
 
@@ -366,6 +380,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
         // A keyed body beside a sleeping one moves nothing.
         if (scratch.bodies[a].inverseMass == 0.0 && scratch.bodies[b].inverseMass == 0.0) {
             pair.contacts.clear();
+            pair.foundWithin = -1.0;
             pair.depth = 0.0;
         }
         pair.begin = count;

@@ -65,6 +65,7 @@ struct GapPair {
     BodyPair bodies;
     std::unique_ptr<NearFeatures> near = std::make_unique<NearFeatures>();
     std::vector<GapContact> contacts;
+    double foundWithin = -1.0;       ///< the reach of these [m]; negative: they are not known
     std::size_t begin = 0, end = 0;  ///< its rows
     double depth = 0.0;              ///< of its deepest overlap, as last seen [m]
 };
@@ -91,8 +92,10 @@ struct GapScratch {
     std::vector<AppliedForce> forces;
     std::vector<GapPair> pairs;        ///< sorted by bodies
     std::vector<GapPair> formerPairs;  ///< of the last step, without those that are left
-    /// Per body: where it was last, and how far its points have moved in all at most [m].
+    /// Per body: where it was last, whether it has moved since, and how far its points have moved
+    /// in all at most [m].
     std::vector<Pose> seenAt;
+    std::vector<char> hasMoved;
     std::vector<double> odometer;
     std::vector<GapBody> bodies;
     std::vector<GapRow> rows;        ///< pair by pair
