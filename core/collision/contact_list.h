@@ -52,6 +52,7 @@ public:
         : contacts_(contacts),
           first_(contacts.size()),
           samePlace_(kSamePlace * smaller),
+          sharpness_(kSharpness * smaller),
           reach_(reach),
           isRound_(isRound)
     {
@@ -97,7 +98,10 @@ public:
     }
 
     /// In a deep overlap the geometry of touching means little. A corner inside is still a corner
-    /// inside: without any contact that opposes, the deepest one speaks.
+    /// inside: without any contact about as deep, the deepest one speaks. A ring that had slid over
+    /// the rim of another, a corner first, sank 26 mm into it: its faces sloped too much to stand
+    /// there, its edges ended in that corner and crossed nothing, and a fifth of a millimetre at
+    /// the far side of the ring was taken for all there was.
     void finish()
     {
         // A round part that touches elsewhere has nothing to say, if that place is known.
@@ -110,10 +114,11 @@ public:
             if (!isSpokenFor) contacts_.push_back(contact);
         }
         if (!unsupported_) return;
-        const bool isOpposed =
+        const double about = std::min(unsupported_->gap + sharpness_, 0.0);
+        const bool isSpokenFor =
             std::any_of(contacts_.begin() + static_cast<std::ptrdiff_t>(first_), contacts_.end(),
-                        [](const GapContact& c) { return c.gap < 0.0; });
-        if (!isOpposed) contacts_.push_back(*unsupported_);
+                        [&](const GapContact& c) { return c.gap < about; });
+        if (!isSpokenFor) contacts_.push_back(*unsupported_);
     }
 
 private:
@@ -125,7 +130,7 @@ private:
 
     std::vector<GapContact>& contacts_;
     std::size_t first_;
-    double samePlace_, reach_;
+    double samePlace_, sharpness_, reach_;
     bool isRound_;
     std::optional<GapContact> unsupported_;
     std::vector<GapContact> elsewhere_;  // of round parts that touch at another place, if at all

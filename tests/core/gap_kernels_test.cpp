@@ -191,6 +191,23 @@ TEST(NearFeatures, RingsThatOverlapByAMillimetreAreNotSaidToOverlapByCentimetres
     }
 }
 
+// Seen in a heap of 500 rings: what the list of contacts says of a corner inside.
+TEST(NearFeatures, ACornerThatSlidIntoARingOverItsRimIsFoundAsDeepAsItIs)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const Pose asset[2] = {{{5.175909, 0.821675, -8.921861},
+                            Quat(0.948077, 0.179885, 0.063272, 0.254533).normalized()},
+                           {{5.987251, 1.713273, -9.066899},
+                            Quat(-0.090136, 0.896646, 0.114986, -0.417948).normalized()}};
+    const PlacedPair pair{ring.get(), ring.get(), asset[0] * inverse(ring->bodyFromAsset),
+                          asset[1] * inverse(ring->bodyFromAsset)};
+    std::vector<GapContact> contacts;
+    NearFeatures().findContacts(pair, 0.01, contacts);
+    double deepest = 0.0;
+    for (const GapContact& contact : contacts) deepest = std::min(deepest, contact.gap);
+    EXPECT_NEAR(deepest, -0.0102, 2e-4);
+}
+
 /// The plain twin: distance of two segments as the least of a convex function.
 double segmentDistance(const ConvexEdge& a, const ConvexEdge& b)
 {
