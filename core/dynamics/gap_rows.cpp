@@ -18,6 +18,9 @@ namespace {
 /// the slop of push-out must not come and go.
 constexpr double kLeastReach = 2e-4;
 
+/// An overlap that the eye may see, as a share of the smaller body.
+constexpr double kVisible = 5e-3;
+
 /// A place that has moved less than this share of the smaller body since the last step may take
 /// over an impulse although its features have changed.
 constexpr double kSamePlace = 0.05;
@@ -25,6 +28,7 @@ constexpr double kSamePlace = 0.05;
 void readBodies(const World& world, GapScratch& scratch)
 {
     scratch.bodies.resize(world.bodyCount());
+    scratch.gain.resize(world.bodyCount(), 0.0);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const PassInertia inertia = passInertia(world.mass[i], world.motion[i].orientation);
         GapBody& body = scratch.bodies[i];
@@ -90,7 +94,15 @@ double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, d
                          surfaceSpeed(world, scratch, bodies.a, dt) +
                          surfaceSpeed(world, scratch, bodies.b, dt);
     const double pull = std::max({a.pull.norm(), b.pull.norm(), (a.pull - b.pull).norm()});
-    return dt * (speed + dt * pull) + kLeastReach * smallerRadius(world, bodies.a, bodies.b);
+    const double gain = scratch.gain[bodies.a] + scratch.gain[bodies.b];
+    return dt * (speed + gain + dt * pull) + kLeastReach * smallerRadius(world, bodies.a, bodies.b);
+}
+
+/// Of any point of the body, within the step.
+double speedOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
+{
+    const GapBody& b = scratch.bodies[body];
+    return b.velocity.norm() + surfaceSpeed(world, scratch, body, dt) + dt * b.pull.norm();
 }
 
 /// Everything the body may touch within the step.
@@ -100,27 +112,31 @@ Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, doubl
     const Shape& shape = world.shapeOf(body);
     const Aabb box = boxAt(shape, world.motion[body].worldFromBody());
     if (shape.isPlane) return box;
-    const GapBody& b = scratch.bodies[body];
-    const double travel =
-        dt * (b.velocity.norm() + surfaceSpeed(world, scratch, body, dt) + dt * b.pull.norm());
-    return box.grown(travel + kLeastReach * shape.boundingRadius + shape.smooth.bulge());
+    return box.grown(dt * scratch.reckoned[body] + kLeastReach * shape.boundingRadius +
+                     shape.smooth.bulge());
+}
+
+bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
+{
+    const GapBody &a = scratch.bodies[pair.a], &b = scratch.bodies[pair.b];
+    const bool isMoved = a.inverseMass > 0.0 || b.inverseMass > 0.0 || isDriven(a) || isDriven(b);
+    return isMoved && mayCollide(world, pair);
 }
 
 void findGapPairs(const World& world, double dt, GapScratch& scratch)
 {
     scratch.boxes.resize(world.bodyCount());
+    scratch.reckoned.resize(world.bodyCount());
     parallelFor(world.bodyCount(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            scratch.boxes[i] = boxWithin(world, scratch, static_cast<BodyId>(i), dt);
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto body = static_cast<BodyId>(i);
+            scratch.reckoned[i] = speedOf(world, scratch, body, dt) + scratch.gain[i];
+            scratch.boxes[i] = boxWithin(world, scratch, body, dt);
+        }
     });
     std::vector<BodyPair>& found = scratch.candidates;
     found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
-    std::erase_if(found, [&](BodyPair pair) {
-        const bool isMoved = scratch.bodies[pair.a].inverseMass > 0.0 ||
-                             scratch.bodies[pair.b].inverseMass > 0.0 ||
-                             isDriven(scratch.bodies[pair.a]) || isDriven(scratch.bodies[pair.b]);
-        return !isMoved || !mayCollide(world, pair);
-    });
+    std::erase_if(found, [&](BodyPair pair) { return !isMovedPair(world, scratch, pair); });
 
     // Both lists are sorted: pairs that stay keep what they know.
     std::vector<GapPair>& former = scratch.formerPairs;
@@ -137,7 +153,14 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
     }
 }
 
-/// A step that wakes somebody asks again, most of it the same.
+PlacedPair placed(const World& world, BodyPair bodies)
+{
+    const auto [a, b] = bodies;
+    return {&world.shapeOf(a), &world.shapeOf(b), world.motion[a].worldFromBody(),
+            world.motion[b].worldFromBody()};
+}
+
+/// A step that is solved again asks again, most of it the same.
 void findContacts(const World& world, double dt, bool isAgain, const GapScratch& scratch,
                   GapPair& pair)
 {
@@ -148,12 +171,8 @@ void findContacts(const World& world, double dt, bool isAgain, const GapScratch&
     if (hasMoved || reach != pair.foundWithin) {
         pair.contacts.clear();
         pair.foundWithin = reach;
-        if (!pair.near->isApart(reach, odometer)) {
-            const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
-                                    world.motion[a].worldFromBody(),
-                                    world.motion[b].worldFromBody()};
-            pair.near->findContacts(placed, reach, pair.contacts, odometer);
-        }
+        if (!pair.near->isApart(reach, odometer))
+            pair.near->findContacts(placed(world, pair.bodies), reach, pair.contacts, odometer);
     }
     pair.depth = deepestOf(pair.contacts);
 }
@@ -278,6 +297,35 @@ void cutIntoIslands(GapScratch& scratch)
     }
 }
 
+/// As solved, do the bodies run visibly into each other where they were not looked at?
+bool meetsUnseen(const World& world, double dt, GapScratch& scratch, BodyPair bodies)
+{
+    const auto known = std::lower_bound(
+        scratch.pairs.begin(), scratch.pairs.end(), bodies,
+        [](const GapPair& pair, const BodyPair& sought) { return pair.bodies < sought; });
+    const bool isKnown = known != scratch.pairs.end() && known->bodies == bodies;
+    NearFeatures ofNone;
+    NearFeatures& near = isKnown ? *known->near : ofNone;
+    const auto [a, b] = bodies;
+    const double reach = reachOf(world, scratch, bodies, dt);
+    const double odometer = scratch.odometer[a] + scratch.odometer[b];
+    if (near.isApart(reach, odometer)) return false;
+    std::vector<GapContact> contacts;
+    near.findContacts(placed(world, bodies), reach, contacts, odometer);
+    const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
+    return std::any_of(contacts.begin(), contacts.end(), [&](const GapContact& contact) {
+        if (isKnown && contact.gap < known->foundWithin) return false;
+        GapRow row{};
+        row.rA = contact.rA;
+        row.rB = contact.rA + bFromA;
+        row.normal = contact.normal;
+        const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
+        const double opened =
+            shiftAt(row, bodyA, bodyB) + dt * velocityAt(row, bodyA, bodyB).dot(row.normal);
+        return contact.gap + opened < -kVisible * smallerRadius(world, a, b);
+    });
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
@@ -368,6 +416,41 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
         });
         isAgain = true;
     } while (wakeByTouch(world, dt, scratch));
+}
+
+bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
+{
+    std::vector<double> gain(world.bodyCount(), 0.0);
+    std::vector<Aabb> boxes = scratch.boxes;
+    bool isFaster = false;
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (scratch.bodies[i].inverseMass == 0.0) continue;
+        const double faster = speedOf(world, scratch, body, dt) - scratch.reckoned[i];
+        if (dt * faster <= kVisible * world.shapeOf(body).boundingRadius) continue;
+        gain[i] = scratch.gain[i] + faster;
+        boxes[i] = boxes[i].grown(dt * faster);
+        isFaster = true;
+    }
+    if (!isFaster) return false;
+
+    std::vector<BodyPair> pairs = scratch.fartherPhase.findPairs(boxes, world.mass);
+    std::erase_if(pairs, [&](BodyPair pair) {
+        return (gain[pair.a] == 0.0 && gain[pair.b] == 0.0) || !isMovedPair(world, scratch, pair);
+    });
+    std::vector<char> isMet(pairs.size(), 0);
+    parallelFor(pairs.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            isMet[i] = meetsUnseen(world, dt, scratch, pairs[i]);
+    });
+    bool isAny = false;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!isMet[i]) continue;
+        isAny = true;
+        for (const BodyId body : {pairs[i].a, pairs[i].b})
+            scratch.gain[body] = std::max(scratch.gain[body], gain[body]);
+    }
+    return isAny;
 }
 
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)

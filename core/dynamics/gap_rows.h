@@ -97,6 +97,10 @@ struct GapScratch {
     std::vector<Pose> seenAt;
     std::vector<char> hasMoved;
     std::vector<double> odometer;
+    /// Per body: the speed with which this step looks for gaps, and how much of it is what an
+    /// earlier attempt has shown it to gain [m/s].
+    std::vector<double> reckoned, gain;
+    BroadPhase fartherPhase;  ///< of meetsUnseen
     std::vector<GapBody> bodies;
     std::vector<GapRow> rows;        ///< pair by pair
     std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top
@@ -106,6 +110,11 @@ struct GapScratch {
 
 /// Finds all contacts that may close within dt. Wakes what they are about to disturb.
 void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch);
+
+/// Whether the step, as solved, takes a body visibly into something that lay farther away than
+/// anything it could have reached before it was struck. If so the next findGaps looks farther: the
+/// step has to be solved again.
+bool meetsUnseen(const World& world, double dt, GapScratch& scratch);
 
 /// Lays the contacts out as rows, with the impulses that
 /// the world remembers. Keyed bodies must have been aimed.

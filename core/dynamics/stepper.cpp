@@ -25,6 +25,10 @@
 namespace scree {
 namespace {
 
+/// How often a step of method `scree` is solved again because something was struck so that it ran
+/// into what nobody had looked at.
+constexpr int kMostLooks = 2;
+
 /// Adds the wall time of a scope to one phase of a report.
 class PhaseTimer {
 public:
@@ -266,8 +270,13 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.dt = dt;
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
+    scratch.gain.assign(world.bodyCount(), 0.0);
     GapLevels levels = solveGaps(world, dt, report);
-    while (wakeStruck(world, dt, scratch)) levels = solveGaps(world, dt, report);
+    int looks = 0;
+    while (wakeStruck(world, dt, scratch) ||
+           (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
+        levels = solveGaps(world, dt, report);
+    }
     if (observer_) observer_->stepDone(seeGaps(world, scratch, levels.graph, dt));
     {
         const PhaseTimer timer(report, Phase::position);

@@ -321,6 +321,24 @@ TEST(GapMethod, WhatRollsOnABodyThatLiesStillKeepsItNotAwake)
     EXPECT_NEAR(world.motion[ball].position.y(), 1.25, 1e-4);
 }
 
+TEST(GapMethod, WhatIsStruckStopsAtWhatItCouldNotHaveReachedBefore)
+{
+    // A block at rest has no reason to look at a wall 3 cm away. A heavy one strikes it so that it
+    // would go 9 cm in what is left of the step.
+    World world;
+    const MaterialId material = addMaterial(world, 0.3, 0.0);
+    addPlane(world, material, Vec3(0.53, 0.0, 0.0), -Vec3::UnitX());
+    const auto block = boxShape(Vec3::Ones(), 1);
+    const BodyId struck = addBody(world, block, material, {Vec3::Zero(), Quat::Identity()});
+    addBody(world, block, material, {Vec3(-1.01, 0.0, 0.0), Quat::Identity()}, 100.0,
+            {10.0, 0.0, 0.0});
+    StepSettings settings = screeSettings();
+    settings.gravity = Vec3::Zero();
+    Stepper(settings).step(world, 1.0 / 96.0);
+    EXPECT_GT(world.motion[struck].position.x(), 0.01);
+    EXPECT_LE(world.motion[struck].position.x(), 0.03 + 1e-3);
+}
+
 TEST(GapMethod, ABlowGoesThroughSleepersAsThroughWhatIsAwake)
 {
     World world;
