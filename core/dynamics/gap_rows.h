@@ -108,16 +108,8 @@ struct GapScratch {
     std::vector<GapImpact> impacts;  ///< of this step, as they came
 };
 
-/// Finds all contacts that may close within dt. Wakes what they are about to disturb.
-void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch);
-
-/// Whether the step, as solved, takes a body visibly into something that lay farther away than
-/// anything it could have reached before it was struck. If so the next findGaps looks farther: the
-/// step has to be solved again.
-bool meetsUnseen(const World& world, double dt, GapScratch& scratch);
-
-/// Lays the contacts out as rows, with the impulses that
-/// the world remembers. Keyed bodies must have been aimed.
+/// Lays the contacts that findGaps has found out as rows, with the impulses that the world
+/// remembers. Keyed bodies must have been aimed.
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
 
 /// Calls work(pair) for every pair that has rows, shared by threads: it may write to what belongs

@@ -15,6 +15,7 @@
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
 #include "core/dynamics/gap_push_out.h"
+#include "core/dynamics/gap_search.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"

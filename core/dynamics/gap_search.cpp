@@ -1,0 +1,257 @@
+// Symbols: reach the gap that may close within the step.
+#include "core/dynamics/gap_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/dynamics/integrator.h"
+#include "core/dynamics/sleep.h"
+
+namespace scree {
+namespace {
+
+/// Gaps below this share of the smaller body are contacts even when nothing moves: what lies within
+/// the slop of push-out must not come and go.
+constexpr double kLeastReach = 2e-4;
+
+/// An overlap that the eye may see, as a share of the smaller body.
+constexpr double kVisible = 5e-3;
+
+void readBodies(const World& world, GapScratch& scratch)
+{
+    scratch.bodies.resize(world.bodyCount());
+    scratch.gain.resize(world.bodyCount(), 0.0);
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const PassInertia inertia = passInertia(world.mass[i], world.motion[i].orientation);
+        GapBody& body = scratch.bodies[i];
+        body.velocity = world.motion[i].velocity;
+        body.spin = inertia.inverseInertia * world.motion[i].angularMomentum;
+        body.inverseMass = inertia.inverseMass;
+        body.inverseInertia = inertia.turningByImpulse();
+        body.pull = scratch.forces[i].acceleration;
+        body.torque = scratch.forces[i].torque;
+        body.angularImpulse = body.shift = body.turn = Vec3::Zero();
+        body.hitAt = 0.0;
+        if (!world.contactMemory.isAsleep(static_cast<BodyId>(i))) continue;
+        // Who sleeps is a fixed body to all others.
+        body.inverseMass = 0.0;
+        body.inverseInertia.setZero();
+        body.pull = body.torque = Vec3::Zero();
+    }
+}
+
+/// By the spin, at the end of a step of dt.
+double surfaceSpeed(const World& world, const GapScratch& scratch, BodyId body, double dt)
+{
+    const Shape& shape = world.shapeOf(body);
+    if (shape.isPlane) return 0.0;
+    const GapBody& b = scratch.bodies[body];
+    return (b.spin.norm() + dt * (b.inverseInertia * b.torque).norm()) * shape.boundingRadius;
+}
+
+void readOdometers(const World& world, GapScratch& scratch)
+{
+    const std::size_t known = scratch.seenAt.size();
+    scratch.seenAt.resize(world.bodyCount());
+    scratch.hasMoved.assign(world.bodyCount(), true);
+    scratch.odometer.resize(world.bodyCount(), 0.0);
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const Pose pose = world.motion[i].worldFromBody();
+        const Pose& then = scratch.seenAt[i];
+        if (i < known) {
+            const Shape& shape = world.shapeOf(static_cast<BodyId>(i));
+            // The chord of a point at unit distance.
+            const double turned =
+                2.0 * (pose.orientation * then.orientation.conjugate()).vec().norm();
+            scratch.odometer[i] += (pose.position - then.position).norm();
+            const double farthest =
+                shape.isPlane ? std::numeric_limits<double>::infinity() : shape.boundingRadius;
+            if (turned > 0.0) scratch.odometer[i] += turned * farthest;
+            scratch.hasMoved[i] = pose.position != then.position ||
+                                  pose.orientation.coeffs() != then.orientation.coeffs();
+        }
+        scratch.seenAt[i] = pose;
+    }
+}
+
+/// Gaps that may close within the step. The speed that both have in common and what pulls both
+/// alike count too: one of them may be stopped in this very step, and the course of a falling wall
+/// that was not told of the one below sank as deep into it as it fell in a step.
+double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+{
+    const GapBody& a = scratch.bodies[bodies.a];
+    const GapBody& b = scratch.bodies[bodies.b];
+    const double inCommon = std::min(a.velocity.norm(), b.velocity.norm());
+    const double speed = (a.velocity - b.velocity).norm() + inCommon +
+                         surfaceSpeed(world, scratch, bodies.a, dt) +
+                         surfaceSpeed(world, scratch, bodies.b, dt);
+    const double pull = std::max({a.pull.norm(), b.pull.norm(), (a.pull - b.pull).norm()});
+    const double gain = scratch.gain[bodies.a] + scratch.gain[bodies.b];
+    return dt * (speed + gain + dt * pull) + kLeastReach * smallerRadius(world, bodies.a, bodies.b);
+}
+
+/// Of any point of the body, within the step.
+double speedOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
+{
+    const GapBody& b = scratch.bodies[body];
+    return b.velocity.norm() + surfaceSpeed(world, scratch, body, dt) + dt * b.pull.norm();
+}
+
+/// Everything the body may touch within the step.
+Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, double dt)
+{
+    if (!world.isBorn(body)) return {};  // an empty box meets nothing
+    const Shape& shape = world.shapeOf(body);
+    const Aabb box = boxAt(shape, world.motion[body].worldFromBody());
+    if (shape.isPlane) return box;
+    return box.grown(dt * scratch.reckoned[body] + kLeastReach * shape.boundingRadius +
+                     shape.smooth.bulge());
+}
+
+bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
+{
+    const GapBody &a = scratch.bodies[pair.a], &b = scratch.bodies[pair.b];
+    const bool isMoved = a.inverseMass > 0.0 || b.inverseMass > 0.0 || isDriven(a) || isDriven(b);
+    return isMoved && mayCollide(world, pair);
+}
+
+void findGapPairs(const World& world, double dt, GapScratch& scratch)
+{
+    scratch.boxes.resize(world.bodyCount());
+    scratch.reckoned.resize(world.bodyCount());
+    parallelFor(world.bodyCount(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto body = static_cast<BodyId>(i);
+            scratch.reckoned[i] = speedOf(world, scratch, body, dt) + scratch.gain[i];
+            scratch.boxes[i] = boxWithin(world, scratch, body, dt);
+        }
+    });
+    std::vector<BodyPair>& found = scratch.candidates;
+    found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
+    std::erase_if(found, [&](BodyPair pair) { return !isMovedPair(world, scratch, pair); });
+
+    // Both lists are sorted: pairs that stay keep what they know.
+    std::vector<GapPair>& former = scratch.formerPairs;
+    std::swap(scratch.pairs, former);
+    scratch.pairs.clear();
+    std::size_t old = 0;
+    for (const BodyPair& bodies : found) {
+        while (old < former.size() && former[old].bodies < bodies) ++old;
+        if (old < former.size() && former[old].bodies == bodies) {
+            scratch.pairs.push_back(std::move(former[old++]));
+        } else {
+            scratch.pairs.emplace_back().bodies = bodies;
+        }
+    }
+}
+
+PlacedPair placed(const World& world, BodyPair bodies)
+{
+    const auto [a, b] = bodies;
+    return {&world.shapeOf(a), &world.shapeOf(b), world.motion[a].worldFromBody(),
+            world.motion[b].worldFromBody()};
+}
+
+/// A step that is solved again asks again, most of it the same.
+void findContacts(const World& world, double dt, bool isAgain, const GapScratch& scratch,
+                  GapPair& pair)
+{
+    const auto [a, b] = pair.bodies;
+    const double reach = reachOf(world, scratch, pair.bodies, dt);
+    const double odometer = scratch.odometer[a] + scratch.odometer[b];
+    const bool hasMoved = !isAgain && (scratch.hasMoved[a] || scratch.hasMoved[b]);
+    if (hasMoved || reach != pair.foundWithin) {
+        pair.contacts.clear();
+        pair.foundWithin = reach;
+        if (!pair.near->isApart(reach, odometer))
+            pair.near->findContacts(placed(world, pair.bodies), reach, pair.contacts, odometer);
+    }
+    pair.depth = deepestOf(pair.contacts);
+}
+
+/// As solved, do the bodies run visibly into each other where they were not looked at?
+bool meetsUnseen(const World& world, double dt, GapScratch& scratch, BodyPair bodies)
+{
+    const auto known = std::lower_bound(
+        scratch.pairs.begin(), scratch.pairs.end(), bodies,
+        [](const GapPair& pair, const BodyPair& sought) { return pair.bodies < sought; });
+    const bool isKnown = known != scratch.pairs.end() && known->bodies == bodies;
+    NearFeatures ofNone;
+    NearFeatures& near = isKnown ? *known->near : ofNone;
+    const auto [a, b] = bodies;
+    const double reach = reachOf(world, scratch, bodies, dt);
+    const double odometer = scratch.odometer[a] + scratch.odometer[b];
+    if (near.isApart(reach, odometer)) return false;
+    std::vector<GapContact> contacts;
+    near.findContacts(placed(world, bodies), reach, contacts, odometer);
+    const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
+    return std::any_of(contacts.begin(), contacts.end(), [&](const GapContact& contact) {
+        if (isKnown && contact.gap < known->foundWithin) return false;
+        GapRow row{};
+        row.rA = contact.rA;
+        row.rB = contact.rA + bFromA;
+        row.normal = contact.normal;
+        const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
+        const double opened =
+            shiftAt(row, bodyA, bodyB) + dt * velocityAt(row, bodyA, bodyB).dot(row.normal);
+        return contact.gap + opened < -kVisible * smallerRadius(world, a, b);
+    });
+}
+
+}  // namespace
+
+void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+{
+    findForces(world, settings, dt, scratch.forces);
+    wakeByForces(world, scratch.forces);
+    readOdometers(world, scratch);
+    bool isAgain = false;
+    do {
+        readBodies(world, scratch);
+        findGapPairs(world, dt, scratch);
+        parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                findContacts(world, dt, isAgain, scratch, scratch.pairs[i]);
+        });
+        isAgain = true;
+    } while (wakeByTouch(world, dt, scratch));
+}
+
+bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
+{
+    std::vector<double> gain(world.bodyCount(), 0.0);
+    std::vector<Aabb> boxes = scratch.boxes;
+    bool isFaster = false;
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (scratch.bodies[i].inverseMass == 0.0) continue;
+        const double faster = speedOf(world, scratch, body, dt) - scratch.reckoned[i];
+        if (dt * faster <= kVisible * world.shapeOf(body).boundingRadius) continue;
+        gain[i] = scratch.gain[i] + faster;
+        boxes[i] = boxes[i].grown(dt * faster);
+        isFaster = true;
+    }
+    if (!isFaster) return false;
+
+    std::vector<BodyPair> pairs = scratch.fartherPhase.findPairs(boxes, world.mass);
+    std::erase_if(pairs, [&](BodyPair pair) {
+        return (gain[pair.a] == 0.0 && gain[pair.b] == 0.0) || !isMovedPair(world, scratch, pair);
+    });
+    std::vector<char> isMet(pairs.size(), 0);
+    parallelFor(pairs.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            isMet[i] = meetsUnseen(world, dt, scratch, pairs[i]);
+    });
+    bool isAny = false;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!isMet[i]) continue;
+        isAny = true;
+        for (const BodyId body : {pairs[i].a, pairs[i].b})
+            scratch.gain[body] = std::max(scratch.gain[body], gain[body]);
+    }
+    return isAny;
+}
+
+}  // namespace scree
