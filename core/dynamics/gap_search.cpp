@@ -172,7 +172,7 @@ void findContacts(const World& world, double dt, bool isAgain, const GapScratch&
 }
 
 /// As solved, do the bodies run visibly into each other where they were not looked at?
-bool meetsUnseen(const World& world, double dt, GapScratch& scratch, BodyPair bodies)
+bool runsIntoUnseen(const World& world, double dt, const GapScratch& scratch, BodyPair bodies)
 {
     const auto known = std::lower_bound(
         scratch.pairs.begin(), scratch.pairs.end(), bodies,
@@ -242,7 +242,7 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
     std::vector<char> isMet(pairs.size(), 0);
     parallelFor(pairs.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            isMet[i] = meetsUnseen(world, dt, scratch, pairs[i]);
+            isMet[i] = runsIntoUnseen(world, dt, scratch, pairs[i]);
     });
     bool isAny = false;
     for (std::size_t i = 0; i < pairs.size(); ++i) {

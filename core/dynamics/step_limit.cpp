@@ -130,8 +130,8 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
 /// For method `scree`: a heap whose step length changes all the time never finds its rest, since
 /// every change disturbs what its contacts remember. While anything may touch a frame has at least
 /// four steps, which also resolve the bounce of a drop of a centimetre, and beyond that an even
-/// number; within a frame steps only get shorter. With multiples of four a thousand rings took
-/// seven and a half steps for the five that their motion asks for.
+/// number; within a frame steps only get shorter. With multiples of four a thousand rings took six
+/// steps a frame instead of five and a half.
 double steadyStep(const World& world, const StepSettings& settings, double frameDuration,
                   double longest, const StepScratch& scratch)
 {
