@@ -42,6 +42,11 @@ struct Impacts {
     std::int64_t changedAt = 0;  // the visit of a pair that changed it last
 };
 
+/// What accelerates a body beside what pulls it if all that carried it does so again.
+struct Held {
+    Vec3 acceleration = Vec3::Zero(), turning = Vec3::Zero();  // [m/s²], [rad/s²]
+};
+
 struct Impact {
     GapRow* row;
     Vec3 velocity;             // relative, at the moment of impact
@@ -85,12 +90,22 @@ public:
           dt_(dt),
           slowest_(slowestApproach(settings, dt)),
           scratch_(scratch),
+          held_(scratch.bodies.size()),
           impacts_(scratch.bodies.size()),
           doneAt_(scratch.pairs.size(), 0),
           gatheredAt_(scratch.pairs.size(), 0),
           placeOf_(scratch.bodies.size(), -1)
     {
         scratch.impacts.clear();
+        for (const std::size_t p : scratch.order) {
+            for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
+                const GapRow& row = scratch.rows[r];
+                if (row.impulse.x() == 0.0) continue;
+                const Vec3 force = row.worldImpulse() / dt;
+                if (row.movesA) hold(row.a, row.rA, force);
+                if (row.movesB) hold(row.b, row.rB, -force);
+            }
+        }
     }
 
     ImpulseCounts run(std::int64_t& loopsAtTheirCap)
@@ -109,6 +124,12 @@ public:
     }
 
 private:
+    void hold(BodyId body, const Vec3& r, const Vec3& force)
+    {
+        held_[body].acceleration += scratch_.bodies[body].inverseMass * force;
+        held_[body].turning += scratch_.bodies[body].inverseInertia * r.cross(force);
+    }
+
     /// The pairs that are going to be hit, the first first: a body that moves on as it did until
     /// its blow would run through what it meets before. Most pairs are hit by nothing yet: they are
     /// done until a blow comes to one of their bodies.
@@ -134,13 +155,28 @@ private:
         return hit;
     }
 
+    /// What lies on something does not fall on what lies a hair below it: of gravity only that
+    /// brings the two together which what held their bodies in the last step would let through now.
+    /// A ring that hung on three corners of a pole fell on a fourth 0.4 mm away, through the three,
+    /// and was pushed out again, step after step.
+    Vec3 gravityAt(const GapRow& row) const
+    {
+        const Vec3 free = scratch_.bodies[row.a].pull - scratch_.bodies[row.b].pull;
+        const double g = free.dot(row.normal);
+        if (g >= 0.0) return free;
+        const Held &a = held_[row.a], &b = held_[row.b];
+        const Vec3 held =
+            a.acceleration + a.turning.cross(row.rA) - b.acceleration - b.turning.cross(row.rB);
+        return free + std::clamp(held.dot(row.normal), 0.0, -g) * row.normal;
+    }
+
     /// False when the row is not going to be hit within the step.
     bool impactOf(GapRow& row, Impact& impact) const
     {
         const GapBody& a = scratch_.bodies[row.a];
         const GapBody& b = scratch_.bodies[row.b];
         const Vec3 relative = velocityAt(row, a, b);
-        const Vec3 gravity = a.pull - b.pull;
+        const Vec3 gravity = gravityAt(row);
         const double u = relative.dot(row.normal);
         const double g = gravity.dot(row.normal);
         const double s = std::max(row.gap, 0.0);
@@ -280,7 +316,7 @@ private:
         if (slid.isZero(0.0)) return row;
         row.rA -= 0.5 * slid;
         row.rB += 0.5 * slid;
-        const Vec3 velocity = velocityAt(row, a, b) + impact.time * (a.pull - b.pull);
+        const Vec3 velocity = velocityAt(row, a, b) + impact.time * gravityAt(row);
         const double speed = velocity.dot(row.normal);
         if (speed >= -slowest_) {
             row.rA = impact.row->rA;
@@ -393,6 +429,7 @@ private:
     double dt_, slowest_;
     GapScratch& scratch_;
     std::optional<PairsOfBodies> pairsOf_;  // once asked for
+    std::vector<Held> held_;
     std::vector<Impacts> impacts_;
     std::int64_t visits_ = 0;           // that ended with nothing left to be hit
     std::vector<std::int64_t> doneAt_;  // the last of them, of each pair; 0: none
