@@ -115,7 +115,7 @@ public:
         double energy = 0.0;
         for (const Visit& visit : visits_)
             energy += energyOf(*visit.row, visit.row->impulse - visit.before);
-        const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
+        const double beta = shareOfLastWay(energy, energyBefore);
         for (Visit& visit : visits_) {
             if (beta > 1.0) {
                 visit.way = Vec3::Zero();  // the active set has changed: start again

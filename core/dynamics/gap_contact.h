@@ -10,6 +10,21 @@ namespace scree {
 /// One visit. Answers how much it changed the normal velocity [m/s].
 double visitRow(GapRow& row, GapBody& a, GapBody& b);
 
+/// How much of the way that its impulses went in the last sweep an island goes again, by the
+/// energies of what that sweep and the one before changed. Above 1: none, the active set has
+/// changed.
+///
+/// A body wedged between places that contradict each other by a hair gets the same impulses sweep
+/// after sweep until friction gives way. There rounding decided whether to begin anew, and one in
+/// thirty islands of a hundred rings came to no end in 400 sweeps, half of all that were made. What
+/// grows by less than a hundredth goes on: one in eighty, and a third fewer visits.
+inline double shareOfLastWay(double energy, double energyBefore)
+{
+    constexpr double kSteady = 0.01;
+    const double share = energyBefore > 0.0 ? energy / energyBefore : 0.0;
+    return share > 1.0 && share <= 1.0 + kSteady ? 1.0 : share;
+}
+
 /// The sweeps a step may spend on an island: those of the settings on a large heap, more on a small
 /// problem.
 int mostSweeps(const StepSettings& settings, const GapIsland& island);

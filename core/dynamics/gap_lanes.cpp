@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/parallel.h"
+#include "core/dynamics/gap_contact.h"
 
 namespace scree {
 
@@ -325,7 +326,7 @@ double GapLanes::goOn(double energyBefore)
 {
     double energy = 0.0;
     for (const Section& section : sections_) energy += sumOf(section.energy);
-    const double beta = energyBefore > 0.0 ? energy / energyBefore : 0.0;
+    const double beta = shareOfLastWay(energy, energyBefore);
     inHalves([&](const Section& section) { goOn(section, beta); });
     goOn(sections_[2], beta);
     return energy;
