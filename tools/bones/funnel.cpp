@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace scree {
 namespace {
@@ -13,27 +14,33 @@ constexpr int kSectors = 48;
 /// inside, up the outside. The outlet is 3 m wide, and the longest bone reaches 0.85 m: half as
 /// wide it jams as soon as the columns arrive, and bones leap over the rim. The collar takes all
 /// that columns of 1 m about 1.75 m from the axis drop. The wall is 0.3 m thick.
-constexpr std::array<std::array<double, 2>, 8> kProfile = {{{3.4, 3.4},
-                                                            {3.4, 2.4},
-                                                            {2.45, 1.2},
-                                                            {1.5, 0.0},
-                                                            {1.735, -0.186},
-                                                            {2.685, 1.014},
-                                                            {3.7, 2.296},
-                                                            {3.7, 3.4}}};
+using Profile = std::array<std::array<double, 2>, 8>;
+
+Profile profile(double rim)
+{
+    return {{{3.4, rim},
+             {3.4, 2.4},
+             {2.45, 1.2},
+             {1.5, 0.0},
+             {1.735, -0.186},
+             {2.685, 1.014},
+             {3.7, 2.296},
+             {3.7, rim}}};
+}
 
 }  // namespace
 
-TriMesh makeFunnel()
+TriMesh makeFunnel(double rim)
 {
-    constexpr int kRings = static_cast<int>(kProfile.size());
+    const Profile outline = profile(rim);
+    constexpr int kRings = static_cast<int>(std::tuple_size_v<Profile>);
     TriMesh mesh;
     mesh.points.resize(3, kSectors * kRings);
     mesh.triangles.resize(3, 2 * kSectors * kRings);
     for (int s = 0; s < kSectors; ++s) {
         const double angle = 2.0 * std::numbers::pi * s / kSectors;
         for (int r = 0; r < kRings; ++r) {
-            const auto [radius, height] = kProfile[r];
+            const auto [radius, height] = outline[r];
             mesh.points.col(s * kRings + r) =
                 Vec3(radius * std::cos(angle), height, radius * std::sin(angle));
             const int sNext = (s + 1) % kSectors, rNext = (r + 1) % kRings;
