@@ -85,6 +85,16 @@ struct GapIsland {
     bool isRemembered = false;  ///< some of its pairs carried in the last step
 };
 
+/// What of a body's motion may close gaps within a step.
+struct GapPace {
+    double speed = 0.0;   ///< of its centre [m/s]
+    double bySpin = 0.0;  ///< of its surface about the centre, at the end of the step [m/s]
+    double pull = 0.0;    ///< [m/s²]
+
+    /// Of any point of the body, within dt.
+    double fastest(double dt) const { return speed + bySpin + dt * pull; }
+};
+
 struct GapScratch {
     BroadPhase broadPhase;
     std::vector<Aabb> boxes;
@@ -97,9 +107,10 @@ struct GapScratch {
     std::vector<Pose> seenAt;
     std::vector<char> hasMoved;
     std::vector<double> odometer;
-    /// Per body: the speed with which this step looks for gaps, and how much of it is what an
-    /// earlier attempt has shown it to gain [m/s].
-    std::vector<double> reckoned, gain;
+    /// Per body: the pace with which this step looks for gaps, and what an earlier attempt has
+    /// shown it to gain besides [m/s].
+    std::vector<GapPace> paces;
+    std::vector<double> gain;
     BroadPhase fartherPhase;  ///< of meetsUnseen
     std::vector<GapBody> bodies;
     std::vector<GapRow> rows;        ///< pair by pair

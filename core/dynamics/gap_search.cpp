@@ -42,13 +42,16 @@ void readBodies(const World& world, GapScratch& scratch)
     }
 }
 
-/// By the spin, at the end of a step of dt.
-double surfaceSpeed(const World& world, const GapScratch& scratch, BodyId body, double dt)
+GapPace paceOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
 {
-    const Shape& shape = world.shapeOf(body);
-    if (shape.isPlane) return 0.0;
     const GapBody& b = scratch.bodies[body];
-    return (b.spin.norm() + dt * (b.inverseInertia * b.torque).norm()) * shape.boundingRadius;
+    const Shape& shape = world.shapeOf(body);
+    GapPace pace{b.velocity.norm(), 0.0, b.pull.norm()};
+    if (!shape.isPlane) {
+        const double spin = b.spin.norm() + dt * (b.inverseInertia * b.torque).norm();
+        pace.bySpin = spin * shape.boundingRadius;
+    }
+    return pace;
 }
 
 void readOdometers(const World& world, GapScratch& scratch)
@@ -79,24 +82,16 @@ void readOdometers(const World& world, GapScratch& scratch)
 /// Gaps that may close within the step. The speed that both have in common and what pulls both
 /// alike count too: one of them may be stopped in this very step, and the course of a falling wall
 /// that was not told of the one below sank as deep into it as it fell in a step.
-double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, const GapPace& a,
+               const GapPace& b, double dt)
 {
-    const GapBody& a = scratch.bodies[bodies.a];
-    const GapBody& b = scratch.bodies[bodies.b];
-    const double inCommon = std::min(a.velocity.norm(), b.velocity.norm());
-    const double speed = (a.velocity - b.velocity).norm() + inCommon +
-                         surfaceSpeed(world, scratch, bodies.a, dt) +
-                         surfaceSpeed(world, scratch, bodies.b, dt);
-    const double pull = std::max({a.pull.norm(), b.pull.norm(), (a.pull - b.pull).norm()});
+    const GapBody& bodyA = scratch.bodies[bodies.a];
+    const GapBody& bodyB = scratch.bodies[bodies.b];
+    const double inCommon = std::min(a.speed, b.speed);
+    const double speed = (bodyA.velocity - bodyB.velocity).norm() + inCommon + a.bySpin + b.bySpin;
+    const double pull = std::max({a.pull, b.pull, (bodyA.pull - bodyB.pull).norm()});
     const double gain = scratch.gain[bodies.a] + scratch.gain[bodies.b];
     return dt * (speed + gain + dt * pull) + kLeastReach * smallerRadius(world, bodies.a, bodies.b);
-}
-
-/// Of any point of the body, within the step.
-double speedOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
-{
-    const GapBody& b = scratch.bodies[body];
-    return b.velocity.norm() + surfaceSpeed(world, scratch, body, dt) + dt * b.pull.norm();
 }
 
 /// Everything the body may touch within the step.
@@ -106,8 +101,8 @@ Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, doubl
     const Shape& shape = world.shapeOf(body);
     const Aabb box = boxAt(shape, world.motion[body].worldFromBody());
     if (shape.isPlane) return box;
-    return box.grown(dt * scratch.reckoned[body] + kLeastReach * shape.boundingRadius +
-                     shape.smooth.bulge());
+    return box.grown(dt * (scratch.paces[body].fastest(dt) + scratch.gain[body]) +
+                     kLeastReach * shape.boundingRadius + shape.smooth.bulge());
 }
 
 bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
@@ -120,11 +115,11 @@ bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
 void findGapPairs(const World& world, double dt, GapScratch& scratch)
 {
     scratch.boxes.resize(world.bodyCount());
-    scratch.reckoned.resize(world.bodyCount());
+    scratch.paces.resize(world.bodyCount());
     parallelFor(world.bodyCount(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto body = static_cast<BodyId>(i);
-            scratch.reckoned[i] = speedOf(world, scratch, body, dt) + scratch.gain[i];
+            scratch.paces[i] = paceOf(world, scratch, body, dt);
             scratch.boxes[i] = boxWithin(world, scratch, body, dt);
         }
     });
@@ -159,7 +154,8 @@ void findContacts(const World& world, double dt, bool isAgain, const GapScratch&
                   GapPair& pair)
 {
     const auto [a, b] = pair.bodies;
-    const double reach = reachOf(world, scratch, pair.bodies, dt);
+    const double reach =
+        reachOf(world, scratch, pair.bodies, scratch.paces[a], scratch.paces[b], dt);
     const double odometer = scratch.odometer[a] + scratch.odometer[b];
     const bool hasMoved = !isAgain && (scratch.hasMoved[a] || scratch.hasMoved[b]);
     if (hasMoved || reach != pair.foundWithin) {
@@ -181,7 +177,8 @@ bool runsIntoUnseen(const World& world, double dt, const GapScratch& scratch, Bo
     NearFeatures ofNone;
     NearFeatures& near = isKnown ? *known->near : ofNone;
     const auto [a, b] = bodies;
-    const double reach = reachOf(world, scratch, bodies, dt);
+    const double reach = reachOf(world, scratch, bodies, paceOf(world, scratch, a, dt),
+                                 paceOf(world, scratch, b, dt), dt);
     const double odometer = scratch.odometer[a] + scratch.odometer[b];
     if (near.isApart(reach, odometer)) return false;
     std::vector<GapContact> contacts;
@@ -227,7 +224,8 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) continue;
-        const double faster = speedOf(world, scratch, body, dt) - scratch.reckoned[i];
+        const double faster = paceOf(world, scratch, body, dt).fastest(dt) -
+                              scratch.paces[i].fastest(dt) - scratch.gain[i];
         if (dt * faster <= kVisible * world.shapeOf(body).boundingRadius) continue;
         gain[i] = scratch.gain[i] + faster;
         boxes[i] = boxes[i].grown(dt * faster);
