@@ -200,7 +200,8 @@ private:
         if (speed >= -slowest_) return false;
         // What lies on something that lies on the ground falls back on it with all of gravity, even
         // if both are free to fall.
-        const double pull = row.isCarried ? std::max(a.pull.norm(), b.pull.norm()) : -g;
+        const double pull = row.isCarried ? std::max(a.pull.norm(), b.pull.norm())
+                                          : (b.pull - a.pull).dot(row.normal);
         if (2.0 * row.restitution * -speed <= pull * (dt_ - time)) return false;
         impact = {&row, relative + time * gravity, time, u - (1.0 + row.restitution) * speed,
                   Vec3::Zero()};
