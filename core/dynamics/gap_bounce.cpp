@@ -42,10 +42,31 @@ struct Impacts {
     std::int64_t changedAt = 0;  // the visit of a pair that changed it last
 };
 
-/// What accelerates a body beside what pulls it if all that carried it does so again.
+/// What accelerates a body beside what pulls it.
 struct Held {
     Vec3 acceleration = Vec3::Zero(), turning = Vec3::Zero();  // [m/s²], [rad/s²]
 };
+
+/// Per body, if all that carried it in the last step does so again: rows begin with the impulses
+/// that are remembered.
+std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
+{
+    std::vector<Held> held(scratch.bodies.size());
+    const auto hold = [&](BodyId body, const Vec3& r, const Vec3& force) {
+        held[body].acceleration += scratch.bodies[body].inverseMass * force;
+        held[body].turning += scratch.bodies[body].inverseInertia * r.cross(force);
+    };
+    for (const std::size_t p : scratch.order) {
+        for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            if (row.impulse.x() == 0.0) continue;
+            const Vec3 force = row.worldImpulse() / dt;
+            if (row.movesA) hold(row.a, row.rA, force);
+            if (row.movesB) hold(row.b, row.rB, -force);
+        }
+    }
+    return held;
+}
 
 struct Impact {
     GapRow* row;
@@ -90,22 +111,13 @@ public:
           dt_(dt),
           slowest_(slowestApproach(settings, dt)),
           scratch_(scratch),
-          held_(scratch.bodies.size()),
+          held_(heldAsBefore(dt, scratch)),
           impacts_(scratch.bodies.size()),
           doneAt_(scratch.pairs.size(), 0),
           gatheredAt_(scratch.pairs.size(), 0),
           placeOf_(scratch.bodies.size(), -1)
     {
         scratch.impacts.clear();
-        for (const std::size_t p : scratch.order) {
-            for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
-                const GapRow& row = scratch.rows[r];
-                if (row.impulse.x() == 0.0) continue;
-                const Vec3 force = row.worldImpulse() / dt;
-                if (row.movesA) hold(row.a, row.rA, force);
-                if (row.movesB) hold(row.b, row.rB, -force);
-            }
-        }
     }
 
     ImpulseCounts run(std::int64_t& loopsAtTheirCap)
@@ -124,12 +136,6 @@ public:
     }
 
 private:
-    void hold(BodyId body, const Vec3& r, const Vec3& force)
-    {
-        held_[body].acceleration += scratch_.bodies[body].inverseMass * force;
-        held_[body].turning += scratch_.bodies[body].inverseInertia * r.cross(force);
-    }
-
     /// The pairs that are going to be hit, the first first: a body that moves on as it did until
     /// its blow would run through what it meets before. Most pairs are hit by nothing yet: they are
     /// done until a blow comes to one of their bodies.
