@@ -14,6 +14,7 @@ namespace {
 struct Crossing {
     Vec3 onFirst, onSecond, normal;    // normal not oriented
     double beyondFirst, beyondSecond;  // how far past the ends of either edge, ≤ 0 within [m]
+    int endOfFirst, endOfSecond;       // which end that is
 };
 
 std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double lengthA,
@@ -26,14 +27,24 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
     const double alongA = dA.dot(between), alongB = dB.dot(between);
     const double s = (cosine * alongB - alongA) / sineSquared;
     const double t = (alongB - cosine * alongA) / sineSquared;
-    return Crossing{startA + s * dA, startB + t * dB, dA.cross(dB).normalized(),
-                    std::max(-s, s - lengthA), std::max(-t, t - lengthB)};
+    return Crossing{startA + s * dA,
+                    startB + t * dB,
+                    dA.cross(dB).normalized(),
+                    std::max(-s, s - lengthA),
+                    std::max(-t, t - lengthB),
+                    s < 0.0 ? 0 : 1,
+                    t < 0.0 ? 0 : 1};
 }
 
 /// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
-/// nearest to both of them past their ends, inside the body: it touches all the same.
-bool crossesInNotch(const RelativePair& pair, const Crossing& at, double gap)
+/// nearest to both of them past their ends, inside the body: it touches all the same. Past the end
+/// of an edge that goes on straight is no notch: there rounding took a cube for 36 mm deep in the
+/// one below, and the blow drove it into a third.
+bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
+                    const Crossing& at, double gap)
 {
+    if (at.beyondFirst > 0.0 && a.goesOn[at.endOfFirst]) return false;
+    if (at.beyondSecond > 0.0 && b.goesOn[at.endOfSecond]) return false;
     const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
     if (beyond > -gap || std::hypot(beyond, gap) > deepestEdges(pair)) return false;
     const Vec3 inFirst = pair.rotation.transpose() * (at.onFirst - pair.translation);
@@ -171,7 +182,7 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     const double gap = n.dot(at->onFirst - at->onSecond);
     if (gap >= reach) return {};
     const bool isWithin = at->beyondFirst <= 0.0 && at->beyondSecond <= 0.0;
-    if (!isWithin && !crossesInNotch(pair, *at, gap)) return {};
+    if (!isWithin && !crossesInNotch(pair, a, b, *at, gap)) return {};
     if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
     if (gap >= -sharpness) return FeatureContact{at->onFirst, n, gap};
 
@@ -179,7 +190,8 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     // what overlaps, the first edge is about as deep as the nearer of the faces beside the second,
     // and neither leaves much sooner by a face.
     if (gap < -deepestEdges(pair)) return {};
-    const Dip dip = deepestBeside(b, n, gap, pair.rotation * a.direction, -at->beyondFirst);
+    const Dip dip =
+        deepestBeside(b, n, gap, pair.rotation * a.direction, std::max(-at->beyondFirst, 0.0));
     const Vec3 deepest = at->onFirst + dip.along * (pair.rotation * a.direction);
     if (pair.second.distance.value(deepest) > 0.5 * dip.height) return {};
     if (leavesByFace(pair, a, b, n, -gap) ||

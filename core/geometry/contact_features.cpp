@@ -62,7 +62,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         around[ends.first].push_back(direction);
         around[ends.second].push_back(-direction);
 
-        ConvexEdge edge{{ends.first, ends.second}, start, direction, length, {}, {}, {}};
+        ConvexEdge edge{{ends.first, ends.second}, start, direction, length, {}, {}, {}, {}};
         for (int side = 0; side < 2; ++side) {
             edge.faceNormal[side] = faceNormal(mesh, both.face[side]);
             const Vec3 across = oppositeCorner(mesh, both.face[side], ends) - start;
@@ -84,6 +84,9 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
     }
     // A point with faces in one or two directions lies inside a flat region or a straight edge:
     // whatever touches it also touches the region's true corners or edges.
+    for (ConvexEdge& edge : edges_) {
+        for (int end : {0, 1}) edge.goesOn[end] = normals[edge.ends[end]].size() < 3;
+    }
     std::vector<Sphere> cornerSpheres;
     for (std::size_t v = 0; v < normals.size(); ++v) {
         if (normals[v].size() < 3) continue;

@@ -25,6 +25,7 @@ struct ConvexEdge {
     std::array<Vec3, 2> faceNormal;  ///< of its two faces
     std::array<Vec3, 2> intoFace;    ///< unit, in each face, away from the edge
     Vec3 outward;                    ///< unit, halfway between the normals of its faces
+    std::array<bool, 2> goesOn;      ///< past either end, straight, as another edge
 };
 
 /// Sine of the angle by which surroundings may stand in front of a feature that still counts: the
