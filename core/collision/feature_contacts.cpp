@@ -38,8 +38,8 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
 
 /// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
 /// nearest to both of them past their ends, inside the body: it touches all the same. Past the end
-/// of an edge that goes on straight is no notch: there rounding took a cube for 36 mm deep in the
-/// one below, and the blow drove it into a third.
+/// of an edge that goes on straight is no notch: there rounding took a cube for 36 mm deep in its
+/// neighbour, and pushed it away.
 bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
                     const Crossing& at, double gap)
 {

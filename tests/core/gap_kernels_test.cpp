@@ -191,6 +191,25 @@ TEST(NearFeatures, RingsThatOverlapByAMillimetreAreNotSaidToOverlapByCentimetres
     }
 }
 
+/// As seen in a heap: two cubes lie on each other, edge on edge, and one of these ends at the
+/// middle of a side. From there on it was 36 mm deep, wherever rounding said so.
+TEST(NearFeatures, PastTheEndOfAnEdgeThatGoesOnStraightIsNoNotch)
+{
+    const auto cube = boxShape({0.5, 0.5, 0.5}, 2);
+    for (int i = 0; i < 20; ++i) {
+        const Pose a{Vec3(-2.331654216221198 + 1e-5 * i, 1.748846780766361, -2.7518805596118616),
+                     Quat(-0.8724073446532972, 0.031149029324138763, 0.48777913698057296,
+                          0.002583891180898662)};
+        const Pose b{
+            Vec3(-2.2727537168020056, 2.2607264221433248, -2.7715299801060205),
+            Quat(-0.3809176896131415, 0.5637930083262791, 0.5260226719506466, -0.5102345598801525)};
+        std::vector<GapContact> contacts;
+        NearFeatures().findContacts({cube.get(), cube.get(), a, b}, 0.01, contacts);
+        EXPECT_FALSE(contacts.empty());
+        for (const GapContact& contact : contacts) EXPECT_GT(contact.gap, -1e-3) << i;
+    }
+}
+
 // Seen in a heap of 500 rings: what the list of contacts says of a corner inside.
 TEST(NearFeatures, ACornerThatSlidIntoARingOverItsRimIsFoundAsDeepAsItIs)
 {
