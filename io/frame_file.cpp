@@ -233,12 +233,16 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
     if (memory.dt == 0.0) return;
     std::vector<std::int32_t> bodies, still, nearby;
     std::vector<std::int64_t> features;
-    std::vector<double> place, force, position, orientation, pull, nearPosition, nearOrientation;
+    std::vector<double> place, force, couple, position, orientation, pull, nearPosition,
+        nearOrientation;
+    bool anyCouple = false;
     for (const RememberedContact& contact : memory.contacts) {
         bodies.insert(bodies.end(), {contact.a, contact.b});
         features.push_back(std::bit_cast<std::int64_t>(contact.feature));
         append(place, contact.place);
         append(force, contact.force);
+        append(couple, contact.couple);
+        anyCouple = anyCouple || !contact.couple.isZero(0.0);
     }
     for (const BodyRest& rest : memory.rest) {
         still.insert(still.end(), {rest.still.frames, rest.isAsleep});
@@ -254,6 +258,7 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
     encoder.add("memory.feature", 1, features);
     encoder.add("memory.place", 3, place);
     encoder.add("memory.force", 3, force);
+    if (anyCouple) encoder.add("memory.couple", 3, couple);
     encoder.add("rest.still", 2, still);
     encoder.add("rest.position", 3, position);
     encoder.add("rest.orientation", 4, orientation);
@@ -347,7 +352,11 @@ void readMemory(const FrameDecoder& decoder, std::uint64_t bodyCount, ContactMem
         if (a < 0 || b < 0 || a >= count || b >= count)
             decoder.fail("a remembered contact is of a body that does not exist");
         memory.contacts.push_back({a, b, std::bit_cast<std::uint64_t>(features[i]),
-                                   vectorAt(place, i), vectorAt(force, i)});
+                                   vectorAt(place, i), vectorAt(force, i), Vec3::Zero()});
+    }
+    if (decoder.rowsOf("memory.couple") > 0) {
+        const auto couple = decoder.read<double>("memory.couple", contacts, 3);
+        for (std::size_t i = 0; i < contacts; ++i) memory.contacts[i].couple = vectorAt(couple, i);
     }
     if (decoder.rowsOf("rest.still") == 0) return;
     const auto still = decoder.read<std::int32_t>("rest.still", bodyCount, 2);

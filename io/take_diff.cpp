@@ -71,7 +71,7 @@ bool isSame(const BodyRest& a, const BodyRest& b)
 bool isSame(const RememberedContact& a, const RememberedContact& b)
 {
     return a.a == b.a && a.b == b.b && a.feature == b.feature && a.place == b.place &&
-           a.force == b.force;
+           a.force == b.force && a.couple == b.couple;
 }
 
 using ContactsOfPairs = std::map<std::pair<BodyId, BodyId>, std::vector<RememberedContact>>;

@@ -25,6 +25,7 @@ std::uint64_t stateHash(const World& world)
     }
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         hash = hashBytes(contact.force.data(), sizeof(Vec3), hash);
+        hash = hashBytes(contact.couple.data(), sizeof(Vec3), hash);
     }
     for (const BodyRest& rest : world.contactMemory.rest) {
         const std::array<std::int32_t, 3> still = {rest.still.frames, rest.nearby.frames,

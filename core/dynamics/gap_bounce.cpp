@@ -52,17 +52,17 @@ struct Held {
 std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
 {
     std::vector<Held> held(scratch.bodies.size());
-    const auto hold = [&](BodyId body, const Vec3& r, const Vec3& force) {
+    const auto hold = [&](BodyId body, const Vec3& r, const Vec3& force, const Vec3& couple) {
         held[body].acceleration += scratch.bodies[body].inverseMass * force;
-        held[body].turning += scratch.bodies[body].inverseInertia * r.cross(force);
+        held[body].turning += scratch.bodies[body].inverseInertia * (r.cross(force) + couple);
     };
     for (const std::size_t p : scratch.order) {
         for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
             const GapRow& row = scratch.rows[r];
             if (row.impulse.x() == 0.0) continue;
-            const Vec3 force = row.worldImpulse() / dt;
-            if (row.movesA) hold(row.a, row.rA, force);
-            if (row.movesB) hold(row.b, row.rB, -force);
+            const Vec3 force = row.worldImpulse() / dt, couple = row.couple / dt;
+            if (row.movesA) hold(row.a, row.rA, force, couple);
+            if (row.movesB) hold(row.b, row.rB, -force, -couple);
         }
     }
     return held;

@@ -39,6 +39,12 @@ void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
     if (row.movesB) applyTo(b, row.rB, -impulse);
 }
 
+void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
+{
+    if (row.movesA) a.spin += a.inverseInertia * couple;
+    if (row.movesB) b.spin -= b.inverseInertia * couple;
+}
+
 /// Whether friction holds the place.
 bool sticks(const GapRow& row)
 {
@@ -68,8 +74,7 @@ double resistSpin(GapRow& row, GapBody& a, GapBody& b)
     if (length > limit) across *= limit / length;
     const Vec3 change = about * row.normal + across - row.couple;
     row.couple += change;
-    if (row.movesA) a.spin += a.inverseInertia * change;
-    if (row.movesB) b.spin -= b.inverseInertia * change;
+    applyCouple(row, a, b, change);
     return (response * change).norm() * row.rA.norm();
 }
 
@@ -94,7 +99,11 @@ public:
 
     void begin()
     {
-        for (const Visit& visit : visits_) apply(*visit.row, visit.row->worldImpulse());
+        for (const Visit& visit : visits_) {
+            const GapRow& row = *visit.row;
+            apply(row, row.worldImpulse());
+            applyCouple(row, scratch_.bodies[row.a], scratch_.bodies[row.b], row.couple);
+        }
     }
 
     double sweep()
@@ -172,7 +181,7 @@ bool resistsRolling(const GapScratch& scratch, const GapIsland& island)
     for (std::size_t i : island.pairs) {
         const GapPair& pair = scratch.pairs[i];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            if (scratch.rows[r].rollingArm > 0.0 || scratch.rows[r].spinningArm > 0.0) return true;
+            if (scratch.rows[r].resistsSpin()) return true;
         }
     }
     return false;
@@ -230,7 +239,7 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
         changed = std::abs(normal - before) * row.inverseNormalMass;
         applyRow(row, a, b, (normal - before) * row.normal);
     }
-    if (row.rollingArm > 0.0 || row.spinningArm > 0.0)
+    if (row.resistsSpin())
         changed = std::max(changed, resistSpin(row, a, b));
     if (normal == 0.0 && row.impulse.y() == 0.0 && row.impulse.z() == 0.0) return changed;
 

@@ -195,11 +195,11 @@ bool shake(const World& world, const StepSettings& settings, double dt,
         return closesVisibly(world, settings, dt, scratch, scratch.rows[r]);
     });
     if (!closes) return false;
-    std::vector<Vec3> remembered;
+    std::vector<GapRow> remembered;
     double enough = solvedEnough(settings, dt);
     for (const std::size_t r : rows) {
         GapRow& row = scratch.rows[r];
-        remembered.push_back(row.impulse);
+        remembered.push_back(row);
         prepareRow(scratch, row);
         enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, scratch, row));
     }
@@ -209,12 +209,16 @@ bool shake(const World& world, const StepSettings& settings, double dt,
     if (isThrown) before.restore(scratch);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         GapRow& row = scratch.rows[rows[i]];
-        const Vec3 withShock = row.worldImpulse();
-        row.impulse = remembered[i];
+        const Vec3 withShock = row.worldImpulse(), coupleWithShock = row.couple;
+        row.impulse = remembered[i].impulse;
+        row.couple = remembered[i].couple;
         if (isThrown) continue;
         const Vec3 extra = withShock - row.worldImpulse();
-        if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra);
-        if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra);
+        const Vec3 extraCouple = coupleWithShock - row.couple;
+        if (row.movesA)
+            scratch.bodies[row.a].angularImpulse += row.rA.cross(extra) + extraCouple;
+        if (row.movesB)
+            scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra) + extraCouple;
     }
     return true;
 }
@@ -285,7 +289,7 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
             hold(scratch.rows[r].b);
         }
         for (std::size_t r : rows) {
-            scratch.rows[r].impulse = Vec3::Zero();
+            scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
             prepareRow(scratch, scratch.rows[r]);
         }
         solveRows(scratch, rows, solvedEnough(settings, dt));
@@ -299,8 +303,13 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
             GapRow& row = scratch.rows[rows[i]];
             prepareRow(scratch, row);
             const Vec3 impulse = row.worldImpulse();
-            if (wasHeldA[i] && row.movesA) applyTo(scratch.bodies[row.a], row.rA, impulse);
-            if (wasHeldB[i] && row.movesB) applyTo(scratch.bodies[row.b], row.rB, -impulse);
+            const auto hand = [&](BodyId body, const Vec3& r, const Vec3& j, const Vec3& couple) {
+                GapBody& b = scratch.bodies[body];
+                applyTo(b, r, j);
+                b.spin += b.inverseInertia * couple;
+            };
+            if (wasHeldA[i] && row.movesA) hand(row.a, row.rA, impulse, row.couple);
+            if (wasHeldB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);
         }
     }
 }

@@ -169,8 +169,12 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
             // and its inverse would lose bits every step.
             turns[i].ofA += row.rA.cross(impulse) + row.couple;
             turns[i].ofB -= row.rB.cross(impulse) + row.couple;
-            kept[place++] = {row.a, row.b, pair.contacts[r - pair.begin].feature,
-                             aFromWorld * row.rA, impulse / dt};
+            kept[place++] = {row.a,
+                             row.b,
+                             pair.contacts[r - pair.begin].feature,
+                             aFromWorld * row.rA,
+                             impulse / dt,
+                             row.couple / dt};
         }
     });
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {

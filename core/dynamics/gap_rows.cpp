@@ -29,13 +29,10 @@ double largestEigenvalue(double tt, double ts, double ss)
     return 0.5 * (tt + ss) + std::sqrt(half * half + ts * ts);
 }
 
-/// How a couple changes the spin of a body that rolls about the end of r, held there by friction.
-Mat3 rollingResponse(const GapBody& body, const Vec3& r)
+/// What the impulses of a row see of a body.
+PassInertia inertiaOf(const GapBody& body, bool moves)
 {
-    const Mat3 aboutContact =
-        body.inverseInertia.inverse() +
-        (r.squaredNorm() * Mat3::Identity() - r * r.transpose()) / body.inverseMass;
-    return aboutContact.inverse();
+    return moves ? PassInertia{body.inverseMass, body.inverseInertia} : PassInertia{};
 }
 
 /// The paper's raw coefficient takes an angular speed from the bodies for each unit of normal
@@ -59,9 +56,9 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
         meanCurvature(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
     const double factor = curvatureFactor(curvature, finer);
     const double about = row.normal.dot(response * row.normal);
-    Mat3 rollers = Mat3::Zero();
-    if (row.movesA) rollers += rollingResponse(scratch.bodies[row.a], row.rA);
-    if (row.movesB) rollers += rollingResponse(scratch.bodies[row.b], row.rB);
+    const Mat3 rollers =
+        rollingResponse(inertiaOf(scratch.bodies[row.a], row.movesA), row.rA,
+                        inertiaOf(scratch.bodies[row.b], row.movesB), row.rB);
     const double tt = row.tangent.dot(rollers * row.tangent);
     const double ss = row.secondTangent().dot(rollers * row.secondTangent());
     const double ts = row.tangent.dot(rollers * row.secondTangent());
@@ -87,6 +84,7 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
         const Vec3 impulse = dt * begin[m].force;
         row.impulse = {std::max(impulse.dot(row.normal), 0.0), impulse.dot(row.tangent),
                        impulse.dot(row.secondTangent())};
+        row.couple = row.resistsSpin() ? Vec3(dt * begin[m].couple) : Vec3::Zero();
         isTaken[m] = isGiven[r] = 1;
     };
     const auto distance = [&](std::size_t r, std::size_t m) {

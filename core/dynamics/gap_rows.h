@@ -53,6 +53,7 @@ struct GapRow {
     bool wasHit;            ///< by an impact of this step
     bool isCarried;         ///< its pair had an impulse in the last step
 
+    bool resistsSpin() const { return rollingArm > 0.0 || spinningArm > 0.0; }
     Vec3 secondTangent() const { return normal.cross(tangent); }
     Vec3 worldImpulse() const
     {

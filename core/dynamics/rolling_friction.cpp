@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace scree {
 namespace {
@@ -15,16 +16,22 @@ constexpr double kMostFactor = 10.0;
 /// The four blocks of both bodies together.
 struct Blocks {
     Mat3 k1, k2, k4;
-};
 
-Blocks blocksOf(const StickingContact& contact)
-{
-    const Mat3 turningS = contact.inertiaS.turningByImpulse();
-    const Mat3 turningF = contact.inertiaF.turningByImpulse();
-    return {collisionMatrix(contact.inertiaS, contact.rS) +
-                collisionMatrix(contact.inertiaF, contact.rF),
-            -skew(contact.rS) * turningS - skew(contact.rF) * turningF, turningS + turningF};
-}
+    Blocks(const PassInertia& inertiaS, const Vec3& rS, const PassInertia& inertiaF, const Vec3& rF)
+        : k1(collisionMatrix(inertiaS, rS) + collisionMatrix(inertiaF, rF)),
+          k2(-skew(rS) * inertiaS.turningByImpulse() - skew(rF) * inertiaF.turningByImpulse()),
+          k4(inertiaS.turningByImpulse() + inertiaF.turningByImpulse())
+    {
+    }
+
+    /// K1⁻¹ K2: what holds the point while a couple acts. None where nothing can be moved.
+    std::optional<Mat3> slip() const
+    {
+        const Eigen::LLT<Mat3> decomposed(k1);
+        if (decomposed.info() != Eigen::Success) return {};
+        return decomposed.solve(k2);
+    }
+};
 
 /// Resistance about a unit axis, as loss of spin by normal impulse [1/(kg m)]. A lever arm b
 /// stands for the couple b jn; what spin that couple takes away is up to the inertia it meets.
@@ -73,15 +80,22 @@ bool isAdmissible(const Blocks& blocks, const StickingContact& contact,
 
 }  // namespace
 
+Mat3 rollingResponse(const PassInertia& inertiaS, const Vec3& rS, const PassInertia& inertiaF,
+                     const Vec3& rF)
+{
+    const Blocks blocks(inertiaS, rS, inertiaF, rF);
+    const std::optional<Mat3> slip = blocks.slip();
+    return slip ? Mat3(blocks.k4 - blocks.k2.transpose() * *slip) : Mat3::Zero();
+}
+
 RollingImpulse rollingImpulse(const StickingContact& contact, const RollingFriction& resistance,
                               double factor)
 {
     const RollingImpulse sticking{contact.impulse, Vec3::Zero(), true};
-    const Blocks blocks = blocksOf(contact);
-    const Eigen::LLT<Mat3> k1(blocks.k1);
-    if (k1.info() != Eigen::Success) return sticking;
-    const Mat3 slip = k1.solve(blocks.k2);  // K1⁻¹ K2: what holds the point while a couple acts
-    const Mat3 c = blocks.k4 - blocks.k2.transpose() * slip;
+    const Blocks blocks(contact.inertiaS, contact.rS, contact.inertiaF, contact.rF);
+    const std::optional<Mat3> slip = blocks.slip();
+    if (!slip) return sticking;
+    const Mat3 c = blocks.k4 - blocks.k2.transpose() * *slip;
     const Eigen::LLT<Mat3> ofC(c);
     if (ofC.info() != Eigen::Success) return sticking;
 
@@ -92,7 +106,7 @@ RollingImpulse rollingImpulse(const StickingContact& contact, const RollingFrict
     Vec3 change = changeOfSpin(spin, contact, resistance, c, factor);
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
         const Vec3 couple = ofC.solve(change);
-        const RollingImpulse applied{contact.impulse - slip * couple, couple, false};
+        const RollingImpulse applied{contact.impulse - *slip * couple, couple, false};
         if (isAdmissible(blocks, contact, applied)) return applied;
         change *= 0.5;
     }

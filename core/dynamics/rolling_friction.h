@@ -30,6 +30,11 @@ struct RollingImpulse {
     bool isDropped = false;       ///< Coulomb's cone or the energy left no room for resistance
 };
 
+/// C: how a couple on S, and its opposite on F, changes their relative spin while friction and the
+/// normal impulse hold the point where they touch [1/(kg m²)]. Zero where nothing can be moved.
+Mat3 rollingResponse(const PassInertia& inertiaS, const Vec3& rS, const PassInertia& inertiaF,
+                     const Vec3& rF);
+
 /// The sticking impulse with as much resistance as the friction cone and the energy allow. Spin
 /// about the normal and rolling across it only ever slow down; neither changes sign. `factor`
 /// scales the resistance (curvatureFactor).

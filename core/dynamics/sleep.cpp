@@ -147,10 +147,10 @@ struct ContactLoad {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // about its centre of mass, world [N], [N m]
     double total = 0.0;                                // of the magnitudes of the forces [N]
 
-    void add(const Vec3& r, const Vec3& f)
+    void add(const Vec3& r, const Vec3& f, const Vec3& couple)
     {
         force += f;
-        torque += r.cross(f);
+        torque += r.cross(f) + couple;
         total += f.norm();
     }
 };
@@ -160,8 +160,8 @@ void addContact(const World& world, const RememberedContact& contact,
 {
     const BodyMotion &a = world.motion[contact.a], &b = world.motion[contact.b];
     const Vec3 r = a.orientation * contact.place;
-    loads[contact.a].add(r, contact.force);
-    loads[contact.b].add(a.position + r - b.position, -contact.force);
+    loads[contact.a].add(r, contact.force, contact.couple);
+    loads[contact.b].add(a.position + r - b.position, -contact.force, -contact.couple);
 }
 
 /// Of the remembered contacts that `counts` accepts, told their bodies.
@@ -191,17 +191,18 @@ std::vector<ContactLoad> loadsOfSleepers(const World& world, double dt, const Ga
 {
     std::vector<ContactLoad> loads = contactLoads(
         world, [&](BodyId a, BodyId b) { return !isStepped(world, a) && !isStepped(world, b); });
-    const auto add = [&](const GapRow& row, const Vec3& impulse) {
-        loads[row.a].add(row.rA, impulse / dt);
-        loads[row.b].add(row.rB, -impulse / dt);
+    const auto add = [&](const GapRow& row, const Vec3& impulse, const Vec3& couple) {
+        loads[row.a].add(row.rA, impulse / dt, couple / dt);
+        loads[row.b].add(row.rB, -impulse / dt, -couple / dt);
     };
     for (const std::size_t i : scratch.order) {
         const GapPair& pair = scratch.pairs[i];
         if (!touchesSleeper(world, pair.bodies.a, pair.bodies.b)) continue;
         for (std::size_t r = pair.begin; r < pair.end; ++r)
-            add(scratch.rows[r], scratch.rows[r].worldImpulse());
+            add(scratch.rows[r], scratch.rows[r].worldImpulse(), scratch.rows[r].couple);
     }
-    for (const GapImpact& impact : scratch.impacts) add(scratch.rows[impact.row], impact.impulse);
+    for (const GapImpact& impact : scratch.impacts)
+        add(scratch.rows[impact.row], impact.impulse, Vec3::Zero());
     return loads;
 }
 

@@ -110,6 +110,18 @@ PassInertia randomInertia(std::uint64_t sample, std::uint64_t which)
 }
 
 // A keyed body, or one that shock has frozen, keeps an inverse inertia that no impulse may see.
+TEST(E9RollingFriction, OfTwoFreeBallsNoneRollsAboutThePlaceTheyTouch)  // [A49]
+{
+    const PassInertia fixed, ball{0.5, 5.0 * Mat3::Identity()};
+    const Vec3 r(0.0, -0.5, 0.0);
+    // On something fixed the centre goes along, 1 / (I + m R²); two that are free turn against each
+    // other like gears, with their centres where they are.
+    EXPECT_NEAR(rollingResponse(ball, r, fixed, Vec3::Zero())(0, 0), 1.0 / (0.2 + 2.0 * 0.25),
+                1e-14);
+    EXPECT_NEAR(rollingResponse(ball, r, ball, -r)(0, 0), 2.0 / 0.2, 1e-13);
+    EXPECT_TRUE(rollingResponse(fixed, r, fixed, -r).isZero(0.0));
+}
+
 TEST(E9RollingFriction, TheInertiaOfABodyThatCannotBeMovedDoesNotMatter)  // [A51]
 {
     StickingContact contact;

@@ -103,6 +103,9 @@ TEST_F(TakeTest, RestoringAStateGivesBackEveryBit)
     advance(moved);
     moved.clock.subStep = 7;
     moved.clock.frameTimeDone = 0.1;
+    moved.contactMemory.dt = 0.01;
+    moved.contactMemory.contacts = {
+        {0, 1, 7, Vec3(0.1, 0.2, 0.3), Vec3(1.0, 9.0, 2.0), Vec3(0.0, 0.5, 0.0)}};
     const std::string bytes = encodeFrame(captureState(shot, moved));
 
     World restored = buildWorld(shot);
