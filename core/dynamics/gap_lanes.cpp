@@ -2,6 +2,7 @@
 #include "core/dynamics/gap_lanes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_contact.h"
@@ -206,11 +207,16 @@ inline void GapLanes::apply(const Row& row, const Batch& batch, const Lanes3& ch
     motion.wB -= batch.b.inverseInertia * cross(row.rB, j);
 }
 
-/// visitRow without branches; friction sees what the normal impulse changes without that having
-/// been applied.
-inline Lanes GapLanes::visit(Row& row, const Batch& batch, Motion& motion) const
+inline Lanes3 GapLanes::velocityAt(const Row& row, const Motion& motion)
 {
-    const Lanes3 u = motion.vA + cross(motion.wA, row.rA) - motion.vB - cross(motion.wB, row.rB);
+    return motion.vA + cross(motion.wA, row.rA) - motion.vB - cross(motion.wB, row.rB);
+}
+
+/// visitRow without branches, where surfaces move with u; friction sees what the normal impulse
+/// changes without that having been applied.
+inline void GapLanes::visit(Row& row, const Batch& batch, const Lanes3& u, Motion& motion,
+                            Section& section) const
+{
     const Lanes3 old = row.impulse;
     const Lanes un = dot(u, row.normal);
     const Lanes normal = maxOf(kNoLanes, old.x - (un - row.target) * row.normalMass);
@@ -228,8 +234,9 @@ inline Lanes GapLanes::visit(Row& row, const Batch& batch, Motion& motion) const
     row.impulse = {normal, slides ? shorter * slideT : stickT, slides ? shorter * slideS : stickS};
     const Lanes3 change = row.impulse - old;
     apply(row, batch, change, motion);
-    return maxOf(absOf(pushed) * row.inverseNormalMass,
-                 maxOf(absOf(change.y), absOf(change.z)) * row.inverseSlideMass);
+    const Lanes changed = maxOf(absOf(pushed) * row.inverseNormalMass,
+                                maxOf(absOf(change.y), absOf(change.z)) * row.inverseSlideMass);
+    section.residual = maxOf(section.residual, changed);
 }
 
 void GapLanes::begin(const Section& section)
@@ -245,13 +252,16 @@ void GapLanes::begin(const Section& section)
 
 void GapLanes::sweepUp(Section& section)
 {
-    section.residual = kNoLanes;
+    section.residual = section.squaredSpeed = kNoLanes;
     for (std::size_t place = section.begin; place < section.end; ++place) {
         const Batch& batch = batches_[place];
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
-            rows_[r].before = rows_[r].impulse;
-            section.residual = maxOf(section.residual, visit(rows_[r], batch, motion));
+            Row& row = rows_[r];
+            row.before = row.impulse;
+            const Lanes3 u = velocityAt(row, motion);
+            section.squaredSpeed = maxOf(section.squaredSpeed, dot(u, u));
+            visit(row, batch, u, motion, section);
         }
         motion.store(batch, *bodies_);
     }
@@ -265,7 +275,7 @@ void GapLanes::sweepDown(Section& section)
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.end; r-- > batch.begin;) {
             Row& row = rows_[r];
-            section.residual = maxOf(section.residual, visit(row, batch, motion));
+            visit(row, batch, velocityAt(row, motion), motion, section);
             const Lanes3 d = row.impulse - row.before;
             section.energy +=
                 row.inverseNormalMass * d.x * d.x + (d.y * d.y + d.z * d.z) * row.inverseSlideMass;
@@ -310,16 +320,18 @@ void GapLanes::begin()
     begin(sections_[2]);
 }
 
-double GapLanes::sweep()
+GapSweep GapLanes::sweep()
 {
     inHalves([&](Section& section) { sweepUp(section); });
     sweepUp(sections_[2]);
     sweepDown(sections_[2]);
     inHalves([&](Section& section) { sweepDown(section); });
-    double residual = 0.0;
-    for (const Section& section : sections_)
-        residual = std::max(residual, largestOf(section.residual));
-    return residual;
+    GapSweep swept;
+    for (const Section& section : sections_) {
+        swept.residual = std::max(swept.residual, largestOf(section.residual));
+        swept.fastest = std::max(swept.fastest, std::sqrt(largestOf(section.squaredSpeed)));
+    }
+    return swept;
 }
 
 double GapLanes::goOn(double energyBefore)

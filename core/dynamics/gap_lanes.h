@@ -20,6 +20,12 @@ struct alignas(64) LaneBody {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
 
+/// What a sweep up and down has met.
+struct GapSweep {
+    double residual = 0.0;  ///< largest change of a velocity at a row [m/s]
+    double fastest = 0.0;   ///< of two surfaces against each other, on the way up [m/s]
+};
+
 /// Below this many rows a cut costs more than a second thread gains.
 constexpr std::size_t kRowsWorthACut = 1000;
 
@@ -32,8 +38,8 @@ public:
     /// The bodies take the impulses that the rows begin with.
     void begin();
 
-    /// One sweep up and one down; answers the largest change of a velocity at a row [m/s].
-    double sweep();
+    /// One sweep up and one down.
+    GapSweep sweep();
 
     /// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].
     /// Answers the energy of that change, to be handed in next time; 0 begins anew.
@@ -70,7 +76,7 @@ private:
     /// Batches that are visited one after the other.
     struct Section {
         std::size_t begin = 0, end = 0;  // of batches_
-        Lanes residual = kNoLanes, energy = kNoLanes;
+        Lanes residual = kNoLanes, squaredSpeed = kNoLanes, energy = kNoLanes;
     };
 
     /// As many rows of different pairs go into one batch as those that come first: lanes that run
@@ -91,7 +97,9 @@ private:
     void goOn(const Section& section, double beta);
     void fill(const GapScratch& scratch, Batch& batch);
     void fillLane(const GapScratch& scratch, Batch& batch, int lane);
-    Lanes visit(Row& row, const Batch& batch, Motion& motion) const;
+    void visit(Row& row, const Batch& batch, const Lanes3& u, Motion& motion,
+               Section& section) const;
+    static Lanes3 velocityAt(const Row& row, const Motion& motion);
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
     std::vector<LaneBody>* bodies_ = nullptr;

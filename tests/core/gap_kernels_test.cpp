@@ -338,15 +338,22 @@ TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
         GapLanes lanes;
         lanes.build(abreast, abreast.islands[0], bodies);
         for (int sweep = 0; sweep < 3; ++sweep) {
-            double residual = 0.0;
+            double residual = 0.0, fastest = 0.0;
             const auto visit = [&](std::size_t r) {
                 GapRow& row = plain.rows[r];
                 residual =
                     std::max(residual, visitRow(row, plain.bodies[row.a], plain.bodies[row.b]));
             };
-            for (std::size_t r = 0; r < plain.rows.size(); ++r) visit(r);
+            for (std::size_t r = 0; r < plain.rows.size(); ++r) {
+                const GapRow& row = plain.rows[r];
+                const Vec3 u = velocityAt(row, plain.bodies[row.a], plain.bodies[row.b]);
+                fastest = std::max(fastest, u.norm());
+                visit(r);
+            }
             for (std::size_t r = plain.rows.size(); r-- > 0;) visit(r);
-            EXPECT_NEAR(lanes.sweep(), residual, 1e-11);
+            const GapSweep swept = lanes.sweep();
+            EXPECT_NEAR(swept.residual, residual, 1e-11);
+            EXPECT_NEAR(swept.fastest, fastest, 1e-11);
         }
         lanes.store(abreast);
         // Friction sees the normal impulse in another order of operations: rounding, not more.
