@@ -50,22 +50,53 @@ void setFacing(FacingLanes& four, int lane, const ConvexEdge& edge)
     for (int k : {0, 1}) four.intoFace[k].set(lane, edge.intoFace[k]);
 }
 
-/// Edges of the second shape, four abreast; lanes that are left over are nowhere.
-void fillLanes(const ContactFeatures& features, const std::vector<std::int32_t>& chosen,
-               std::vector<FacingLanes>& lanes)
-{
-    constexpr double kNowhere = 1e100;
-    lanes.resize((chosen.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < lanes.size() * kLanes; ++i) {
-        FacingLanes& four = lanes[i / kLanes];
-        const int lane = static_cast<int>(i % kLanes);
-        if (i < chosen.size()) {
-            setFacing(four, lane, features.edges()[chosen[i]]);
-        } else {
-            four.edge.start.set(lane, Vec3::Constant(kNowhere));
+/// Edges of the second shape, four abreast, and a few fours at a time in a sphere: of a fine mesh
+/// most are far from any one edge of the first. Lanes that are left over are nowhere.
+struct NearLanes {
+    static constexpr std::size_t kTogether = 4 * kLanes;  // edges in a sphere
+    std::vector<FacingLanes> fours;
+    std::vector<Sphere> spheres;
+
+    void fill(const ContactFeatures& features, const std::vector<std::int32_t>& chosen)
+    {
+        constexpr double kNowhere = 1e100;
+        fours.resize((chosen.size() + kLanes - 1) / kLanes);
+        for (std::size_t i = 0; i < fours.size() * kLanes; ++i) {
+            FacingLanes& four = fours[i / kLanes];
+            const int lane = static_cast<int>(i % kLanes);
+            if (i < chosen.size()) {
+                setFacing(four, lane, features.edges()[chosen[i]]);
+            } else {
+                four.edge.start.set(lane, Vec3::Constant(kNowhere));
+            }
+        }
+        spheres.clear();
+        for (std::size_t begin = 0; begin < chosen.size(); begin += kTogether) {
+            Aabb box;
+            for (std::size_t i = begin; i < std::min(begin + kTogether, chosen.size()); ++i) {
+                const ConvexEdge& edge = features.edges()[chosen[i]];
+                box.include(edge.start);
+                box.include(edge.start + edge.length * edge.direction);
+            }
+            spheres.push_back({box.centre(), 0.5 * box.size().norm()});
         }
     }
-}
+
+    /// Calls work(four) for all that may be nearer to the edge, placed among them, than `farthest`.
+    template <class Work>
+    void visitNear(const ConvexEdge& edge, double farthest, const Work& work) const
+    {
+        const double half = 0.5 * edge.length;
+        const Vec3 middle = edge.start + half * edge.direction;
+        constexpr std::size_t kFours = kTogether / kLanes;
+        for (std::size_t s = 0; s < spheres.size(); ++s) {
+            const double far = spheres[s].radius + half + farthest;
+            if ((spheres[s].centre - middle).squaredNorm() > far * far) continue;
+            const std::size_t end = std::min((s + 1) * kFours, fours.size());
+            for (std::size_t four = s * kFours; four < end; ++four) work(four);
+        }
+    }
+};
 
 FacingLanes inAllLanes(const ConvexEdge& edge)
 {
@@ -74,7 +105,8 @@ FacingLanes inAllLanes(const ConvexEdge& edge)
     return four;
 }
 
-/// Edges of the first shape that may come within `clearance` of the second, by index.
+/// Edges of the first shape that may come within `clearance` of the second, in the order of their
+/// tree, where what is near each other is next to each other.
 void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::int32_t>& near)
 {
     near.clear();
@@ -88,7 +120,6 @@ void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::
         if (!isClear(edge.start + half * edge.direction, half))
             near.push_back(static_cast<std::int32_t>(e));
     });
-    std::sort(near.begin(), near.end());
 }
 
 /// Of the points of the first body that turn in the frame of the second [m]. Seen from there
@@ -139,28 +170,27 @@ void NearFeatures::lookAtCorners(const RelativePair& pair, double clearance,
         const double atLeast = field.lowerBound(pair * features.points().col(corner));
         if (atLeast < clearance) near.push_back({way_ + atLeast, corner});
     });
-    std::sort(near.begin(), near.end(),
-              [](const NearCorner& p, const NearCorner& q) { return p.corner < q.corner; });
 }
 
 void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach)
 {
     if (pair.first.features.edges().empty() || pair.second.features.edges().empty()) return;
     thread_local std::vector<std::int32_t> nearA, nearB;
-    thread_local std::vector<FacingLanes> ofB;
+    thread_local NearLanes ofB;
     findEdgesNear(pair, clearance_, nearA);
     if (nearA.empty()) return;
     findEdgesNear(back, clearance_, nearB);
-    fillLanes(pair.second.features, nearB, ofB);
+    ofB.fill(pair.second.features, nearB);
     const double deepest = deepestEdges(pair), end = way_ + window_;
     const double farthest = std::max(reach, deepest) + window_;
     const double turn = window_ / leverOf(pair);
     for (std::int32_t e : nearA) {
-        const FacingLanes ofA = inAllLanes(placed(pair, pair.first.features.edges()[e]));
-        for (std::size_t four = 0; four < ofB.size(); ++four) {
-            unsigned bits = mayFace(ofA, ofB[four], farthest, turn);
-            if (!bits) continue;
-            const EdgeGaps gaps = edgeGaps(ofA.edge, ofB[four].edge, deepest, reach);
+        const ConvexEdge edge = placed(pair, pair.first.features.edges()[e]);
+        const FacingLanes ofA = inAllLanes(edge);
+        ofB.visitNear(edge, farthest, [&](std::size_t four) {
+            unsigned bits = mayFace(ofA, ofB.fours[four], farthest, turn);
+            if (!bits) return;
+            const EdgeGaps gaps = edgeGaps(ofA.edge, ofB.fours[four].edge, deepest, reach);
             for (; bits; bits &= bits - 1) {
                 const int lane = std::countr_zero(bits);
                 const NearEdges edges{way_ + gaps.distance[lane], way_ + gaps.outside[lane], e,
@@ -168,7 +198,7 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
                 if (edges.farUntil - end < reach || edges.outsideUntil <= end)
                     edges_.push_back(edges);
             }
-        }
+        });
     }
 }
 

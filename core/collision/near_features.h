@@ -44,7 +44,7 @@ public:
         return reach + (odometer - odometerThen_) < apart_;
     }
 
-    /// Appends all contacts with gaps below `reach` [m], ordered by feature.
+    /// Appends all contacts with gaps below `reach` [m], in an order of the shapes.
     void findContacts(const PlacedPair& pair, double reach, std::vector<GapContact>& contacts,
                       double odometer = 0.0);
 
