@@ -12,6 +12,12 @@ struct EdgeLanes {
     Lanes3 start, direction, outward;
     Lanes length = kNoLanes;  ///< [m]
 
+    static EdgeLanes all(const ConvexEdge& edge)
+    {
+        return {Lanes3::all(edge.start), Lanes3::all(edge.direction), Lanes3::all(edge.outward),
+                lanesOf(edge.length)};
+    }
+
     void set(int lane, const ConvexEdge& edge)
     {
         start.set(lane, edge.start);

@@ -100,9 +100,8 @@ struct NearLanes {
 
 FacingLanes inAllLanes(const ConvexEdge& edge)
 {
-    FacingLanes four;
-    for (int lane = 0; lane < kLanes; ++lane) setFacing(four, lane, edge);
-    return four;
+    return {EdgeLanes::all(edge),
+            {Lanes3::all(edge.intoFace[0]), Lanes3::all(edge.intoFace[1])}};
 }
 
 /// Edges of the first shape that may come within `clearance` of the second, in the order of their

@@ -60,6 +60,7 @@ struct Lanes3 {
         y[lane] = v.y();
         z[lane] = v.z();
     }
+    static Lanes3 all(const Vec3& v) { return {lanesOf(v.x()), lanesOf(v.y()), lanesOf(v.z())}; }
     static Lanes3 of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
     {
         return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()},
