@@ -100,8 +100,7 @@ struct NearLanes {
 
 FacingLanes inAllLanes(const ConvexEdge& edge)
 {
-    return {EdgeLanes::all(edge),
-            {Lanes3::all(edge.intoFace[0]), Lanes3::all(edge.intoFace[1])}};
+    return {EdgeLanes::all(edge), {Lanes3::all(edge.intoFace[0]), Lanes3::all(edge.intoFace[1])}};
 }
 
 /// Edges of the first shape that may come within `clearance` of the second, in the order of their

@@ -183,8 +183,7 @@ void solve(const StepSettings& settings, double dt, const GapIsland& island, Row
     double energy = 0.0;
     for (int done = 1;; ++done) {
         const GapSweep swept = rows.sweep();
-        if (done == 1)
-            enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
+        if (done == 1) enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
         if (swept.residual <= enough || done >= most) return;
         energy = rows.goOn(energy);
     }
@@ -253,8 +252,7 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
         changed = std::abs(normal - before) * row.inverseNormalMass;
         applyRow(row, a, b, (normal - before) * row.normal);
     }
-    if (row.resistsSpin())
-        changed = std::max(changed, resistSpin(row, a, b));
+    if (row.resistsSpin()) changed = std::max(changed, resistSpin(row, a, b));
     if (normal == 0.0 && row.impulse.y() == 0.0 && row.impulse.z() == 0.0) return changed;
 
     const Vec3 u = velocityAt(row, a, b);

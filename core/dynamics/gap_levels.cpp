@@ -215,10 +215,8 @@ bool shake(const World& world, const StepSettings& settings, double dt,
         if (isThrown) continue;
         const Vec3 extra = withShock - row.worldImpulse();
         const Vec3 extraCouple = coupleWithShock - row.couple;
-        if (row.movesA)
-            scratch.bodies[row.a].angularImpulse += row.rA.cross(extra) + extraCouple;
-        if (row.movesB)
-            scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra) + extraCouple;
+        if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra) + extraCouple;
+        if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra) + extraCouple;
     }
     return true;
 }

@@ -56,9 +56,8 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
         meanCurvature(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
     const double factor = curvatureFactor(curvature, finer);
     const double about = row.normal.dot(response * row.normal);
-    const Mat3 rollers =
-        rollingResponse(inertiaOf(scratch.bodies[row.a], row.movesA), row.rA,
-                        inertiaOf(scratch.bodies[row.b], row.movesB), row.rB);
+    const Mat3 rollers = rollingResponse(inertiaOf(scratch.bodies[row.a], row.movesA), row.rA,
+                                         inertiaOf(scratch.bodies[row.b], row.movesB), row.rB);
     const double tt = row.tangent.dot(rollers * row.tangent);
     const double ss = row.secondTangent().dot(rollers * row.secondTangent());
     const double ts = row.tangent.dot(rollers * row.secondTangent());
