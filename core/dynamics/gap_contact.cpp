@@ -36,7 +36,8 @@ constexpr std::size_t kFewRows = 32, kRowsOfAHeap = 200;
 /// The same, as a share of the fastest slip when sweeps begin: what tumbles or slides by a metre a
 /// second is not seen to do so a tenth of a millimetre off. A hundred rings need six tenths of the
 /// sweeps of an exact solution; most of those saved circled to their cap and came to no end. Of a
-/// body or two the exact solution costs nothing.
+/// body or two the exact solution costs nothing; a heap has its own limits, and one ring that rolls
+/// past must not make it creep.
 constexpr double kShareOfSpeed = 1e-4;
 constexpr std::size_t kRowsOfABodyOrTwo = 8;
 
@@ -177,7 +178,8 @@ void solve(const StepSettings& settings, double dt, const GapIsland& island, Row
     const double left = island.rowCount > kRowsOfAHeap ? kLeftInAHeap
                         : island.rowCount > kFewRows   ? kLeftToNextStep
                                                        : 0.0;
-    const double ofSpeed = island.rowCount > kRowsOfABodyOrTwo ? kShareOfSpeed : 0.0;
+    const bool mayTumble = island.rowCount > kRowsOfABodyOrTwo && island.rowCount <= kRowsOfAHeap;
+    const double ofSpeed = mayTumble ? kShareOfSpeed : 0.0;
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
     double energy = 0.0;
