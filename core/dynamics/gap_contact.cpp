@@ -49,8 +49,8 @@ void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
 
 void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
 {
-    if (row.movesA) a.spin += a.inverseInertia * couple;
-    if (row.movesB) b.spin -= b.inverseInertia * couple;
+    if (row.movesA) applyCoupleTo(a, couple);
+    if (row.movesB) applyCoupleTo(b, -couple);
 }
 
 /// Whether friction holds the place.

@@ -302,9 +302,8 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
             prepareRow(scratch, row);
             const Vec3 impulse = row.worldImpulse();
             const auto hand = [&](BodyId body, const Vec3& r, const Vec3& j, const Vec3& couple) {
-                GapBody& b = scratch.bodies[body];
-                applyTo(b, r, j);
-                b.spin += b.inverseInertia * couple;
+                applyTo(scratch.bodies[body], r, j);
+                applyCoupleTo(scratch.bodies[body], couple);
             };
             if (wasHeldA[i] && row.movesA) hand(row.a, row.rA, impulse, row.couple);
             if (wasHeldB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);

@@ -184,4 +184,9 @@ inline void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse)
     body.spin += body.inverseInertia * r.cross(impulse);
 }
 
+inline void applyCoupleTo(GapBody& body, const Vec3& couple)
+{
+    body.spin += body.inverseInertia * couple;
+}
+
 }  // namespace scree

@@ -83,7 +83,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         neighbourStart_[v + 1] = static_cast<std::uint32_t>(neighbours_.size());
     }
     // A point with faces in one or two directions lies inside a flat region or a straight edge:
-    // whatever touches it also touches the region's true corners or edges.
+    // edges go on there, and whatever touches it also touches the region's true corners or edges.
     for (ConvexEdge& edge : edges_) {
         for (int end : {0, 1}) edge.goesOn[end] = normals[edge.ends[end]].size() < 3;
     }
