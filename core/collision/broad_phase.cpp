@@ -12,6 +12,11 @@ namespace {
 /// How much larger the boxes are made, on every side. Only time depends on it.
 constexpr double kRoom = 0.1;  // of the longest edge
 
+/// Cells are this many of the longest edges of the body in the middle, and are laid out anew when
+/// they are so many times too large or too small.
+constexpr double kEdgesPerCell = 2.0, kMostMisfit = 2.0;
+constexpr double kSmallestCell = 1e-12;  // [m]
+
 constexpr double kMostCells = 64.0;  // a body over more cells goes to the list of large ones
 
 struct CellRange {
@@ -49,62 +54,90 @@ std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
            static_cast<std::uint64_t>(y + kOffset) << 21 | static_cast<std::uint64_t>(z + kOffset);
 }
 
+/// Puts the sorted tail that begins at `middle` among the sorted rest.
+template <class Item>
+void mergeTail(std::vector<Item>& items, std::size_t middle)
+{
+    const auto tail = items.begin() + static_cast<std::ptrdiff_t>(middle);
+    std::sort(tail, items.end());
+    std::inplace_merge(items.begin(), tail, items.end());
+}
+
 }  // namespace
 
 const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxes,
                                                    const std::vector<BodyMass>& mass)
 {
-    bool isKnown = roomy_.size() == boxes.size();
-    for (std::size_t i = 0; i < boxes.size() && isKnown; ++i) {
-        isKnown = roomy_[i].contains(boxes[i]) && mass[i].isMovable() == (isMovable_[i] != 0);
+    if (findMoved(boxes, mass)) {
+        forgetMoved();
+        enterMoved(boxes);
+        pairMoved();
     }
-    if (!isKnown) {
-        roomy_.clear();
-        isMovable_.clear();
-        for (std::size_t i = 0; i < boxes.size(); ++i) {
-            const double edge = boxes[i].longestEdge();
-            roomy_.push_back(std::isfinite(edge) ? boxes[i].grown(kRoom * edge) : boxes[i]);
-            isMovable_.push_back(mass[i].isMovable());
-        }
-        findRoomyPairs(mass);
-    }
-    meets_.resize(roomyPairs_.size());
-    parallelFor(roomyPairs_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    meets_.resize(meetings_.size());
+    parallelFor(meetings_.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            meets_[i] = boxes[roomyPairs_[i].a].overlaps(boxes[roomyPairs_[i].b]);
+            meets_[i] = boxes[meetings_[i].a].overlaps(boxes[meetings_[i].b]);
     });
-    pairs_.clear();
-    for (std::size_t i = 0; i < roomyPairs_.size(); ++i) {
-        if (meets_[i]) pairs_.push_back(roomyPairs_[i]);
+    // Which of them meet cannot be guessed: no branch.
+    pairs_.resize(meetings_.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < meetings_.size(); ++i) {
+        pairs_[count] = meetings_[i];
+        count += static_cast<std::size_t>(meets_[i]);
     }
+    pairs_.resize(count);
     return pairs_;
 }
 
-void BroadPhase::findRoomyPairs(const std::vector<BodyMass>& mass)
+/// Marks the bodies that have left their boxes; where cells no longer fit the bodies, all.
+bool BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass)
 {
-    const std::vector<Aabb>& boxes = roomy_;
-    found_.clear();
-    roomyPairs_.clear();
-    entries_.clear();
-    large_.clear();
-    edges_.clear();
-    const auto report = [&](BodyId a, BodyId b) {
-        if (!mass[a].isMovable() && !mass[b].isMovable()) return;
-        found_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
-    };
+    const bool isKnown = roomy_.size() == boxes.size();
+    roomy_.resize(boxes.size());
+    isMovable_.resize(boxes.size());
+    isMoved_.assign(boxes.size(), !isKnown);
+    bool isAny = !isKnown;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const char isMovable = mass[i].isMovable();
+        if (roomy_[i].contains(boxes[i]) && isMovable == isMovable_[i]) continue;
+        isMovable_[i] = isMovable;
+        isMoved_[i] = isAny = true;
+    }
+    if (!isAny) return false;
 
+    edges_.clear();
     for (const Aabb& box : boxes) {
         if (const double edge = box.longestEdge(); std::isfinite(edge)) edges_.push_back(edge);
     }
-    if (edges_.empty()) return;
+    if (edges_.empty()) return true;
     const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(edges_.size() / 2);
     std::nth_element(edges_.begin(), middle, edges_.end());
-    const double cellSize = std::max(2.0 * *middle, 1e-12);
+    const double fitting = std::max(kEdgesPerCell * *middle, kSmallestCell);
+    if (std::max(fitting, cellSize_) > kMostMisfit * std::min(fitting, cellSize_)) {
+        cellSize_ = fitting;
+        isMoved_.assign(boxes.size(), true);
+    }
+    return true;
+}
 
+void BroadPhase::forgetMoved()
+{
+    std::erase_if(entries_, [&](const Entry& entry) { return isMoved_[entry.body] != 0; });
+    std::erase_if(large_, [&](BodyId body) { return isMoved_[body] != 0; });
+    std::erase_if(meetings_,
+                  [&](const BodyPair& pair) { return isMoved_[pair.a] || isMoved_[pair.b]; });
+}
+
+void BroadPhase::enterMoved(const std::vector<Aabb>& boxes)
+{
+    const std::size_t stay = entries_.size(), stayLarge = large_.size();
     firstCells_.resize(boxes.size());
     for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
+        if (!isMoved_[body]) continue;
+        const double edge = boxes[body].longestEdge();
+        roomy_[body] = std::isfinite(edge) ? boxes[body].grown(kRoom * edge) : boxes[body];
         if (boxes[body].isEmpty()) continue;
-        const CellRange range = cellsOf(boxes[body], cellSize);
+        const CellRange range = cellsOf(roomy_[body], cellSize_);
         firstCells_[body] = range.first;
         if (range.count() > kMostCells) {
             large_.push_back(body);
@@ -112,56 +145,54 @@ void BroadPhase::findRoomyPairs(const std::vector<BodyMass>& mass)
         }
         for (std::int64_t x = range.first[0]; x <= range.last[0]; ++x) {
             for (std::int64_t y = range.first[1]; y <= range.last[1]; ++y) {
-                for (std::int64_t z = range.first[2]; z <= range.last[2]; ++z) {
+                for (std::int64_t z = range.first[2]; z <= range.last[2]; ++z)
                     entries_.push_back({keyOf(x, y, z), body});
-                }
             }
         }
     }
+    mergeTail(entries_, stay);
+    mergeTail(large_, stayLarge);
+}
 
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& p, const Entry& q) {
-        return p.cell < q.cell || (p.cell == q.cell && p.body < q.body);
-    });
+/// Pairs of which one has moved at least, each once.
+void BroadPhase::pairMoved()
+{
+    const std::size_t stay = meetings_.size();
     for (std::size_t begin = 0; begin < entries_.size();) {
         std::size_t end = begin;
-        while (end < entries_.size() && entries_[end].cell == entries_[begin].cell) ++end;
-        for (std::size_t i = begin; i < end; ++i) {
-            for (std::size_t j = i + 1; j < end; ++j) {
-                if (!boxes[entries_[i].body].overlaps(boxes[entries_[j].body])) continue;
+        movedHere_.clear();
+        for (; end < entries_.size() && entries_[end].cell == entries_[begin].cell; ++end) {
+            if (isMoved_[entries_[end].body]) movedHere_.push_back(entries_[end].body);
+        }
+        for (const BodyId moved : movedHere_) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const BodyId other = entries_[i].body;
+                if (isMoved_[other] && other <= moved) continue;
+                if (!roomy_[moved].overlaps(roomy_[other])) continue;
                 // Boxes that share several cells meet in the first of them.
-                const auto &p = firstCells_[entries_[i].body], &q = firstCells_[entries_[j].body];
+                const auto &p = firstCells_[moved], &q = firstCells_[other];
                 const std::uint64_t first =
                     keyOf(std::max(p[0], q[0]), std::max(p[1], q[1]), std::max(p[2], q[2]));
-                if (first == entries_[i].cell) report(entries_[i].body, entries_[j].body);
+                if (first == entries_[i].cell) meet(moved, other);
             }
         }
         begin = end;
     }
-    for (std::size_t i = 0; i < large_.size(); ++i) {
-        for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
+    for (const BodyId large : large_) {
+        for (BodyId body = 0; body < static_cast<BodyId>(roomy_.size()); ++body) {
+            if (!isMoved_[large] && !isMoved_[body]) continue;
             // Two large bodies meet once, when the first of them is walked.
-            const bool alsoLarge = std::binary_search(large_.begin(), large_.end(), body);
-            if (alsoLarge && body <= large_[i]) continue;
-            if (boxes[large_[i]].overlaps(boxes[body])) report(large_[i], body);
+            if (body <= large && std::binary_search(large_.begin(), large_.end(), body)) continue;
+            if (roomy_[large].overlaps(roomy_[body])) meet(large, body);
         }
     }
-    sortFound();
+    mergeTail(meetings_, stay);
 }
 
-/// By the first body at a stroke, then the few of each by the second.
-void BroadPhase::sortFound()
+void BroadPhase::meet(BodyId a, BodyId b)
 {
-    std::vector<std::size_t> end(roomy_.size() + 1, 0);
-    for (const BodyPair& pair : found_) ++end[pair.a + 1];
-    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-    roomyPairs_.resize(found_.size());
-    for (const BodyPair& pair : found_) roomyPairs_[end[pair.a]++] = pair;
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < roomy_.size(); ++i) {
-        std::sort(roomyPairs_.begin() + static_cast<std::ptrdiff_t>(begin),
-                  roomyPairs_.begin() + static_cast<std::ptrdiff_t>(end[i]));
-        begin = end[i];
-    }
+    if (!isMovable_[a] && !isMovable_[b]) return;
+    meetings_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
 }
 
 }  // namespace scree

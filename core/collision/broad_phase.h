@@ -1,8 +1,9 @@
 // Candidate pairs from boxes: a uniform grid for most bodies, a list for the few that are huge.
 // [A14]
 //
-// Boxes move little from step to step, so the search is for boxes that are somewhat larger, and
-// serves until one leaves its own. The answer never depends on when that was.
+// Boxes move little from step to step, so what is searched are boxes that are somewhat larger, and
+// only those of bodies that have left theirs are searched anew. The answer never depends on when
+// that was.
 #pragma once
 
 #include <array>
@@ -32,19 +33,27 @@ private:
     struct Entry {
         std::uint64_t cell;
         BodyId body;
+        friend auto operator<=>(const Entry&, const Entry&) = default;
     };
-    void findRoomyPairs(const std::vector<BodyMass>& mass);
-    void sortFound();
+    bool findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass);
+    void forgetMoved();
+    void enterMoved(const std::vector<Aabb>& boxes);
+    void pairMoved();
+    void meet(BodyId a, BodyId b);
 
-    std::vector<Aabb> roomy_;                   // the boxes of the last search
-    std::vector<char> isMovable_;               // then
-    std::vector<BodyPair> found_, roomyPairs_;  // as found, and sorted
-    std::vector<char> meets_;                   // of each of these: whether the boxes asked for do
-    std::vector<Entry> entries_;
-    std::vector<std::array<std::int64_t, 3>> firstCells_;  // of each body
-    std::vector<BodyId> large_;
-    std::vector<double> edges_;
+    // Per body: its larger box and what else is known of it, and whether that is to be found anew.
+    std::vector<Aabb> roomy_;
+    std::vector<char> isMovable_, isMoved_;
+    std::vector<std::array<std::int64_t, 3>> firstCells_;
+    double cellSize_ = 1.0;           // [m]
+    std::vector<Entry> entries_;      // sorted
+    std::vector<BodyId> large_;       // sorted; in no cell
+    std::vector<BodyPair> meetings_;  // of the larger boxes, sorted
+    std::vector<char> meets_;         // of each of these: whether the boxes asked for do
     std::vector<BodyPair> pairs_;
+    // While searching.
+    std::vector<double> edges_;
+    std::vector<BodyId> movedHere_;
 };
 
 }  // namespace scree

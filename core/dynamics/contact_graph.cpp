@@ -29,28 +29,42 @@ struct Adjacency {
     }
 };
 
-/// Depth-first search from `root`; appends nodes to `finished` when they are left for good.
-void depthFirst(const Adjacency& graph, std::uint32_t root, std::vector<char>& seen,
-                std::vector<std::uint32_t>& finished)
-{
+/// Depth-first searches that together see every node once.
+class DepthFirst {
+public:
+    explicit DepthFirst(const Adjacency& graph, std::size_t nodeCount)
+        : graph_(graph), seen_(nodeCount, 0)
+    {
+    }
+    bool hasSeen(std::uint32_t node) const { return seen_[node] != 0; }
+
+    /// Appends to `finished` the nodes that are left for good on a search from `root`.
+    void from(std::uint32_t root, std::vector<std::uint32_t>& finished)
+    {
+        seen_[root] = 1;
+        stack_.push_back({root, graph_.start[root]});
+        while (!stack_.empty()) {
+            Visit& top = stack_.back();
+            if (top.nextEdge == graph_.start[top.node + 1]) {
+                finished.push_back(top.node);
+                stack_.pop_back();
+                continue;
+            }
+            const std::uint32_t next = graph_.target[top.nextEdge++];
+            if (seen_[next]) continue;
+            seen_[next] = 1;
+            stack_.push_back({next, graph_.start[next]});
+        }
+    }
+
+private:
     struct Visit {
         std::uint32_t node, nextEdge;
     };
-    std::vector<Visit> stack{{root, graph.start[root]}};
-    seen[root] = 1;
-    while (!stack.empty()) {
-        Visit& top = stack.back();
-        if (top.nextEdge == graph.start[top.node + 1]) {
-            finished.push_back(top.node);
-            stack.pop_back();
-            continue;
-        }
-        const std::uint32_t next = graph.target[top.nextEdge++];
-        if (seen[next]) continue;
-        seen[next] = 1;
-        stack.push_back({next, graph.start[next]});
-    }
-}
+    const Adjacency& graph_;
+    std::vector<char> seen_;
+    std::vector<Visit> stack_;
+};
 
 double deepestPhi(PairRecord& pair, const PlacedPair& placed)
 {
@@ -155,30 +169,32 @@ GraphLevels computeLevels(std::size_t nodeCount, std::span<const SupportEdge> ed
 
     // Two searches: finish order on the graph, then the transpose in decreasing finish time. The
     // components come out in topological order of the collapsed graph.
-    std::vector<char> seen(nodeCount, 0);
+    DepthFirst forwards(forward, nodeCount), backwards(backward, nodeCount);
     std::vector<std::uint32_t> finished;
     finished.reserve(nodeCount);
     for (std::uint32_t n = 0; n < nodeCount; ++n) {
-        if (!seen[n]) depthFirst(forward, n, seen, finished);
+        if (!forwards.hasSeen(n)) forwards.from(n, finished);
     }
     GraphLevels result;
     result.component.assign(nodeCount, -1);
-    std::fill(seen.begin(), seen.end(), 0);
-    std::vector<std::vector<std::uint32_t>> members;
+    std::vector<std::uint32_t> members;  // component by component
+    members.reserve(nodeCount);
+    std::vector<std::size_t> first{0};  // of each component in `members`
     for (auto n = finished.rbegin(); n != finished.rend(); ++n) {
-        if (seen[*n]) continue;
-        std::vector<std::uint32_t> component;
-        depthFirst(backward, *n, seen, component);
-        for (std::uint32_t m : component) result.component[m] = result.componentCount;
+        if (backwards.hasSeen(*n)) continue;
+        backwards.from(*n, members);
+        for (std::size_t m = first.back(); m < members.size(); ++m)
+            result.component[members[m]] = result.componentCount;
         ++result.componentCount;
-        members.push_back(std::move(component));
+        first.push_back(members.size());
     }
 
     std::vector<int> levelOf(result.componentCount, 0);
     std::vector<char> supported(result.componentCount, 0);
     for (int c = 0; c < result.componentCount; ++c) {
-        for (std::uint32_t n : members[c]) supported[c] |= isFixed[n];
-        for (std::uint32_t n : members[c]) {
+        const std::span nodes(members.data() + first[c], members.data() + first[c + 1]);
+        for (std::uint32_t n : nodes) supported[c] |= isFixed[n];
+        for (std::uint32_t n : nodes) {
             for (std::uint32_t e = forward.start[n]; e < forward.start[n + 1]; ++e) {
                 const int next = result.component[forward.target[e]];
                 if (next == c) continue;

@@ -143,7 +143,7 @@ private:
     {
         ++visits_;
         std::vector<double> times(scratch_.pairs.size(), -1.0);
-        forPairsWithRows(scratch_, [&](std::size_t p) {
+        forPairs(scratch_, [&](std::size_t p) {
             const GapPair& pair = scratch_.pairs[p];
             Impact impact{};
             for (std::size_t r = pair.begin; r < pair.end; ++r) {

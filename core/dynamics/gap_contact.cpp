@@ -219,7 +219,7 @@ void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
 ImpulseCounts countImpulses(const GapScratch& scratch)
 {
     std::atomic<std::int64_t> sliding = 0, sticking = 0;
-    forPairsWithRows(scratch, [&](std::size_t i) {
+    forPairs(scratch, [&](std::size_t i) {
         std::int64_t slide = 0, stick = 0;
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
             const GapRow& row = scratch.rows[r];
@@ -287,7 +287,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
     // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
     // g dt²/2 too far.
     std::vector<char> stops(scratch.pairs.size(), 0);
-    forPairsWithRows(scratch, [&](std::size_t i) {
+    forPairs(scratch, [&](std::size_t i) {
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end && !stops[i]; ++r) {
             const GapRow& row = scratch.rows[r];
             const GapBody& a = scratch.bodies[row.a];
@@ -316,7 +316,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
         body.shift -= 0.5 * dt * dt * body.pull;
         body.turn -= 0.5 * dt * dt * turning;
     }
-    forPairsWithRows(scratch, [&](std::size_t i) {
+    forPairs(scratch, [&](std::size_t i) {
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
             GapRow& row = scratch.rows[r];
             const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);

@@ -229,7 +229,7 @@ GapLevels buildGapLevels(double dt, const GapScratch& scratch)
         bool ofA = false, ofB = false;  // onto the other
     };
     std::vector<Falls> falls(scratch.pairs.size());
-    forPairsWithRows(scratch, [&](std::size_t i) {
+    forPairs(scratch, [&](std::size_t i) {
         const auto [idA, idB] = scratch.pairs[i].bodies;
         const GapBody &a = scratch.bodies[idA], &b = scratch.bodies[idB];
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
@@ -254,9 +254,7 @@ GapLevels buildGapLevels(double dt, const GapScratch& scratch)
     GapLevels levels;
     levels.graph = computeLevels(count, edges, isFixed);
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        const GapPair& pair = scratch.pairs[i];
-        if (pair.begin == pair.end) continue;
-        const auto [a, b] = pair.bodies;
+        const auto [a, b] = scratch.pairs[i].bodies;
         const auto level =
             static_cast<std::size_t>(std::max(levels.graph.level[a], levels.graph.level[b]));
         if (levels.pairs.size() <= level) levels.pairs.resize(level + 1);

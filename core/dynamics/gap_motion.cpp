@@ -148,17 +148,17 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
     }
     const auto ofSleepers = static_cast<std::ptrdiff_t>(kept.size());
     std::vector<PairTurn> turns(scratch.pairs.size());
-    std::vector<std::size_t> first(scratch.pairs.size() + 1);  // of each pair in `kept`
-    first[0] = kept.size();
-    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        const auto begin =
-            scratch.rows.begin() + static_cast<std::ptrdiff_t>(scratch.pairs[i].begin);
-        const auto end = scratch.rows.begin() + static_cast<std::ptrdiff_t>(scratch.pairs[i].end);
-        first[i + 1] = first[i] + static_cast<std::size_t>(std::count_if(begin, end, bears));
+    std::vector<std::size_t> first{kept.size()};  // of each pair in `kept`
+    for (const GapPair& pair : scratch.pairs) {
+        const auto begin = scratch.rows.begin() + static_cast<std::ptrdiff_t>(pair.begin);
+        const auto end = scratch.rows.begin() + static_cast<std::ptrdiff_t>(pair.end);
+        const auto bearing = static_cast<std::size_t>(std::count_if(begin, end, bears));
+        first.push_back(first.back() + bearing);
     }
     kept.resize(first.back());
-    forPairsWithRows(scratch, [&](std::size_t i) {
+    forPairs(scratch, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
+        const std::vector<GapContact>& contacts = scratch.nearPairs[pair.near].contacts;
         const Quat aFromWorld = world.motion[pair.bodies.a].orientation.conjugate();
         std::size_t place = first[i];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
@@ -169,12 +169,9 @@ void writeVelocities(World& world, double dt, const GapScratch& scratch)
             // and its inverse would lose bits every step.
             turns[i].ofA += row.rA.cross(impulse) + row.couple;
             turns[i].ofB -= row.rB.cross(impulse) + row.couple;
-            kept[place++] = {row.a,
-                             row.b,
-                             pair.contacts[r - pair.begin].feature,
-                             aFromWorld * row.rA,
-                             impulse / dt,
-                             row.couple / dt};
+            kept[place++] = {
+                row.a,        row.b,          contacts[r - pair.begin].feature, aFromWorld * row.rA,
+                impulse / dt, row.couple / dt};
         }
     });
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {

@@ -120,9 +120,9 @@ public:
           settings_(settings),
           graph_(levels.graph),
           scratch_(scratch),
-          isLookedAt_(scratch.pairs.size(), 0),
+          isLookedAt_(scratch.nearPairs.size(), 0),
           isPushed_(scratch.bodies.size(), 0),
-          left_(scratch.pairs.size(), kDeep)
+          left_(scratch.nearPairs.size(), kDeep)
     {
     }
 
@@ -131,8 +131,8 @@ public:
         findDeepPairs();
         if (reach_ == 0.0) return {};
         std::vector<std::vector<std::size_t>> byLevel;
-        for (std::size_t i = 0; i < scratch_.pairs.size(); ++i) {
-            const auto level = static_cast<std::size_t>(levelOf(scratch_.pairs[i]));
+        for (std::size_t i = 0; i < scratch_.nearPairs.size(); ++i) {
+            const auto level = static_cast<std::size_t>(levelOf(scratch_.nearPairs[i].bodies));
             if (byLevel.size() <= level) byLevel.resize(level + 1);
             byLevel[level].push_back(i);
         }
@@ -147,7 +147,7 @@ public:
     }
 
     /// Whether the rows of a pair have been dealt with.
-    bool isLookedAt(std::size_t pair) const { return isLookedAt_[pair] != 0; }
+    bool isLookedAt(const GapPair& pair) const { return isLookedAt_[pair.near] != 0; }
 
 private:
     struct RowToPush {
@@ -155,33 +155,32 @@ private:
         double left;  // for the steps to remove, as a share of the smaller body
     };
 
-    int levelOf(const GapPair& pair) const
+    int levelOf(BodyPair pair) const
     {
-        return std::max(graph_.level[pair.bodies.a], graph_.level[pair.bodies.b]);
+        return std::max(graph_.level[pair.a], graph_.level[pair.b]);
     }
-    bool isDeep(const GapPair& pair, double depth) const
+    bool isDeep(BodyPair pair, double depth) const
     {
-        return depth > kDeep * smallerRadius(world_, pair.bodies.a, pair.bodies.b);
+        return depth > kDeep * smallerRadius(world_, pair.a, pair.b);
     }
 
     /// As far as the rows tell, at the beginning of the step and at its end: a feature that was
     /// deep at one of them only is one that faced the other for a moment.
     void findDeepPairs()
     {
-        for (const std::size_t i : scratch_.order) {
-            const GapPair& pair = scratch_.pairs[i];
+        for (const GapPair& pair : scratch_.pairs) {
             double deepest = 0.0;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapRow& row = scratch_.rows[r];
                 const double opened = shiftAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
                 const double depth = -row.gap - std::max(opened, 0.0);
-                if (!isDeep(pair, depth) || (!row.movesA && !row.movesB)) continue;
-                isLookedAt_[i] = 1;
+                if (!isDeep(pair.bodies, depth) || (!row.movesA && !row.movesB)) continue;
+                isLookedAt_[pair.near] = 1;
                 reach_ = std::max(reach_, depth);
                 deepest = std::max(deepest, depth);
             }
             const double share = deepest / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
-            left_[i] =
+            left_[pair.near] =
                 std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop, kDeep);
         }
     }
@@ -206,17 +205,17 @@ private:
     /// Of what is deep, and of what the pass has moved: it may have been moved into another.
     void addRows(std::size_t i)
     {
-        GapPair& pair = scratch_.pairs[i];
+        NearPair& pair = scratch_.nearPairs[i];
         const auto [a, b] = pair.bodies;
         const bool isMoved = isPushed_[a] || isPushed_[b];
         if (!isLookedAt_[i] && !isMoved) return;
         isLookedAt_[i] = 1;
         const double depth = look(pair, reach_);
-        if (!isMoved && !isDeep(pair, depth)) {
+        if (!isMoved && !isDeep(pair.bodies, depth)) {
             isLookedAt_[i] = 0;  // the rows had seen it deeper than it is
             return;
         }
-        const int level = levelOf(pair);
+        const int level = levelOf(pair.bodies);
         for (const GapContact& contact : contacts_) {
             GapRow row{};
             row.a = a;
@@ -238,7 +237,7 @@ private:
     }
 
     /// Fills contacts_ where the bodies are now; answers the depth of the deepest.
-    double look(GapPair& pair, double reach)
+    double look(NearPair& pair, double reach)
     {
         const auto [a, b] = pair.bodies;
         const PlacedPair placed{&world_.shapeOf(a), &world_.shapeOf(b),
@@ -251,8 +250,8 @@ private:
 
     void lookAfterwards()
     {
-        for (std::size_t i = 0; i < scratch_.pairs.size(); ++i) {
-            GapPair& pair = scratch_.pairs[i];
+        for (std::size_t i = 0; i < scratch_.nearPairs.size(); ++i) {
+            NearPair& pair = scratch_.nearPairs[i];
             if (isLookedAt_[i]) pair.depth = look(pair, 0.0);
         }
     }
@@ -263,8 +262,8 @@ private:
     GapScratch& scratch_;
     PushOutTally tally_;
     double reach_ = 0.0;  // of contacts that pushes may close: the deepest overlap [m]
-    std::vector<char> isLookedAt_, isPushed_;  // per pair; per body
-    std::vector<double> left_;                 // per pair: as of RowToPush
+    std::vector<char> isLookedAt_, isPushed_;  // per near pair; per body
+    std::vector<double> left_;                 // per near pair: as of RowToPush
     std::vector<GapContact> contacts_;
     std::vector<RowToPush> rows_;
     std::vector<RowPush> pushes_;
@@ -275,9 +274,10 @@ private:
 PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratch& scratch)
 {
     std::vector<double> wanted(scratch.rows.size(), 0.0);
-    forPairsWithRows(scratch, [&](std::size_t i) {
-        if (deep.isLookedAt(i)) return;
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+    forPairs(scratch, [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        if (deep.isLookedAt(pair)) return;
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
             const double gap = row.gap + shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
             wanted[r] = kShare * std::max(excessOf(world, row, gap), 0.0);
@@ -309,7 +309,7 @@ PushOutTally separateGaps(World& world, const StepSettings& settings, const GapL
 DeepestOverlap findDeepestGap(const GapScratch& scratch)
 {
     DeepestOverlap deepest;
-    for (const GapPair& pair : scratch.pairs) {
+    for (const NearPair& pair : scratch.nearPairs) {
         if (pair.depth > deepest.depth) deepest = {pair.depth, pair.bodies.a, pair.bodies.b};
     }
     return deepest;

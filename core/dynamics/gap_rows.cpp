@@ -211,27 +211,29 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
     std::size_t count = 0;
-    scratch.order.clear();
-    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        GapPair& pair = scratch.pairs[i];
-        const auto [a, b] = pair.bodies;
+    scratch.pairs.clear();
+    for (std::size_t i = 0; i < scratch.nearPairs.size(); ++i) {
+        NearPair& near = scratch.nearPairs[i];
+        if (near.contacts.empty()) continue;
         // A keyed body beside a sleeping one moves nothing.
+        const auto [a, b] = near.bodies;
         if (scratch.bodies[a].inverseMass == 0.0 && scratch.bodies[b].inverseMass == 0.0) {
-            pair.contacts.clear();
-            pair.foundWithin = -1.0;
-            pair.depth = 0.0;
+            near.contacts.clear();
+            near.foundWithin = -1.0;
+            near.depth = 0.0;
+            continue;
         }
-        pair.begin = count;
-        count += pair.contacts.size();
-        pair.end = count;
-        if (pair.end > pair.begin) scratch.order.push_back(i);
+        const std::size_t begin = count;
+        count += near.contacts.size();
+        scratch.pairs.push_back({near.bodies, i, begin, count});
     }
     scratch.rows.resize(count);
 
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
-    parallelFor(scratch.order.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t place = begin; place < end; ++place) {
-            const GapPair& pair = scratch.pairs[scratch.order[place]];
+    parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const GapPair& pair = scratch.pairs[i];
+            const std::vector<GapContact>& contacts = scratch.nearPairs[pair.near].contacts;
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
             const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
@@ -242,7 +244,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                                      return p.a < q.a || (p.a == q.a && p.b < q.b);
                                  });
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                const GapContact& contact = pair.contacts[r - pair.begin];
+                const GapContact& contact = contacts[r - pair.begin];
                 GapRow& row = scratch.rows[r];
                 row.a = a;
                 row.b = b;
@@ -264,16 +266,18 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
             if (known.first == known.second) continue;
             warmStart(world, dt, &*known.first, &*known.first + (known.second - known.first),
                       &scratch.rows[pair.begin],
-                      &scratch.rows[pair.begin] + (pair.end - pair.begin), pair.contacts);
+                      &scratch.rows[pair.begin] + (pair.end - pair.begin), contacts);
         }
     });
 
     // Bottom to top: what carries is solved before what is carried.
     const Vec3 up = -settings.gravity;
-    std::vector<double> height(scratch.pairs.size(), 0.0);
-    for (std::size_t i : scratch.order) {
-        const GapRow& row = scratch.rows[scratch.pairs[i].begin];
-        height[i] = up.dot(world.motion[row.a].position + row.rA);
+    std::vector<double> height;
+    scratch.order.clear();
+    for (const GapPair& pair : scratch.pairs) {
+        const GapRow& row = scratch.rows[pair.begin];
+        scratch.order.push_back(height.size());
+        height.push_back(up.dot(world.motion[row.a].position + row.rA));
     }
     std::sort(scratch.order.begin(), scratch.order.end(), [&](std::size_t p, std::size_t q) {
         return height[p] < height[q] || (height[p] == height[q] && p < q);

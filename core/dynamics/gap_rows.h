@@ -61,14 +61,21 @@ struct GapRow {
     }
 };
 
-/// The pairs of a step and what they remember. Small: every step lays them out anew.
-struct GapPair {
+/// Two bodies that may meet in a step, and what they remember. Small: every step lays them out
+/// anew.
+struct NearPair {
     BodyPair bodies;
     std::unique_ptr<NearFeatures> near = std::make_unique<NearFeatures>();
     std::vector<GapContact> contacts;
-    double foundWithin = -1.0;       ///< the reach of these [m]; negative: they are not known
-    std::size_t begin = 0, end = 0;  ///< its rows
-    double depth = 0.0;              ///< of its deepest overlap, as last seen [m]
+    double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
+    double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
+};
+
+/// The few of these that have rows.
+struct GapPair {
+    BodyPair bodies;
+    std::size_t near;        ///< index into GapScratch::nearPairs
+    std::size_t begin, end;  ///< its rows
 };
 
 /// A blow.
@@ -81,7 +88,7 @@ struct GapImpact {
 /// Rows that share bodies, directly or through others: a problem of its own. Islands share no
 /// movable body, so they may be solved at once and stop on their own.
 struct GapIsland {
-    std::vector<std::size_t> pairs;  ///< those that have rows: bottom to top
+    std::vector<std::size_t> pairs;  ///< bottom to top
     std::size_t rowCount = 0;
     bool isRemembered = false;  ///< some of its pairs carried in the last step
 };
@@ -101,8 +108,8 @@ struct GapScratch {
     std::vector<Aabb> boxes;
     std::vector<BodyPair> candidates;  ///< what it found, without pairs that groups keep apart
     std::vector<AppliedForce> forces;
-    std::vector<GapPair> pairs;        ///< sorted by bodies
-    std::vector<GapPair> formerPairs;  ///< of the last step, without those that are left
+    std::vector<NearPair> nearPairs;        ///< sorted by bodies
+    std::vector<NearPair> formerNearPairs;  ///< of the last step, without those that are left
     /// Per body: where it was last, whether it has moved since, and how far its points have moved
     /// in all at most [m].
     std::vector<Pose> seenAt;
@@ -112,10 +119,10 @@ struct GapScratch {
     /// shown it to gain besides [m/s].
     std::vector<GapPace> paces;
     std::vector<double> gain;
-    BroadPhase fartherPhase;  ///< of meetsUnseen
     std::vector<GapBody> bodies;
+    std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< pair by pair
-    std::vector<std::size_t> order;  ///< of the pairs that have rows: bottom to top
+    std::vector<std::size_t> order;  ///< of the pairs: bottom to top
     std::vector<GapIsland> islands;
     std::vector<GapImpact> impacts;  ///< of this step, as they came
 };
@@ -124,13 +131,13 @@ struct GapScratch {
 /// remembers. Keyed bodies must have been aimed.
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
 
-/// Calls work(pair) for every pair that has rows, shared by threads: it may write to what belongs
-/// to the pair alone, its rows among that.
+/// Calls work(i) for every pair, shared by threads: it may write to what belongs to that pair
+/// alone, its rows among that.
 template <class Work>
-void forPairsWithRows(const GapScratch& scratch, const Work& work)
+void forPairs(const GapScratch& scratch, const Work& work)
 {
-    parallelFor(scratch.order.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t place = begin; place < end; ++place) work(scratch.order[place]);
+    parallelFor(scratch.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) work(i);
     });
 }
 

@@ -128,16 +128,16 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
     std::erase_if(found, [&](BodyPair pair) { return !isMovedPair(world, scratch, pair); });
 
     // Both lists are sorted: pairs that stay keep what they know.
-    std::vector<GapPair>& former = scratch.formerPairs;
-    std::swap(scratch.pairs, former);
-    scratch.pairs.clear();
+    std::vector<NearPair>& former = scratch.formerNearPairs;
+    std::swap(scratch.nearPairs, former);
+    scratch.nearPairs.clear();
     std::size_t old = 0;
     for (const BodyPair& bodies : found) {
         while (old < former.size() && former[old].bodies < bodies) ++old;
         if (old < former.size() && former[old].bodies == bodies) {
-            scratch.pairs.push_back(std::move(former[old++]));
+            scratch.nearPairs.push_back(std::move(former[old++]));
         } else {
-            scratch.pairs.emplace_back().bodies = bodies;
+            scratch.nearPairs.emplace_back().bodies = bodies;
         }
     }
 }
@@ -151,7 +151,7 @@ PlacedPair placed(const World& world, BodyPair bodies)
 
 /// A step that is solved again asks again, most of it the same.
 void findContacts(const World& world, double dt, bool isAgain, const GapScratch& scratch,
-                  GapPair& pair)
+                  NearPair& pair)
 {
     const auto [a, b] = pair.bodies;
     const double reach =
@@ -171,9 +171,9 @@ void findContacts(const World& world, double dt, bool isAgain, const GapScratch&
 bool runsIntoUnseen(const World& world, double dt, const GapScratch& scratch, BodyPair bodies)
 {
     const auto known = std::lower_bound(
-        scratch.pairs.begin(), scratch.pairs.end(), bodies,
-        [](const GapPair& pair, const BodyPair& sought) { return pair.bodies < sought; });
-    const bool isKnown = known != scratch.pairs.end() && known->bodies == bodies;
+        scratch.nearPairs.begin(), scratch.nearPairs.end(), bodies,
+        [](const NearPair& pair, const BodyPair& sought) { return pair.bodies < sought; });
+    const bool isKnown = known != scratch.nearPairs.end() && known->bodies == bodies;
     NearFeatures ofNone;
     NearFeatures& near = isKnown ? *known->near : ofNone;
     const auto [a, b] = bodies;
@@ -208,9 +208,9 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
     do {
         readBodies(world, scratch);
         findGapPairs(world, dt, scratch);
-        parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+        parallelFor(scratch.nearPairs.size(), 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                findContacts(world, dt, isAgain, scratch, scratch.pairs[i]);
+                findContacts(world, dt, isAgain, scratch, scratch.nearPairs[i]);
         });
         isAgain = true;
     } while (wakeByTouch(world, dt, scratch));
@@ -233,7 +233,7 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
     }
     if (!isFaster) return false;
 
-    std::vector<BodyPair> pairs = scratch.fartherPhase.findPairs(boxes, world.mass);
+    std::vector<BodyPair> pairs = scratch.broadPhase.findPairs(boxes, world.mass);
     std::erase_if(pairs, [&](BodyPair pair) {
         return (gain[pair.a] == 0.0 && gain[pair.b] == 0.0) || !isMovedPair(world, scratch, pair);
     });

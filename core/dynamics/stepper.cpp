@@ -300,8 +300,8 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.deepestA = deepest.a;
     report.deepestB = deepest.b;
     report.levels = static_cast<int>(levels.pairs.size());
-    report.broadPairs = static_cast<std::int64_t>(scratch.pairs.size());
-    report.touchingPairs = static_cast<std::int64_t>(scratch.order.size());
+    report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
+    report.touchingPairs = static_cast<std::int64_t>(scratch.pairs.size());
     report.contactPairs = static_cast<std::int64_t>(scratch.rows.size());
     ++world.clock.subStep;
     return report;

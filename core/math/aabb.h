@@ -36,7 +36,9 @@ struct Aabb {
     }
     bool overlaps(const Aabb& other) const
     {
-        return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
+        bool meets = true;  // without a branch: of boxes nearby nobody can guess
+        for (int k = 0; k < 3; ++k) meets &= (min[k] <= other.max[k]) & (other.min[k] <= max[k]);
+        return meets;
     }
     bool contains(const Aabb& other) const
     {

@@ -304,10 +304,8 @@ GapScratch randomHeap(std::uint64_t seed)
         const auto a = static_cast<BodyId>(randomIndex(kBodies, seed, 1, p));
         const auto b = static_cast<BodyId>(2 + randomIndex(kBodies - 2, seed, 2, p));
         if (a == b) continue;
-        GapPair pair;
-        pair.bodies = {a, b};
-        pair.begin = scratch.rows.size();
-        pair.end = pair.begin + 1 + randomIndex(14, seed, 3, p);
+        GapPair pair{{a, b}, 0, scratch.rows.size(), scratch.rows.size()};
+        pair.end += 1 + randomIndex(14, seed, 3, p);
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             GapRow row{};
             row.a = a;
@@ -321,7 +319,7 @@ GapScratch randomHeap(std::uint64_t seed)
             scratch.rows.push_back(row);
         }
         island.pairs.push_back(scratch.pairs.size());
-        scratch.pairs.push_back(std::move(pair));
+        scratch.pairs.push_back(pair);
     }
     scratch.islands = {island};
     return scratch;
