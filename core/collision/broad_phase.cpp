@@ -66,24 +66,26 @@ void mergeTail(std::vector<Item>& items, std::size_t middle)
 }  // namespace
 
 const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxes,
-                                                   const std::vector<BodyMass>& mass)
+                                                   const std::vector<BodyMass>& mass,
+                                                   const Filter& counts)
 {
     if (findMoved(boxes, mass)) {
         forgetMoved();
         enterMoved(boxes);
         pairMoved();
     }
-    meets_.resize(meetings_.size());
+    isPair_.resize(meetings_.size());
     parallelFor(meetings_.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            meets_[i] = boxes[meetings_[i].a].overlaps(boxes[meetings_[i].b]);
+            isPair_[i] =
+                boxes[meetings_[i].a].overlaps(boxes[meetings_[i].b]) && counts(meetings_[i]);
     });
-    // Which of them meet cannot be guessed: no branch.
+    // Which of them do cannot be guessed: no branch.
     pairs_.resize(meetings_.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < meetings_.size(); ++i) {
         pairs_[count] = meetings_[i];
-        count += static_cast<std::size_t>(meets_[i]);
+        count += static_cast<std::size_t>(isPair_[i]);
     }
     pairs_.resize(count);
     return pairs_;

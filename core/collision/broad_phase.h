@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/math/aabb.h"
@@ -24,10 +25,13 @@ struct BodyPair {
 
 class BroadPhase {
 public:
-    /// All pairs whose boxes overlap and of which at least one body is movable, sorted, each once.
-    /// The result stays valid until the next call.
+    /// Which pairs count; called by several threads at once.
+    using Filter = std::function<bool(BodyPair)>;
+
+    /// All pairs that count whose boxes overlap and of which at least one body is movable, sorted,
+    /// each once. The result stays valid until the next call.
     const std::vector<BodyPair>& findPairs(const std::vector<Aabb>& boxes,
-                                           const std::vector<BodyMass>& mass);
+                                           const std::vector<BodyMass>& mass, const Filter& counts);
 
 private:
     struct Entry {
@@ -49,7 +53,7 @@ private:
     std::vector<Entry> entries_;      // sorted
     std::vector<BodyId> large_;       // sorted; in no cell
     std::vector<BodyPair> meetings_;  // of the larger boxes, sorted
-    std::vector<char> meets_;         // of each of these: whether the boxes asked for do
+    std::vector<char> isPair_;        // of each of these: whether it is what was asked for
     std::vector<BodyPair> pairs_;
     // While searching.
     std::vector<double> edges_;

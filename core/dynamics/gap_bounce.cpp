@@ -182,12 +182,15 @@ private:
         const GapBody& a = scratch_.bodies[row.a];
         const GapBody& b = scratch_.bodies[row.b];
         const Vec3 relative = velocityAt(row, a, b);
-        const Vec3 gravity = gravityAt(row);
         const double u = relative.dot(row.normal);
-        const double g = gravity.dot(row.normal);
         const double s = std::max(row.gap, 0.0);
-        const double end = s + shiftAt(row, a, b) + dt_ * (u + 0.5 * g * dt_);
-        if (end >= 0.0) return false;
+        const double atRest = s + shiftAt(row, a, b);
+        const auto end = [&](double g) { return atRest + dt_ * (u + 0.5 * g * dt_); };
+        // Most rows are not even closed by all of gravity.
+        if (end((a.pull - b.pull).dot(row.normal)) >= 0.0) return false;
+        const Vec3 gravity = gravityAt(row);
+        const double g = gravity.dot(row.normal);
+        if (end(g) >= 0.0) return false;
         const double root = u * u - 2.0 * g * s;
         if (root < 0.0) return false;
         // Once hit, what it hits again in the same step was not a fall: the parabola is used up.

@@ -72,49 +72,57 @@ std::array<std::vector<std::size_t>, 3> cutInTwo(const GapScratch& scratch, cons
 
 }  // namespace
 
-/// Calls work(i) for all batches. Small islands keep to their thread: while it waited for others it
-/// might begin another island, in the same GapLanes.
+/// Calls work(batch) for all batches. Small islands keep to their thread: while it waited for
+/// others it might begin another island, in the same GapLanes.
 template <class Work>
-void GapLanes::forBatches(const Work& work) const
+void GapLanes::forBatches(const Work& work)
 {
-    const std::size_t grain = isCut() ? 16 : batches_.size();
-    parallelFor(batches_.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) work(i);
-    });
+    for (Section& section : sections_) {
+        std::vector<Batch>& batches = section.batches;
+        parallelFor(batches.size(), isCut() ? 16 : batches.size(),
+                    [&](std::size_t begin, std::size_t end) {
+                        for (std::size_t i = begin; i < end; ++i) work(batches[i]);
+                    });
+    }
 }
 
 void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
                      std::vector<LaneBody>& bodies)
 {
     bodies_ = &bodies;
-    batches_.clear();
     firstFree_.resize(bodies_->size(), 0);
     const std::array<std::vector<std::size_t>, 3> parts = cutInTwo(scratch, island);
-    sections_ = {};
-    for (std::size_t s = 0; s < parts.size(); ++s) schedule(scratch, parts[s], sections_[s]);
+    const std::size_t halves = parts[1].empty() ? 1 : 2;
+    parallelFor(halves, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s) schedule(scratch, parts[s], sections_[s]);
+    });
+    for (std::size_t s = halves; s < parts.size(); ++s) schedule(scratch, parts[s], sections_[s]);
     std::size_t rowCount = 0;
-    for (Batch& batch : batches_) {
-        batch.end += rowCount;
-        batch.begin = rowCount;
-        rowCount = batch.end;
+    for (Section& section : sections_) {
+        for (Batch& batch : section.batches) {
+            batch.end += rowCount;
+            batch.begin = rowCount;
+            rowCount = batch.end;
+        }
     }
     rows_.resize(rowCount);
-    forBatches([&](std::size_t i) { fill(scratch, batches_[i]); });
+    forBatches([&](Batch& batch) { fill(scratch, batch); });
 }
 
 /// The first batch with an idle lane for so many rows, not before `earliest`; a new one if none is.
-std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest)
+std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest, Section& section) const
 {
-    std::vector<std::int32_t>& open = open_[rows];
+    std::vector<Batch>& batches = section.batches;
+    std::vector<std::int32_t>& open = section.open[rows];
     const auto found = std::lower_bound(open.begin(), open.end(), earliest);
     if (found != open.end()) {
         const std::int32_t place = *found;
-        if (batches_[place].lanesUsed == kLanes - 1) open.erase(found);
+        if (batches[place].lanesUsed == kLanes - 1) open.erase(found);
         return place;
     }
     const auto dummy = static_cast<std::int32_t>(bodies_->size() - 1);
-    const auto place = static_cast<std::int32_t>(batches_.size());
-    Batch& batch = batches_.emplace_back();
+    const auto place = static_cast<std::int32_t>(batches.size());
+    Batch& batch = batches.emplace_back();
     batch.end = rows;
     for (int lane = 0; lane < kLanes; ++lane) {
         batch.a.body[lane] = batch.b.body[lane] = dummy;
@@ -129,18 +137,20 @@ std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest)
 void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
                         Section& section)
 {
-    section.begin = batches_.size();
-    for (std::vector<std::int32_t>& open : open_) open.clear();
+    section.batches.clear();
+    for (std::vector<std::int32_t>& open : section.open) open.clear();
+    section.residual = section.squaredSpeed = section.energy = kNoLanes;
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
     for (const std::size_t i : pairs) {
         const GapPair& pair = scratch.pairs[i];
         const auto [a, b] = pair.bodies;
-        const bool movesA = scratch.bodies[a].inverseMass > 0.0;
-        const bool movesB = scratch.bodies[b].inverseMass > 0.0;
+        const bool movesA = isMovable(a), movesB = isMovable(b);
         for (std::size_t r = pair.begin; r < pair.end; r += kRowsTogether) {
             const std::int32_t earliest =
                 std::max(movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0);
-            const std::int32_t place = batchFor(std::min(kRowsTogether, pair.end - r), earliest);
-            Batch& batch = batches_[place];
+            const std::int32_t place =
+                batchFor(std::min(kRowsTogether, pair.end - r), earliest, section);
+            Batch& batch = section.batches[place];
             const int lane = batch.lanesUsed++;
             batch.from[lane] = static_cast<std::int32_t>(r);
             batch.a.body[lane] = a;
@@ -152,10 +162,10 @@ void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t
         }
     }
     for (const std::size_t i : pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        firstFree_[a] = firstFree_[b] = 0;
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (isMovable(body)) firstFree_[body] = 0;
+        }
     }
-    section.end = batches_.size();
 }
 
 void GapLanes::fill(const GapScratch& scratch, Batch& batch)
@@ -241,8 +251,7 @@ inline void GapLanes::visit(Row& row, const Batch& batch, const Lanes3& u, Motio
 
 void GapLanes::begin(const Section& section)
 {
-    for (std::size_t place = section.begin; place < section.end; ++place) {
-        const Batch& batch = batches_[place];
+    for (const Batch& batch : section.batches) {
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r)
             apply(rows_[r], batch, rows_[r].impulse, motion);
@@ -253,8 +262,7 @@ void GapLanes::begin(const Section& section)
 void GapLanes::sweepUp(Section& section)
 {
     section.residual = section.squaredSpeed = kNoLanes;
-    for (std::size_t place = section.begin; place < section.end; ++place) {
-        const Batch& batch = batches_[place];
+    for (const Batch& batch : section.batches) {
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
             Row& row = rows_[r];
@@ -270,8 +278,8 @@ void GapLanes::sweepUp(Section& section)
 void GapLanes::sweepDown(Section& section)
 {
     section.energy = kNoLanes;
-    for (std::size_t place = section.end; place-- > section.begin;) {
-        const Batch& batch = batches_[place];
+    for (std::size_t place = section.batches.size(); place-- > 0;) {
+        const Batch& batch = section.batches[place];
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.end; r-- > batch.begin;) {
             Row& row = rows_[r];
@@ -287,8 +295,7 @@ void GapLanes::sweepDown(Section& section)
 void GapLanes::goOn(const Section& section, double beta)
 {
     const bool beginsAnew = beta > 1.0;  // the active set has changed
-    for (std::size_t place = section.begin; place < section.end; ++place) {
-        const Batch& batch = batches_[place];
+    for (const Batch& batch : section.batches) {
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
             Row& row = rows_[r];
@@ -344,7 +351,7 @@ double GapLanes::goOn(double energyBefore)
     return energy;
 }
 
-void GapLanes::store(GapScratch& scratch) const
+void GapLanes::store(GapScratch& scratch)
 {
     const auto hand = [&](const Side& side, int lane) {
         if (!side.isMovable[lane]) return;
@@ -352,14 +359,15 @@ void GapLanes::store(GapScratch& scratch) const
         scratch.bodies[side.body[lane]].velocity = body.velocity;
         scratch.bodies[side.body[lane]].spin = body.spin;
     };
-    for (const Batch& batch : batches_) {
-        for (int lane = 0; lane < batch.lanesUsed; ++lane) {
-            hand(batch.a, lane);
-            hand(batch.b, lane);
+    for (const Section& section : sections_) {
+        for (const Batch& batch : section.batches) {
+            for (int lane = 0; lane < batch.lanesUsed; ++lane) {
+                hand(batch.a, lane);
+                hand(batch.b, lane);
+            }
         }
     }
-    forBatches([&](std::size_t i) {
-        const Batch& batch = batches_[i];
+    forBatches([&](const Batch& batch) {
         for (int lane = 0; lane < batch.lanesUsed; ++lane) {
             GapRow* to = &scratch.rows[batch.from[lane]];
             for (std::size_t r = batch.begin; r < batch.end; ++r, ++to)

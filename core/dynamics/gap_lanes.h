@@ -46,9 +46,13 @@ public:
     double goOn(double energyBefore);
 
     /// Hands impulses and velocities back to rows and bodies.
-    void store(GapScratch& scratch) const;
+    void store(GapScratch& scratch);
 
 private:
+    /// As many rows of different pairs go into one batch as those that come first: lanes that run
+    /// out of rows are idle, and pairs of a heap have from one row to dozens.
+    static constexpr std::size_t kRowsTogether = 4;
+
     struct Row {
         Lanes3 rA, rB, normal, tangent, second;
         Lanes target = kNoLanes, friction = kNoLanes;
@@ -75,22 +79,19 @@ private:
     struct Motion;
     /// Batches that are visited one after the other.
     struct Section {
-        std::size_t begin = 0, end = 0;  // of batches_
+        std::vector<Batch> batches;
+        std::array<std::vector<std::int32_t>, kRowsTogether + 1> open;  // those with idle lanes
         Lanes residual = kNoLanes, squaredSpeed = kNoLanes, energy = kNoLanes;
     };
 
-    /// As many rows of different pairs go into one batch as those that come first: lanes that run
-    /// out of rows are idle, and pairs of a heap have from one row to dozens.
-    static constexpr std::size_t kRowsTogether = 4;
-
     void schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
                   Section& section);
-    std::int32_t batchFor(std::size_t rows, std::int32_t earliest);
+    std::int32_t batchFor(std::size_t rows, std::int32_t earliest, Section& section) const;
     template <class Work>
     void inHalves(const Work& work);
     template <class Work>
-    void forBatches(const Work& work) const;
-    bool isCut() const { return sections_[1].end > sections_[1].begin; }
+    void forBatches(const Work& work);
+    bool isCut() const { return !sections_[1].batches.empty(); }
     void sweepUp(Section& section);
     void sweepDown(Section& section);
     void begin(const Section& section);
@@ -103,9 +104,7 @@ private:
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
     std::vector<LaneBody>* bodies_ = nullptr;
-    std::vector<Batch> batches_;
     std::vector<std::int32_t> firstFree_;  // per body: the batch after the last that has it
-    std::array<std::vector<std::int32_t>, kRowsTogether + 1> open_;  // batches with idle lanes
     std::vector<Row> rows_;
     std::array<Section, 3> sections_;  // either half, and what lies across the cut
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_contact.h"
@@ -157,11 +158,17 @@ bool closesVisibly(const World& world, const StepSettings& settings, double dt,
 std::vector<char> closingIslands(const World& world, const StepSettings& settings, double dt,
                                  const GapScratch& scratch)
 {
+    std::vector<char> pairCloses(scratch.pairs.size());
+    forPairs(scratch, [&](std::size_t i) {
+        const auto [bodies, near, begin, end] = scratch.pairs[i];
+        const auto rows = std::span(scratch.rows).subspan(begin, end - begin);
+        pairCloses[i] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
+            return closesVisibly(world, settings, dt, scratch, row);
+        });
+    });
     std::vector<char> closes(scratch.islands.size(), 0);
-    for (const GapRow& row : scratch.rows) {
-        if (!closes[row.island])
-            closes[row.island] = closesVisibly(world, settings, dt, scratch, row);
-    }
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i)
+        closes[scratch.rows[scratch.pairs[i].begin].island] |= pairCloses[i];
     return closes;
 }
 

@@ -172,6 +172,7 @@ private:
             double deepest = 0.0;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapRow& row = scratch_.rows[r];
+                if (!isDeep(pair.bodies, -row.gap)) continue;
                 const double opened = shiftAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
                 const double depth = -row.gap - std::max(opened, 0.0);
                 if (!isDeep(pair.bodies, depth) || (!row.movesA && !row.movesB)) continue;
@@ -179,6 +180,7 @@ private:
                 reach_ = std::max(reach_, depth);
                 deepest = std::max(deepest, depth);
             }
+            if (deepest == 0.0) continue;
             const double share = deepest / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
             left_[pair.near] =
                 std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop, kDeep);

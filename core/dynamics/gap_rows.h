@@ -16,29 +16,37 @@
 
 namespace scree {
 
-/// A body as the solver sees it. Velocities are those of the phase that runs.
-struct GapBody {
-    Vec3 velocity, spin;              ///< [m/s], [rad/s]
-    double inverseMass;               ///< [1/kg]; 0: cannot be moved
-    Mat3 inverseInertia;              ///< world
-    Vec3 pull, torque;                ///< that act throughout the step [m/s²], [N m]
+/// A body as the solver sees it. Velocities are those of the phase that runs. What is looked at
+/// most comes first, in two cache lines.
+struct alignas(64) GapBody {
+    Vec3 velocity, spin;  ///< [m/s], [rad/s]
+    Vec3 shift, turn;     ///< added to the motion of this step: not everything moves for all of it
+                          ///< with its final velocity [m], [rad]
+    Vec3 pull;            ///< that acts throughout the step [m/s²]
+    double inverseMass;   ///< [1/kg]; 0: cannot be moved
+    Mat3 inverseInertia;  ///< world
+    Vec3 torque;          ///< that acts throughout the step [N m]
     Vec3 velocityBefore, spinBefore;  ///< those forces
     Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
-    Vec3 shift, turn;  ///< added to the motion of this step: not everything moves for all
-                       ///< of it with its final velocity [m], [rad]
     double hitAt;    ///< the first moment at which an impact changed its velocity; 0: none did [s]
     bool isStopped;  ///< something may stop it within the step
 };
 
 struct GapRow {
     BodyId a, b;
-    std::int32_t island;   ///< index into GapScratch::islands
-    Vec3 rA, rB;           ///< contact point from either centre, world [m]
-    Vec3 normal, tangent;  ///< from B to A; the second tangent is normal × tangent
-    double gap;            ///< [m]
+    std::int32_t island;    ///< index into GapScratch::islands
+    bool movesA, movesB;    ///< whether its impulses act on the body: not on what cannot be moved,
+                            ///< nor on one that the other's group does not move
+    bool isHeldA, isHeldB;  ///< by its group
+    bool wasHit;            ///< by an impact of this step
+    bool isCarried;         ///< its pair had an impulse in the last step
+    Vec3 rA, rB;            ///< contact point from either centre, world [m]
+    Vec3 normal;            ///< from B to A
+    double gap;             ///< [m]
+    Vec3 impulse;           ///< along normal, tangent and second tangent, on A [N s]
+    Vec3 tangent;           ///< the second tangent is normal × tangent
     double friction, restitution;
     double target;  ///< normal velocity that closes the gap within the step [m/s], ≤ 0
-    Vec3 impulse;   ///< along normal, tangent and second tangent, on A [N s]
     double inverseNormalMass;
     double frictionMass[3];          ///< inverse of the tangential 2×2 block: tt, ts, ss
     double slideMass;                ///< 1 / largest eigenvalue of that block
@@ -47,11 +55,6 @@ struct GapRow {
     double rollResponse;             ///< spin across the normal by a unit couple while friction
                                      ///< holds the place, at most [1/(kg m²)]
     Vec3 couple;                     ///< of that resistance, on A, world [N m s]
-    bool movesA, movesB;    ///< whether its impulses act on the body: not on what cannot be moved,
-                            ///< nor on one that the other's group does not move
-    bool isHeldA, isHeldB;  ///< by its group
-    bool wasHit;            ///< by an impact of this step
-    bool isCarried;         ///< its pair had an impulse in the last step
 
     bool resistsSpin() const { return rollingArm > 0.0 || spinningArm > 0.0; }
     Vec3 secondTangent() const { return normal.cross(tangent); }
@@ -106,7 +109,6 @@ struct GapPace {
 struct GapScratch {
     BroadPhase broadPhase;
     std::vector<Aabb> boxes;
-    std::vector<BodyPair> candidates;  ///< what it found, without pairs that groups keep apart
     std::vector<AppliedForce> forces;
     std::vector<NearPair> nearPairs;        ///< sorted by bodies
     std::vector<NearPair> formerNearPairs;  ///< of the last step, without those that are left

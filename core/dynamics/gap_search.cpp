@@ -123,9 +123,9 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
             scratch.boxes[i] = boxWithin(world, scratch, body, dt);
         }
     });
-    std::vector<BodyPair>& found = scratch.candidates;
-    found = scratch.broadPhase.findPairs(scratch.boxes, world.mass);
-    std::erase_if(found, [&](BodyPair pair) { return !isMovedPair(world, scratch, pair); });
+    const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(
+        scratch.boxes, world.mass,
+        [&](BodyPair pair) { return isMovedPair(world, scratch, pair); });
 
     // Both lists are sorted: pairs that stay keep what they know.
     std::vector<NearPair>& former = scratch.formerNearPairs;
@@ -233,10 +233,10 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
     }
     if (!isFaster) return false;
 
-    std::vector<BodyPair> pairs = scratch.broadPhase.findPairs(boxes, world.mass);
-    std::erase_if(pairs, [&](BodyPair pair) {
-        return (gain[pair.a] == 0.0 && gain[pair.b] == 0.0) || !isMovedPair(world, scratch, pair);
-    });
+    const std::vector<BodyPair>& pairs =
+        scratch.broadPhase.findPairs(boxes, world.mass, [&](BodyPair pair) {
+            return (gain[pair.a] > 0.0 || gain[pair.b] > 0.0) && isMovedPair(world, scratch, pair);
+        });
     std::vector<char> isMet(pairs.size(), 0);
     parallelFor(pairs.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)

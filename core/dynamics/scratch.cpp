@@ -67,8 +67,8 @@ const MaterialPair* exceptionFor(const World& world, BodyPair bodies)
 /// The pairs whose swept boxes meet and that may collide, sorted.
 const std::vector<BodyPair>& meetingBoxes(const World& world, StepScratch& scratch)
 {
-    scratch.candidates = scratch.broadPhase.findPairs(scratch.sweptBoxes, world.mass);
-    std::erase_if(scratch.candidates, [&](BodyPair pair) { return !mayCollide(world, pair); });
+    scratch.candidates = scratch.broadPhase.findPairs(
+        scratch.sweptBoxes, world.mass, [&](BodyPair pair) { return mayCollide(world, pair); });
     return scratch.candidates;
 }
 

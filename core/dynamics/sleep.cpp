@@ -126,8 +126,8 @@ std::vector<RememberedContact> contactsOfSleepers(const World& world)
     BroadPhase broadPhase;
     std::vector<RememberedContact> found;
     std::vector<GapContact> contacts;
-    for (const BodyPair& pair : broadPhase.findPairs(boxes, world.mass)) {
-        if (!mayCollide(world, pair)) continue;
+    const auto counts = [&](BodyPair pair) { return mayCollide(world, pair); };
+    for (const BodyPair& pair : broadPhase.findPairs(boxes, world.mass, counts)) {
         const PlacedPair placed{&world.shapeOf(pair.a), &world.shapeOf(pair.b),
                                 world.motion[pair.a].worldFromBody(),
                                 world.motion[pair.b].worldFromBody()};

@@ -188,8 +188,8 @@ private:
 std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRatio)
 {
     BroadPhase broadPhase;
-    std::vector<BodyPair> pairs = broadPhase.findPairs(boxesOf(world), world.mass);
-    std::erase_if(pairs, [&](const BodyPair& pair) { return !mayCollide(world, pair); });
+    const std::vector<BodyPair>& pairs = broadPhase.findPairs(
+        boxesOf(world), world.mass, [&](BodyPair pair) { return mayCollide(world, pair); });
     const InnerDepth innerDepth(world);
     std::vector<double> depths(pairs.size());
     parallelFor(pairs.size(), 16, [&](std::size_t begin, std::size_t end) {

@@ -53,7 +53,12 @@ TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFindsWhileBodiesMove)  // 
 
         BroadPhase broadPhase;
         for (std::uint64_t step = 0; step < 30; ++step) {
-            EXPECT_EQ(broadPhase.findPairs(boxes, mass), pairsOfAllAgainstAll(boxes, mass))
+            const auto counts = [step](BodyPair pair) {
+                return (pair.a + pair.b + static_cast<BodyId>(step)) % 7 != 0;
+            };
+            std::vector<BodyPair> expected = pairsOfAllAgainstAll(boxes, mass);
+            std::erase_if(expected, [&](BodyPair pair) { return !counts(pair); });
+            EXPECT_EQ(broadPhase.findPairs(boxes, mass, counts), expected)
                 << "scene " << scene << ", step " << step;
             for (std::uint64_t b = 0; b < 200; ++b) {
                 const Vec3 way = drawVector(scene * 1000 + b, 2, b == 7 ? 1.0 : 0.01);
@@ -61,6 +66,9 @@ TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFindsWhileBodiesMove)  // 
                 boxes[b].max += way;
             }
             if (step == 10) boxes.back() = {-Vec3::Ones(), Vec3::Ones()};
+            if (step == 15) {  // as in a blast: cells no longer fit
+                for (std::uint64_t b = 0; b < 200; ++b) boxes[b] = boxes[b].grown(3.0);
+            }
             if (step == 20) std::swap(mass[0], mass[1]);
         }
     }
