@@ -16,11 +16,9 @@ Aabb boxOf(const World& world, BodyId body)
 
 bool interfere(const World& world, BodyId a, BodyId b, std::vector<Touch>& touches)
 {
-    const Shape &shapeA = world.shapeOf(a), &shapeB = world.shapeOf(b);
-    const PlacedPair pair{&shapeA, &shapeB, world.motion[a].worldFromBody(),
-                          world.motion[b].worldFromBody()};
     touches.clear();
-    findTouchesPlainly(pair, contourValue(shapeA, shapeB), touches);
+    findTouchesPlainly(placePair(world, {a, b}), contourValue(world.shapeOf(a), world.shapeOf(b)),
+                       touches);
     return !touches.empty();
 }
 

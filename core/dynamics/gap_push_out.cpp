@@ -241,12 +241,10 @@ private:
     /// Fills contacts_ where the bodies are now; answers the depth of the deepest.
     double look(NearPair& pair, double reach)
     {
-        const auto [a, b] = pair.bodies;
-        const PlacedPair placed{&world_.shapeOf(a), &world_.shapeOf(b),
-                                world_.motion[a].worldFromBody(), world_.motion[b].worldFromBody()};
         contacts_.clear();
         // Bodies have moved since their ways were measured: nothing follows from them.
-        pair.near->findContacts(placed, reach, contacts_, -std::numeric_limits<double>::infinity());
+        pair.near->findContacts(placePair(world_, pair.bodies), reach, contacts_,
+                                -std::numeric_limits<double>::infinity());
         return deepestOf(contacts_);
     }
 

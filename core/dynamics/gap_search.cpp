@@ -142,13 +142,6 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
     }
 }
 
-PlacedPair placed(const World& world, BodyPair bodies)
-{
-    const auto [a, b] = bodies;
-    return {&world.shapeOf(a), &world.shapeOf(b), world.motion[a].worldFromBody(),
-            world.motion[b].worldFromBody()};
-}
-
 /// A step that is solved again asks again, most of it the same.
 void findContacts(const World& world, double dt, bool isAgain, const GapScratch& scratch,
                   NearPair& pair)
@@ -162,7 +155,7 @@ void findContacts(const World& world, double dt, bool isAgain, const GapScratch&
         pair.contacts.clear();
         pair.foundWithin = reach;
         if (!pair.near->isApart(reach, odometer))
-            pair.near->findContacts(placed(world, pair.bodies), reach, pair.contacts, odometer);
+            pair.near->findContacts(placePair(world, pair.bodies), reach, pair.contacts, odometer);
     }
     pair.depth = deepestOf(pair.contacts);
 }
@@ -182,7 +175,7 @@ bool runsIntoUnseen(const World& world, double dt, const GapScratch& scratch, Bo
     const double odometer = scratch.odometer[a] + scratch.odometer[b];
     if (near.isApart(reach, odometer)) return false;
     std::vector<GapContact> contacts;
-    near.findContacts(placed(world, bodies), reach, contacts, odometer);
+    near.findContacts(placePair(world, bodies), reach, contacts, odometer);
     const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
     return std::any_of(contacts.begin(), contacts.end(), [&](const GapContact& contact) {
         if (isKnown && contact.gap < known->foundWithin) return false;

@@ -119,6 +119,13 @@ inline SkipStamp stampOf(const PairRecord& pair, const StepScratch& scratch)
 void noteImpulse(const World& world, const StepSettings& settings, double dt, BodyPair bodies,
                  StepScratch& scratch);
 
+/// Two bodies where they are.
+inline PlacedPair placePair(const World& world, BodyPair bodies)
+{
+    const auto [a, b] = bodies;
+    return {&world.shapeOf(a), &world.shapeOf(b), world.motion[a].worldFromBody(),
+            world.motion[b].worldFromBody()};
+}
 inline PlacedPair placePair(const World& world, const PairRecord& pair, const Pose& worldFromA,
                             const Pose& worldFromB)
 {

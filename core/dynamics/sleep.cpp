@@ -128,12 +128,9 @@ std::vector<RememberedContact> contactsOfSleepers(const World& world)
     std::vector<GapContact> contacts;
     const auto counts = [&](BodyPair pair) { return mayCollide(world, pair); };
     for (const BodyPair& pair : broadPhase.findPairs(boxes, world.mass, counts)) {
-        const PlacedPair placed{&world.shapeOf(pair.a), &world.shapeOf(pair.b),
-                                world.motion[pair.a].worldFromBody(),
-                                world.motion[pair.b].worldFromBody()};
         contacts.clear();
-        NearFeatures().findContacts(placed, kTouching * smallerRadius(world, pair.a, pair.b),
-                                    contacts);
+        NearFeatures().findContacts(placePair(world, pair),
+                                    kTouching * smallerRadius(world, pair.a, pair.b), contacts);
         if (contacts.empty()) continue;
         const Quat aFromWorld = world.motion[pair.a].orientation.conjugate();
         found.push_back({pair.a, pair.b, contacts.front().feature, aFromWorld * contacts.front().rA,

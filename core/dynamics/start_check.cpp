@@ -32,10 +32,8 @@ std::vector<Aabb> boxesOf(const World& world)
 
 double depthOf(const World& world, BodyId a, BodyId b)
 {
-    const PlacedPair pair{&world.shapeOf(a), &world.shapeOf(b), world.motion[a].worldFromBody(),
-                          world.motion[b].worldFromBody()};
     std::vector<Touch> touches;
-    findTouchesPlainly(pair, 0.0, touches);
+    findTouchesPlainly(placePair(world, {a, b}), 0.0, touches);
     double depth = 0.0;
     for (const Touch& touch : touches) depth = std::max(depth, -touch.phi);
     return depth;
