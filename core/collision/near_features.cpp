@@ -22,6 +22,19 @@ constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the sm
 
 using Part = ContactPart::Kind;
 
+RelativePair relativePair(const PlacedPair& bodies, const Mat3& worldFromA, const Mat3& worldFromB)
+{
+    const Vec3 offset = bodies.worldFromA.position - bodies.worldFromB.position;
+    return {*bodies.shapeA, *bodies.shapeB, worldFromB.transpose() * worldFromA,
+            worldFromB.transpose() * offset};
+}
+
+/// Facets lie below the round surface that they stand for, and must be seen from farther away.
+double bulgeOf(const RelativePair& pair)
+{
+    return pair.first.smooth.bulge() + pair.second.smooth.bulge();
+}
+
 /// Lower bound of the distance between what the tree of the first shape holds and the second.
 double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
 {
@@ -31,6 +44,15 @@ double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
         atLeast = std::min(atLeast, distance - sphere.radius);
     }
     return atLeast;
+}
+
+double apartAtLeast(const RelativePair& pair, const RelativePair& back)
+{
+    return std::min({apartAtLeast(pair, pair.first.features.cornerTree()),
+                     apartAtLeast(back, back.first.features.cornerTree()),
+                     back.first.features.edges().empty()
+                         ? std::numeric_limits<double>::infinity()
+                         : apartAtLeast(pair, pair.first.features.edgeTree())});
 }
 
 /// An edge of the first shape in the frame of the second, all but its face normals.
@@ -140,6 +162,20 @@ double countedOfWay(const RelativePair& pair)
 
 }  // namespace
 
+double apartAtLeast(const PlacedPair& bodies)
+{
+    const RelativePair pair = relativePair(bodies, bodies.worldFromA.orientation.toRotationMatrix(),
+                                           bodies.worldFromB.orientation.toRotationMatrix());
+    const RelativePair back = pair.reversed();
+    const auto ofBall = [](const RelativePair& way) {
+        return way.second.distance.lowerBound(way.translation) - way.first.boundingRadius;
+    };
+    const double apart = isBall(pair.first)    ? ofBall(pair)
+                         : isBall(pair.second) ? ofBall(back)
+                                               : apartAtLeast(pair, back);
+    return apart - bulgeOf(pair);
+}
+
 void NearFeatures::moveTo(const RelativePair& pair)
 {
     // The norm of what two rotations differ by is √2 times the chord of a point at unit distance.
@@ -209,11 +245,7 @@ void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back,
     lookedAt_ = way_;
 
     // Most pairs whose boxes meet are far apart: a few spheres say how far.
-    clearance_ = std::min({apartAtLeast(pair, pair.first.features.cornerTree()),
-                           apartAtLeast(back, back.first.features.cornerTree()),
-                           back.first.features.edges().empty()
-                               ? std::numeric_limits<double>::infinity()
-                               : apartAtLeast(pair, pair.first.features.edgeTree())});
+    clearance_ = apartAtLeast(pair, back);
     window_ =
         std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair.first, pair.second));
     if (clearance_ > reach + window_) {
@@ -270,14 +302,12 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const Shape &shapeA = *bodies.shapeA, &shapeB = *bodies.shapeB;
     const Mat3 worldFromA = bodies.worldFromA.orientation.toRotationMatrix();
     const Mat3 worldFromB = bodies.worldFromB.orientation.toRotationMatrix();
-    const Vec3 offset = bodies.worldFromA.position - bodies.worldFromB.position;
-    const RelativePair pair{shapeA, shapeB, worldFromB.transpose() * worldFromA,
-                            worldFromB.transpose() * offset};
+    const RelativePair pair = relativePair(bodies, worldFromA, worldFromB);
     const RelativePair back = pair.reversed();
-    const ToWorld ofA{worldFromB, -offset, true}, ofB{worldFromA, Vec3::Zero(), false};
+    const Vec3 bFromA = bodies.worldFromB.position - bodies.worldFromA.position;
+    const ToWorld ofA{worldFromB, bFromA, true}, ofB{worldFromA, Vec3::Zero(), false};
     const double smaller = smallerRadius(shapeA, shapeB);
-    // Facets lie below the round surface that they stand for, and must be seen from farther away.
-    const double bulge = shapeA.smooth.bulge() + shapeB.smooth.bulge();
+    const double bulge = bulgeOf(pair);
     const std::size_t known = contacts.size();
     ContactList list(contacts, smaller, reach, bulge > 0.0);
     reach += bulge;

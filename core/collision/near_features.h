@@ -26,6 +26,10 @@ struct GapContact {
     double gap;   ///< [m], negative when they overlap
 };
 
+/// Lower bound of the distance between two bodies, from a few spheres around their features [m];
+/// far below zero where these overlap.
+double apartAtLeast(const PlacedPair& bodies);
+
 class ContactList;
 struct ToWorld;
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/parallel.h"
+#include "core/collision/near_features.h"
 #include "core/dynamics/contact_graph.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
@@ -30,10 +31,10 @@ std::vector<Aabb> boxesOf(const World& world)
     return boxes;
 }
 
-double depthOf(const World& world, BodyId a, BodyId b)
+double depthOf(const PlacedPair& pair)
 {
     std::vector<Touch> touches;
-    findTouchesPlainly(placePair(world, {a, b}), 0.0, touches);
+    findTouchesPlainly(pair, 0.0, touches);
     double depth = 0.0;
     for (const Touch& touch : touches) depth = std::max(depth, -touch.phi);
     return depth;
@@ -112,7 +113,7 @@ void separateOnce(World& world, const StepSettings& settings)
     beginStep(world, settings, kSeparationStep, scratch);
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         PairRecord& pair = scratch.pairs[i];
-        pair.isTouched = depthOf(world, pair.bodies.a, pair.bodies.b) > 0.0;
+        pair.isTouched = depthOf(placePair(world, pair.bodies)) > 0.0;
     }
     const ContactGraph graph = buildContactGraph(world, settings, kSeparationStep, scratch);
     separateOverlaps(world, graph, settings, scratch);
@@ -193,7 +194,8 @@ std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRati
     parallelFor(pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto [a, b] = pairs[i];
-            depths[i] = std::max(depthOf(world, a, b), innerDepth(a, b));
+            const PlacedPair pair = placePair(world, pairs[i]);
+            if (apartAtLeast(pair) <= 0.0) depths[i] = std::max(depthOf(pair), innerDepth(a, b));
         }
     });
     std::vector<StartOverlap> overlaps;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "core/base/random.h"
 #include "core/collision/edge_lanes.h"
@@ -73,6 +75,46 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
     }
     EXPECT_GT(contacts, 1000u);
     EXPECT_GT(skipped, 500u);
+}
+
+/// The nearest of the vertices of either body to the other [m].
+double nearestVertex(const PlacedPair& pair)
+{
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto look = [&](const Shape& from, const Pose& worldFromThis, const Shape& to,
+                          const Pose& worldFromOther) {
+        const Pose otherFromThis = inverse(worldFromOther) * worldFromThis;
+        for (Eigen::Index v = 0; v < from.mesh.points.cols(); ++v) {
+            const Vec3 p = otherFromThis * Vec3(from.mesh.points.col(v));
+            nearest = std::min(nearest, to.distance.value(p));
+        }
+    };
+    look(*pair.shapeA, pair.worldFromA, *pair.shapeB, pair.worldFromB);
+    look(*pair.shapeB, pair.worldFromB, *pair.shapeA, pair.worldFromA);
+    return nearest;
+}
+
+TEST(NearFeatures, BodiesAreAsFarApartAsAFewSpheresSayOrFarther)
+{
+    const std::array<std::shared_ptr<const Shape>, 4> shapes = {
+        buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10})), boxShape({1.0, 0.6, 0.4}, 1),
+        exactSphere(0.5), buildPlaneShape("floor")};
+    int apart = 0, overlapping = 0;
+    for (std::uint64_t run = 0; run < 400; ++run) {
+        const Shape &a = *shapes[run % 3], &b = *shapes[run / 3 % 4];
+        const auto at = [&](std::uint64_t which) {
+            return Pose{1.2 * signedUnits(run, 10 * which),
+                        exponentialMap(3.0 * signedUnits(run, 10 * which + 5))};
+        };
+        const PlacedPair pair{&a, &b, at(1), at(2)};
+        const double bound = apartAtLeast(pair), nearest = nearestVertex(pair);
+        EXPECT_LE(bound, nearest + 1e-9) << run;
+        if (nearest < 0.0) ++overlapping;
+        EXPECT_TRUE(nearest <= 1.0 || bound > 0.0) << run;
+        if (bound > 0.0) ++apart;
+    }
+    EXPECT_GT(apart, 40);
+    EXPECT_GT(overlapping, 40);
 }
 
 /// As seen in a heap: an outer edge of one ring lies 16 mm deep across the inner rim of the other,
