@@ -9,8 +9,9 @@
 namespace scree {
 namespace {
 
-/// How much larger the boxes are made, on every side. Only time depends on it.
-constexpr double kRoom = 0.1;  // of the longest edge
+/// How much larger the boxes are made, on every side, and how large they may be when their bodies
+/// need less by and by: what has fallen fast leaves no large box behind. Only time depends on it.
+constexpr double kRoom = 0.1, kMostRoomy = 1.5;  // of the longest edge
 
 /// Cells are this many of the longest edges of the body in the middle, and are laid out anew when
 /// they are so many times too large or too small.
@@ -91,7 +92,7 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
     return pairs_;
 }
 
-/// Marks the bodies that have left their boxes; where cells no longer fit the bodies, all.
+/// Marks the bodies that no longer fit their boxes; where cells no longer fit the bodies, all.
 bool BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass)
 {
     const bool isKnown = roomy_.size() == boxes.size();
@@ -101,7 +102,9 @@ bool BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<Bod
     bool isAny = !isKnown;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const char isMovable = mass[i].isMovable();
-        if (roomy_[i].contains(boxes[i]) && isMovable == isMovable_[i]) continue;
+        const bool fits = roomy_[i].contains(boxes[i]) &&
+                          roomy_[i].longestEdge() <= kMostRoomy * boxes[i].longestEdge();
+        if (fits && isMovable == isMovable_[i]) continue;
         isMovable_[i] = isMovable;
         isMoved_[i] = isAny = true;
     }
