@@ -119,7 +119,8 @@ double SignedDistance::lowerBound(const Vec3& point) const
 bool SignedDistance::isClearOf(const Vec3& point, double radius) const
 {
     if (solid_) return solid_->value(point) > radius;
-    if (surfaceBox_.distanceTo(point) > radius) return true;
+    const Vec3 inBox = point.cwiseMax(surfaceBox_.min).cwiseMin(surfaceBox_.max);
+    if (radius >= 0.0 && (point - inBox).squaredNorm() > radius * radius) return true;
     // Far from the surface the block knows without being sampled.  [A10, A11]
     const DistanceNodes& nodes = field_.nodes;
     const DistanceNodes::Place place = nodes.placeOf(clamped(point));
