@@ -26,7 +26,7 @@ struct alignas(64) GapBody {
     double inverseMass;   ///< [1/kg]; 0: cannot be moved
     Mat3 inverseInertia;  ///< world
     Vec3 torque;          ///< that acts throughout the step [N m]
-    Vec3 velocityBefore, spinBefore;  ///< those forces
+    Vec3 velocityBefore, spinBefore;  ///< before pull and torque acted
     Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
     double hitAt;    ///< the first moment at which an impact changed its velocity; 0: none did [s]
     bool isStopped;  ///< something may stop it within the step
