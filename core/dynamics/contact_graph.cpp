@@ -32,8 +32,7 @@ struct Adjacency {
 /// Depth-first searches that together see every node once.
 class DepthFirst {
 public:
-    explicit DepthFirst(const Adjacency& graph, std::size_t nodeCount)
-        : graph_(graph), seen_(nodeCount, 0)
+    DepthFirst(const Adjacency& graph, std::size_t nodeCount) : graph_(graph), seen_(nodeCount, 0)
     {
     }
     bool hasSeen(std::uint32_t node) const { return seen_[node] != 0; }
