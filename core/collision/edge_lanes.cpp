@@ -10,10 +10,18 @@ namespace {
 /// rounding: this share of the lengths, and of one.
 constexpr double kRounding = 1e-6;
 
-Lanes clamped(Lanes x, Lanes most)
+template <class L>
+L clamped(L x, L most)
 {
-    const Lanes atLeast = maxOf(x, kNoLanes);
-    return atLeast < most ? atLeast : most;
+    return minOf(maxOf(x, L{}), most);
+}
+
+/// Whether edges come as near to a point as `far`.
+IntLanes passesWithin(const FacingLanes& edge, const FloatLanes3& point, FloatLanes far)
+{
+    const FloatLanes3 to = point - edge.start;
+    const FloatLanes3 away = to - clamped(dot(to, edge.direction), edge.length) * edge.direction;
+    return dot(away, away) <= far * far;
 }
 
 }  // namespace
@@ -21,23 +29,24 @@ Lanes clamped(Lanes x, Lanes most)
 unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double farthest,
                  double turn)
 {
-    const EdgeLanes &a = ofFirst.edge, &b = ofSecond.edge;
-    const Lanes halfA = 0.5 * a.length, halfB = 0.5 * b.length;
-    const Lanes3 between = b.start + halfB * b.direction - a.start - halfA * a.direction;
-    const Lanes far = halfA + halfB + farthest;
-    const LaneMask isNear = dot(between, between) <= far * far;
+    const FacingLanes &a = ofFirst, &b = ofSecond;
+    const FloatLanes halfA = 0.5f * a.length, halfB = 0.5f * b.length;
+    const FloatLanes3 middleA = a.start + halfA * a.direction;
+    const FloatLanes3 middleB = b.start + halfB * b.direction;
+    const IntLanes isNear = passesWithin(a, middleB, halfB + floatLanesOf(farthest)) &
+                            passesWithin(b, middleA, halfA + floatLanesOf(farthest));
     if (!bitsOf(isNear)) return 0;
-    const Lanes3 normal = cross(a.direction, b.direction);  // not unit; turns by `turn` at most
-    const Lanes slack = kSupportSlack * sqrtOf(dot(normal, normal));
-    const Lanes ofB0 = dot(ofSecond.intoFace[0], normal), ofB1 = dot(ofSecond.intoFace[1], normal);
-    const Lanes ofA0 = dot(ofFirst.intoFace[0], normal), ofA1 = dot(ofFirst.intoFace[1], normal);
-    const Lanes out = dot(b.outward, normal);
-    const Lanes slackB = slack + (1.0 + kSupportSlack) * turn;
-    const Lanes slackA = slack + (2.0 + kSupportSlack) * turn;
-    const LaneMask isOut =
-        (out >= -turn) & (maxOf(ofB0, ofB1) <= slackB) & (maxOf(-ofA0, -ofA1) <= slackA);
-    const LaneMask isOutReversed =
-        (out <= turn) & (maxOf(-ofB0, -ofB1) <= slackB) & (maxOf(ofA0, ofA1) <= slackA);
+    const FloatLanes3 normal = cross(a.direction, b.direction);  // not unit; turns by `turn`
+    const FloatLanes slack = static_cast<float>(kSupportSlack) * sqrtOf(dot(normal, normal));
+    const FloatLanes ofB0 = dot(b.intoFace[0], normal), ofB1 = dot(b.intoFace[1], normal);
+    const FloatLanes ofA0 = dot(a.intoFace[0], normal), ofA1 = dot(a.intoFace[1], normal);
+    const FloatLanes out = dot(b.outward, normal), mayTurn = floatLanesOf(turn);
+    const FloatLanes slackB = slack + floatLanesOf((1.0 + kSupportSlack) * turn);
+    const FloatLanes slackA = slack + floatLanesOf((2.0 + kSupportSlack) * turn);
+    const IntLanes isOut =
+        (out >= -mayTurn) & (maxOf(ofB0, ofB1) <= slackB) & (maxOf(-ofA0, -ofA1) <= slackA);
+    const IntLanes isOutReversed =
+        (out <= mayTurn) & (maxOf(-ofB0, -ofB1) <= slackB) & (maxOf(ofA0, ofA1) <= slackA);
     return bitsOf(isNear & (isOut | isOutReversed));
 }
 

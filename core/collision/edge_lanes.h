@@ -1,4 +1,4 @@
-// Pairs of edges four abreast: which can come to face each other, and how far apart they are. What
+// Pairs of edges abreast: which can come to face each other, and how far apart they are. What
 // touches is left to faceEdges; here it is told from the many that do not.  [A7, A8]
 #pragma once
 
@@ -12,12 +12,6 @@ struct EdgeLanes {
     Lanes3 start, direction, outward;
     Lanes length = kNoLanes;  ///< [m]
 
-    static EdgeLanes all(const ConvexEdge& edge)
-    {
-        return {Lanes3::all(edge.start), Lanes3::all(edge.direction), Lanes3::all(edge.outward),
-                lanesOf(edge.length)};
-    }
-
     void set(int lane, const ConvexEdge& edge)
     {
         start.set(lane, edge.start);
@@ -27,13 +21,31 @@ struct EdgeLanes {
     }
 };
 
-/// What tells besides from where they can be touched.
+/// Eight edges in one frame, with what tells from where they can be touched.
 struct FacingLanes {
-    EdgeLanes edge;
-    Lanes3 intoFace[2];
+    FloatLanes3 start, direction, outward;
+    FloatLanes3 intoFace[2];
+    FloatLanes length;
+
+    static FacingLanes all(const ConvexEdge& edge)
+    {
+        return {FloatLanes3::all(edge.start),
+                FloatLanes3::all(edge.direction),
+                FloatLanes3::all(edge.outward),
+                {FloatLanes3::all(edge.intoFace[0]), FloatLanes3::all(edge.intoFace[1])},
+                floatLanesOf(edge.length)};
+    }
+    void set(int lane, const ConvexEdge& edge)
+    {
+        start.set(lane, edge.start);
+        direction.set(lane, edge.direction);
+        outward.set(lane, edge.outward);
+        for (int k : {0, 1}) intoFace[k].set(lane, edge.intoFace[k]);
+        length[lane] = static_cast<float>(edge.length);
+    }
 };
 
-/// Which of four edges can come to touch one of the first shape while nothing moves by more than
+/// Which of eight pairs of edges, in one frame, can come to touch while nothing moves by more than
 /// `farthest` - no point, and no direction by more than `turn` [rad]: those that are near, and
 /// whose common normal either supports (edgeSupports), give or take that turn. Most edges beside
 /// each other never can.

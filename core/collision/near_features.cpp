@@ -11,6 +11,7 @@
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
 #include "core/collision/edge_lanes.h"
+#include "core/geometry/distance_lanes.h"
 
 namespace scree {
 namespace {
@@ -19,6 +20,9 @@ namespace {
 /// depends on it.
 constexpr double kLookAhead = 1.0;        // times the reach
 constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
+
+/// What arithmetic in single precision may lose, as a share of the numbers.
+constexpr double kSingle = 2e-6;
 
 using Part = ContactPart::Kind;
 
@@ -35,24 +39,32 @@ double bulgeOf(const RelativePair& pair)
     return pair.first.smooth.bulge() + pair.second.smooth.bulge();
 }
 
-/// Lower bound of the distance between what the tree of the first shape holds and the second.
-double apartAtLeast(const RelativePair& pair, const SphereTree& ofFirst)
+/// Lower bound of the distance between what the spheres hold and the field.
+double apartAtLeast(const DistanceLanes& field, const std::vector<SphereLanes>& cover)
 {
-    double atLeast = std::numeric_limits<double>::infinity();
-    for (const Sphere& sphere : ofFirst.cover()) {
-        const double distance = pair.second.distance.lowerBound(pair * sphere.centre);
-        atLeast = std::min(atLeast, distance - sphere.radius);
-    }
-    return atLeast;
+    FloatLanes atLeast = floatLanesOf(std::numeric_limits<float>::infinity());
+    for (const SphereLanes& spheres : cover)
+        atLeast = minOf(atLeast, field.apartAtLeast(spheres));
+    float least = atLeast[0];
+    for (int lane = 1; lane < kFloatLanes; ++lane) least = std::min(least, atLeast[lane]);
+    return least;
+}
+
+/// The second shape asked about features of the first.
+DistanceLanes fieldOfSecond(const RelativePair& pair)
+{
+    return {pair.second.distance, pair.rotation, pair.translation, pair.first.boundingRadius};
 }
 
 double apartAtLeast(const RelativePair& pair, const RelativePair& back)
 {
-    return std::min({apartAtLeast(pair, pair.first.features.cornerTree()),
-                     apartAtLeast(back, back.first.features.cornerTree()),
-                     back.first.features.edges().empty()
-                         ? std::numeric_limits<double>::infinity()
-                         : apartAtLeast(pair, pair.first.features.edgeTree())});
+    const ContactFeatures &first = pair.first.features, &second = back.first.features;
+    const DistanceLanes ofSecond = fieldOfSecond(pair), ofFirst = fieldOfSecond(back);
+    double atLeast = std::min(apartAtLeast(ofSecond, first.cornerTree().cover()),
+                              apartAtLeast(ofFirst, second.cornerTree().cover()));
+    if (!second.edges().empty())
+        atLeast = std::min(atLeast, apartAtLeast(ofSecond, first.edgeTree().cover()));
+    return atLeast;
 }
 
 /// An edge of the first shape in the frame of the second, all but its face normals.
@@ -66,80 +78,15 @@ ConvexEdge placed(const RelativePair& pair, const ConvexEdge& edge)
     return moved;
 }
 
-void setFacing(FacingLanes& four, int lane, const ConvexEdge& edge)
-{
-    four.edge.set(lane, edge);
-    for (int k : {0, 1}) four.intoFace[k].set(lane, edge.intoFace[k]);
-}
-
-/// Edges of the second shape, four abreast, and a few fours at a time in a sphere: of a fine mesh
-/// most are far from any one edge of the first. Lanes that are left over are nowhere.
-struct NearLanes {
-    static constexpr std::size_t kTogether = 4 * kLanes;  // edges in a sphere
-    std::vector<FacingLanes> fours;
-    std::vector<Sphere> spheres;
-
-    void fill(const ContactFeatures& features, const std::vector<std::int32_t>& chosen)
-    {
-        constexpr double kNowhere = 1e100;
-        fours.resize((chosen.size() + kLanes - 1) / kLanes);
-        for (std::size_t i = 0; i < fours.size() * kLanes; ++i) {
-            FacingLanes& four = fours[i / kLanes];
-            const int lane = static_cast<int>(i % kLanes);
-            if (i < chosen.size()) {
-                setFacing(four, lane, features.edges()[chosen[i]]);
-            } else {
-                four.edge.start.set(lane, Vec3::Constant(kNowhere));
-            }
-        }
-        spheres.clear();
-        for (std::size_t begin = 0; begin < chosen.size(); begin += kTogether) {
-            Aabb box;
-            for (std::size_t i = begin; i < std::min(begin + kTogether, chosen.size()); ++i) {
-                const ConvexEdge& edge = features.edges()[chosen[i]];
-                box.include(edge.start);
-                box.include(edge.start + edge.length * edge.direction);
-            }
-            spheres.push_back({box.centre(), 0.5 * box.size().norm()});
-        }
-    }
-
-    /// Calls work(four) for all that may be nearer to the edge, placed among them, than `farthest`.
-    template <class Work>
-    void visitNear(const ConvexEdge& edge, double farthest, const Work& work) const
-    {
-        const double half = 0.5 * edge.length;
-        const Vec3 middle = edge.start + half * edge.direction;
-        constexpr std::size_t kFours = kTogether / kLanes;
-        for (std::size_t s = 0; s < spheres.size(); ++s) {
-            const double far = spheres[s].radius + half + farthest;
-            if ((spheres[s].centre - middle).squaredNorm() > far * far) continue;
-            const std::size_t end = std::min((s + 1) * kFours, fours.size());
-            for (std::size_t four = s * kFours; four < end; ++four) work(four);
-        }
-    }
-};
-
-FacingLanes inAllLanes(const ConvexEdge& edge)
-{
-    return {EdgeLanes::all(edge), {Lanes3::all(edge.intoFace[0]), Lanes3::all(edge.intoFace[1])}};
-}
-
 /// Edges of the first shape that may come within `clearance` of the second, in the order of their
 /// tree, where what is near each other is next to each other.
 void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::int32_t>& near)
 {
     near.clear();
-    const ContactFeatures& features = pair.first.features;
-    const auto isClear = [&](const Vec3& centre, double radius) {
-        return pair.second.distance.isClearOf(pair * centre, radius + clearance);
-    };
-    features.edgeTree().visit(isClear, [&](std::uint32_t e) {
-        const ConvexEdge& edge = features.edges()[e];
-        const double half = 0.5 * edge.length;
-        if (!isClear(edge.start + half * edge.direction, half))
-            near.push_back(static_cast<std::int32_t>(e));
-    });
+    const DistanceLanes field = fieldOfSecond(pair);
+    pair.first.features.edgeTree().visit(
+        [&](const SphereLanes& spheres) { return field.mayBeWithin(clearance, spheres); },
+        [&](std::uint32_t e) { near.push_back(static_cast<std::int32_t>(e)); });
 }
 
 /// Of the points of the first body that turn in the frame of the second [m]. Seen from there
@@ -195,44 +142,44 @@ void NearFeatures::lookAtCorners(const RelativePair& pair, double clearance,
                                  std::vector<NearCorner>& near) const
 {
     const ContactFeatures& features = pair.first.features;
-    const SignedDistance& field = pair.second.distance;
-    const auto isClear = [&](const Vec3& centre, double radius) {
-        return field.isClearOf(pair * centre, radius + clearance);
-    };
-    features.cornerTree().visit(isClear, [&](std::uint32_t i) {
-        const std::int32_t corner = features.corners()[i];
-        const double atLeast = field.lowerBound(pair * features.points().col(corner));
-        if (atLeast < clearance) near.push_back({way_ + atLeast, corner});
-    });
+    const DistanceLanes field = fieldOfSecond(pair);
+    features.cornerTree().visit(
+        [&](const SphereLanes& spheres) { return field.mayBeWithin(clearance, spheres); },
+        [&](std::uint32_t i) {
+            const std::int32_t corner = features.corners()[i];
+            const double atLeast =
+                pair.second.distance.lowerBound(pair * features.points().col(corner));
+            if (atLeast < clearance) near.push_back({way_ + atLeast, corner});
+        });
 }
 
 void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach)
 {
-    if (pair.first.features.edges().empty() || pair.second.features.edges().empty()) return;
+    const ContactFeatures &first = pair.first.features, &second = pair.second.features;
+    if (first.edges().empty() || second.edges().empty()) return;
     thread_local std::vector<std::int32_t> nearA, nearB;
-    thread_local NearLanes ofB;
+    thread_local std::vector<FacingLanes> eightsOfB;
     findEdgesNear(pair, clearance_, nearA);
     if (nearA.empty()) return;
     findEdgesNear(back, clearance_, nearB);
-    ofB.fill(pair.second.features, nearB);
-    const double deepest = deepestEdges(pair), end = way_ + window_;
-    const double farthest = std::max(reach, deepest) + window_;
-    const double turn = window_ / leverOf(pair);
-    for (std::int32_t e : nearA) {
-        const ConvexEdge edge = placed(pair, pair.first.features.edges()[e]);
-        const FacingLanes ofA = inAllLanes(edge);
-        ofB.visitNear(edge, farthest, [&](std::size_t four) {
-            unsigned bits = mayFace(ofA, ofB.fours[four], farthest, turn);
-            if (!bits) return;
-            const EdgeGaps gaps = edgeGaps(ofA.edge, ofB.fours[four].edge, deepest, reach);
+    eightsOfB.resize((nearB.size() + kFloatLanes - 1) / kFloatLanes);
+    for (std::size_t i = 0; i < nearB.size(); ++i)
+        eightsOfB[i / kFloatLanes].set(static_cast<int>(i % kFloatLanes), second.edges()[nearB[i]]);
+
+    const double rounding = kSingle * (pair.first.boundingRadius + pair.translation.norm());
+    const double farthest = std::max(reach, deepestEdges(pair)) + window_ + rounding;
+    const double turn = window_ / leverOf(pair) + kSingle;
+    for (const std::int32_t a : nearA) {
+        const FacingLanes edge = FacingLanes::all(placed(pair, first.edges()[a]));
+        for (std::size_t eight = 0; eight < eightsOfB.size(); ++eight) {
+            unsigned bits = mayFace(edge, eightsOfB[eight], farthest, turn);
             for (; bits; bits &= bits - 1) {
-                const int lane = std::countr_zero(bits);
-                const NearEdges edges{way_ + gaps.distance[lane], way_ + gaps.outside[lane], e,
-                                      nearB[four * kLanes + static_cast<std::size_t>(lane)]};
-                if (edges.farUntil - end < reach || edges.outsideUntil <= end)
-                    edges_.push_back(edges);
+                const std::size_t b =
+                    kFloatLanes * eight + static_cast<std::size_t>(std::countr_zero(bits));
+                if (b >= nearB.size()) break;
+                edges_.push_back({way_, way_, a, nearB[b]});
             }
-        });
+        }
     }
 }
 
@@ -268,6 +215,8 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
     EdgeLanes ofFirst, ofSecond;
     NearEdges* four[kLanes];
     int filled = 0;
+    std::int32_t placed = -1;  // edges of the first come several times running
+    Vec3 start = Vec3::Zero(), direction = Vec3::Zero();
     const auto flush = [&] {
         const EdgeGaps gaps = edgeGaps(ofFirst, ofSecond, deepest, reach);
         const unsigned mayTouch = bitsOf(gaps.mayTouch);
@@ -285,10 +234,14 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
     };
     for (NearEdges& edges : edges_) {
         if (edges.farUntil - way_ >= reach && edges.outsideUntil > way_) continue;
-        const ConvexEdge& edge = first[edges.ofA];
-        ofFirst.start.set(filled, pair * edge.start);
-        ofFirst.direction.set(filled, pair.rotation * edge.direction);
-        ofFirst.length[filled] = edge.length;
+        if (edges.ofA != placed) {
+            placed = edges.ofA;
+            start = pair * first[placed].start;
+            direction = pair.rotation * first[placed].direction;
+        }
+        ofFirst.start.set(filled, start);
+        ofFirst.direction.set(filled, direction);
+        ofFirst.length[filled] = first[placed].length;
         ofSecond.set(filled, second[edges.ofB]);
         four[filled++] = &edges;
         if (filled == kLanes) flush();
@@ -327,7 +280,8 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     }
 
     moveTo(pair);
-    if (isStale(reach)) lookAgain(pair, back, reach);
+    const bool isNew = isStale(reach);
+    if (isNew) lookAgain(pair, back, reach);
 
     const double sharpness = kSharpness * smaller;
     double farUntil = lookedAt_ + std::min(clearance_, window_);  // of all features
@@ -354,6 +308,12 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     faceCorners(pair, cornersOfA_, FeatureKind::cornerOfA, ofA);
     faceCorners(back, cornersOfB_, FeatureKind::cornerOfB, ofB);
     touchEdges(pair, ofA, reach, list);
+    if (isNew) {
+        const double end = lookedAt_ + window_;
+        std::erase_if(edges_, [&](const NearEdges& edges) {
+            return edges.farUntil - end >= reach && edges.outsideUntil > end;
+        });
+    }
     for (const NearEdges& candidate : edges_) {
         const double outside = (candidate.outsideUntil - way_) * countedOfWay(pair);
         farUntil = std::min({farUntil, candidate.farUntil, way_ + outside});

@@ -16,7 +16,7 @@ struct GapLanes::Motion {
     Motion(const Batch& batch, const std::vector<LaneBody>& bodies)
     {
         const auto gather = [&](const Side& side, Vec3 LaneBody::*part) {
-            return Lanes3::of(bodies[side.body[0]].*part, bodies[side.body[1]].*part,
+            return lanesOf(bodies[side.body[0]].*part, bodies[side.body[1]].*part,
                               bodies[side.body[2]].*part, bodies[side.body[3]].*part);
         };
         vA = gather(batch.a, &LaneBody::velocity);

@@ -93,8 +93,8 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         corners_.push_back(static_cast<std::int32_t>(v));
         cornerSpheres.push_back({points_.col(v), 0.0});
     }
-    cornerTree_ = SphereTree(cornerSpheres);
-    edgeTree_ = SphereTree(edgeSpheres);
+    cornerTree_ = SphereLaneTree(cornerSpheres);
+    edgeTree_ = SphereLaneTree(edgeSpheres);
 }
 
 bool ContactFeatures::cornerSupports(std::int32_t corner, const Vec3& normal, double slack) const

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/sphere_tree.h"
+#include "core/geometry/sphere_lanes.h"
 #include "core/geometry/tri_mesh.h"
 
 namespace scree {
@@ -43,8 +43,8 @@ public:
     /// Those where at least three faces of different directions meet.
     const std::vector<std::int32_t>& corners() const { return corners_; }
     const std::vector<ConvexEdge>& edges() const { return edges_; }
-    const SphereTree& cornerTree() const { return cornerTree_; }  ///< over corners()
-    const SphereTree& edgeTree() const { return edgeTree_; }      ///< over edges()
+    const SphereLaneTree& cornerTree() const { return cornerTree_; }  ///< over corners()
+    const SphereLaneTree& edgeTree() const { return edgeTree_; }      ///< over edges()
 
     /// Whether the mesh around a corner lies on the positive side of the plane through it with this
     /// normal, give or take the slack: whether something that comes along −normal … +normal can
@@ -58,7 +58,7 @@ private:
     std::vector<std::uint32_t> neighbourStart_;  // #V + 1
     std::vector<Vec3> neighbours_;               // unit directions from the corner along its edges
     std::vector<ConvexEdge> edges_;
-    SphereTree cornerTree_, edgeTree_;
+    SphereLaneTree cornerTree_, edgeTree_;
 };
 
 /// The same for an edge; `normal` points into its solid.

@@ -41,6 +41,7 @@ public:
     const ExactSolid* solid() const { return solid_ ? &*solid_ : nullptr; }
     double spacing() const { return solid_ ? solidSpacing_ : field_.nodes.layout.spacing; }
     const Aabb& domain() const { return domain_; }
+    const Aabb& surfaceBox() const { return surfaceBox_; }
     /// Without nodes where there is a formula.
     const DistanceField& field() const { return field_; }
     /// What nodes, blocks, lists and triangles take [bytes].

@@ -38,6 +38,7 @@ public:
 
     /// A few spheres that together hold everything.
     std::span<const Sphere> cover() const { return cover_; }
+    std::span<const std::uint32_t> things() const { return things_; }
 
 private:
     struct Node {

@@ -1,21 +1,29 @@
-// Four numbers side by side: the same arithmetic on four independent problems at once. Lanes never
-// mix, and no operation is contracted, so that a lane computes the bits it would compute alone.
+// Numbers side by side: the same arithmetic on independent problems at once, four in double and
+// eight in single precision. Lanes never mix, and no operation is contracted, so that a lane
+// computes the bits it would compute alone.
 #pragma once
 
 #include <immintrin.h>
+
+#include <type_traits>
+#include <utility>
 
 #include "core/math/types.h"
 
 namespace scree {
 
 inline constexpr int kLanes = 4;
+inline constexpr int kFloatLanes = 8;
 
 // Compiled for x86-64-v3 like all of Scree: one 256-bit register.
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
+/// For filters, which may err to the safe side.
+using FloatLanes = float __attribute__((vector_size(4 * kFloatLanes)));
+using IntLanes = int __attribute__((vector_size(4 * kFloatLanes)));
 
 inline constexpr Lanes kNoLanes = {0.0, 0.0, 0.0, 0.0};
 
-/// What comparing lanes says: all bits of a lane, or none.
+/// What comparing lanes says: all bits of a lane, or none. Of eight it is IntLanes.
 using LaneMask = decltype(kNoLanes > kNoLanes);
 
 /// Bit i tells of lane i.
@@ -23,14 +31,29 @@ inline unsigned bitsOf(LaneMask mask)
 {
     return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
 }
+inline unsigned bitsOf(IntLanes mask)
+{
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+}
 
 inline Lanes lanesOf(double value)
 {
     return Lanes{value, value, value, value};
 }
-inline Lanes maxOf(Lanes a, Lanes b)
+inline FloatLanes floatLanesOf(double value)
+{
+    const auto v = static_cast<float>(value);
+    return FloatLanes{v, v, v, v, v, v, v, v};
+}
+template <class L>
+L maxOf(L a, L b)
 {
     return a > b ? a : b;
+}
+template <class L>
+L minOf(L a, L b)
+{
+    return a < b ? a : b;
 }
 inline Lanes absOf(Lanes a)
 {
@@ -39,6 +62,10 @@ inline Lanes absOf(Lanes a)
 inline Lanes sqrtOf(Lanes a)
 {
     return _mm256_sqrt_pd(a);
+}
+inline FloatLanes sqrtOf(FloatLanes a)
+{
+    return _mm256_sqrt_ps(a);
 }
 inline double sumOf(Lanes a)
 {
@@ -49,33 +76,41 @@ inline double largestOf(Lanes a)
     const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
     return low > high ? low : high;
 }
+/// values[index], lane by lane.
+inline FloatLanes gathered(const float* values, IntLanes index)
+{
+    return _mm256_i32gather_ps(values, reinterpret_cast<__m256i>(index), 4);
+}
 
-/// Four vectors.
-struct Lanes3 {
-    Lanes x = kNoLanes, y = kNoLanes, z = kNoLanes;
+/// Vectors side by side.
+template <class L>
+struct VectorLanes {
+    using Number = std::remove_reference_t<decltype(std::declval<L&>()[0])>;
+
+    L x = {}, y = {}, z = {};
 
     void set(int lane, const Vec3& v)
     {
-        x[lane] = v.x();
-        y[lane] = v.y();
-        z[lane] = v.z();
+        x[lane] = static_cast<Number>(v.x());
+        y[lane] = static_cast<Number>(v.y());
+        z[lane] = static_cast<Number>(v.z());
     }
-    static Lanes3 all(const Vec3& v) { return {lanesOf(v.x()), lanesOf(v.y()), lanesOf(v.z())}; }
-    static Lanes3 of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+    static VectorLanes all(const Vec3& v)
     {
-        return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()},
-                Lanes{a.z(), b.z(), c.z(), d.z()}};
+        const L none = {};
+        return {none + static_cast<Number>(v.x()), none + static_cast<Number>(v.y()),
+                none + static_cast<Number>(v.z())};
     }
     Vec3 get(int lane) const { return {x[lane], y[lane], z[lane]}; }
 
-    Lanes3& operator+=(const Lanes3& o)
+    VectorLanes& operator+=(const VectorLanes& o)
     {
         x += o.x;
         y += o.y;
         z += o.z;
         return *this;
     }
-    Lanes3& operator-=(const Lanes3& o)
+    VectorLanes& operator-=(const VectorLanes& o)
     {
         x -= o.x;
         y -= o.y;
@@ -84,23 +119,37 @@ struct Lanes3 {
     }
 };
 
-inline Lanes3 operator+(const Lanes3& a, const Lanes3& b)
+using Lanes3 = VectorLanes<Lanes>;
+using FloatLanes3 = VectorLanes<FloatLanes>;
+
+inline Lanes3 lanesOf(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+    return {Lanes{a.x(), b.x(), c.x(), d.x()}, Lanes{a.y(), b.y(), c.y(), d.y()},
+            Lanes{a.z(), b.z(), c.z(), d.z()}};
+}
+
+template <class L>
+VectorLanes<L> operator+(const VectorLanes<L>& a, const VectorLanes<L>& b)
 {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-inline Lanes3 operator-(const Lanes3& a, const Lanes3& b)
+template <class L>
+VectorLanes<L> operator-(const VectorLanes<L>& a, const VectorLanes<L>& b)
 {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-inline Lanes3 operator*(Lanes s, const Lanes3& a)
+template <class L>
+VectorLanes<L> operator*(L s, const VectorLanes<L>& a)
 {
     return {s * a.x, s * a.y, s * a.z};
 }
-inline Lanes dot(const Lanes3& a, const Lanes3& b)
+template <class L>
+L dot(const VectorLanes<L>& a, const VectorLanes<L>& b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-inline Lanes3 cross(const Lanes3& a, const Lanes3& b)
+template <class L>
+VectorLanes<L> cross(const VectorLanes<L>& a, const VectorLanes<L>& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
