@@ -10,34 +10,60 @@ namespace {
 /// rounding: this share of the lengths, and of one.
 constexpr double kRounding = 1e-6;
 
-template <class L>
-L clamped(L x, L most)
+Lanes clamped(Lanes x, Lanes most)
 {
-    return minOf(maxOf(x, L{}), most);
+    return minOf(maxOf(x, kNoLanes), most);
 }
 
-/// Whether edges come as near to a point as `far`.
-IntLanes passesWithin(const FacingLanes& edge, const FloatLanes3& point, FloatLanes far)
+/// How far out of the way to its middle an edge is from a point, squared.
+FloatLanes squaredDistance(const FacingLanes& edge, const FloatLanes3& fromMiddle)
 {
-    const FloatLanes3 to = point - edge.start;
-    const FloatLanes3 away = to - clamped(dot(to, edge.direction), edge.length) * edge.direction;
-    return dot(away, away) <= far * far;
+    const FloatLanes along = dot(fromMiddle, edge.direction);
+    const FloatLanes t = minOf(maxOf(along, -edge.half), edge.half);
+    const FloatLanes3 away = fromMiddle - t * edge.direction;
+    return dot(away, away);
+}
+
+FloatLanes3 allOf(const FloatLanes3& v, int lane)
+{
+    return {FloatLanes{} + v.x[lane], FloatLanes{} + v.y[lane], FloatLanes{} + v.z[lane]};
 }
 
 }  // namespace
+
+FacingLanes FacingLanes::all(int lane) const
+{
+    return {allOf(middle, lane),
+            allOf(direction, lane),
+            allOf(outward, lane),
+            {allOf(intoFace[0], lane), allOf(intoFace[1], lane)},
+            FloatLanes{} + half[lane]};
+}
+
+FacingLanes FacingLanes::placed(const Mat3& rotation, const Vec3& translation) const
+{
+    const RotationLanes turned(rotation);
+    return {turned * middle + FloatLanes3::all(translation),
+            turned * direction,
+            turned * outward,
+            {turned * intoFace[0], turned * intoFace[1]},
+            half};
+}
 
 unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double farthest,
                  double turn)
 {
     const FacingLanes &a = ofFirst, &b = ofSecond;
-    const FloatLanes halfA = 0.5f * a.length, halfB = 0.5f * b.length;
-    const FloatLanes3 middleA = a.start + halfA * a.direction;
-    const FloatLanes3 middleB = b.start + halfB * b.direction;
-    const IntLanes isNear = passesWithin(a, middleB, halfB + floatLanesOf(farthest)) &
-                            passesWithin(b, middleA, halfA + floatLanesOf(farthest));
+    const FloatLanes3 between = b.middle - a.middle;
+    const FloatLanes far = floatLanesOf(farthest);
+    const FloatLanes farA = a.half + far, farB = b.half + far, farAll = farA + b.half;
+    if (!bitsOf(dot(between, between) <= farAll * farAll)) return 0;
+    const IntLanes isNear = (squaredDistance(a, between) <= farB * farB) &
+                            (squaredDistance(b, FloatLanes3{} - between) <= farA * farA);
     if (!bitsOf(isNear)) return 0;
     const FloatLanes3 normal = cross(a.direction, b.direction);  // not unit; turns by `turn`
-    const FloatLanes slack = static_cast<float>(kSupportSlack) * sqrtOf(dot(normal, normal));
+    const FloatLanes slack =
+        static_cast<float>(kSupportSlack) * sqrtOf(dot(normal, normal));
     const FloatLanes ofB0 = dot(b.intoFace[0], normal), ofB1 = dot(b.intoFace[1], normal);
     const FloatLanes ofA0 = dot(a.intoFace[0], normal), ofA1 = dot(a.intoFace[1], normal);
     const FloatLanes out = dot(b.outward, normal), mayTurn = floatLanesOf(turn);

@@ -23,26 +23,22 @@ struct EdgeLanes {
 
 /// Eight edges in one frame, with what tells from where they can be touched.
 struct FacingLanes {
-    FloatLanes3 start, direction, outward;
+    FloatLanes3 middle, direction, outward;
     FloatLanes3 intoFace[2];
-    FloatLanes length;
+    FloatLanes half;  ///< of their lengths [m]
 
-    static FacingLanes all(const ConvexEdge& edge)
-    {
-        return {FloatLanes3::all(edge.start),
-                FloatLanes3::all(edge.direction),
-                FloatLanes3::all(edge.outward),
-                {FloatLanes3::all(edge.intoFace[0]), FloatLanes3::all(edge.intoFace[1])},
-                floatLanesOf(edge.length)};
-    }
     void set(int lane, const ConvexEdge& edge)
     {
-        start.set(lane, edge.start);
+        middle.set(lane, edge.start + 0.5 * edge.length * edge.direction);
         direction.set(lane, edge.direction);
         outward.set(lane, edge.outward);
         for (int k : {0, 1}) intoFace[k].set(lane, edge.intoFace[k]);
-        length[lane] = static_cast<float>(edge.length);
+        half[lane] = static_cast<float>(0.5 * edge.length);
     }
+    /// One of them in all lanes.
+    FacingLanes all(int lane) const;
+    /// In the frame of another body.
+    FacingLanes placed(const Mat3& rotation, const Vec3& translation) const;
 };
 
 /// Which of eight pairs of edges, in one frame, can come to touch while nothing moves by more than

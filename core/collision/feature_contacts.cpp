@@ -110,9 +110,8 @@ double smallerRadius(const Shape& a, const Shape& b)
     return smaller;
 }
 
-std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t corner,
-                                         double reach, double sharpness,
-                                         std::optional<FeatureContact>& unsupported)
+FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double reach,
+                       double sharpness)
 {
     const SignedDistance& field = pair.second.distance;
     const ContactFeatures& features = pair.first.features;
@@ -120,32 +119,43 @@ std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t 
     const auto supports = [&](const Vec3& n) {
         return features.cornerSupports(corner, pair.rotation.transpose() * n);
     };
-    const auto refuse = [&](const Vec3& normal, double gap) {
-        if (gap < 0.0) unsupported = FeatureContact{p, normal, gap};
-        return std::nullopt;
+    const auto apart = [](double distance) { return FacedCorner{{}, {}, distance}; };
+    const auto touch = [&](const Vec3& normal, double gap) {
+        return FacedCorner{FeatureContact{p, normal, gap}, {}, 0.0};
     };
-    if (pair.second.isPlane) {
-        if (p.y() >= reach) return {};
-        return FeatureContact{p, Vec3::UnitY(), p.y()};
-    }
+    const auto refuse = [&](const Vec3& normal, double gap) {
+        if (gap >= 0.0) return apart(gap);
+        return FacedCorner{{}, FeatureContact{p, normal, gap}, 0.0};
+    };
+    if (pair.second.isPlane) return p.y() < reach ? touch(Vec3::UnitY(), p.y()) : apart(p.y());
     const double grid = field.gridValue(p);
-    if (field.solid() || std::abs(grid) >= field.refinementBand()) {
-        if (grid >= reach) return {};
-        const FeatureContact far{p, field.gridGradient(p).normalized(), grid};
-        if (!far.normal.allFinite()) return {};
-        if (supports(far.normal)) return far;
-        if (!field.solid() || grid >= sharpness) return refuse(far.normal, far.gap);
+    SignedDistance::Nearest nearest;
+    if (field.solid() || grid <= -field.refinementBand()) {
+        if (grid >= reach) return apart(grid);
+        const Vec3 gradient = field.gridGradient(p), normal = gradient.normalized();
+        if (!normal.allFinite()) return apart(0.0);
+        if (supports(normal)) return touch(normal, grid);
+        if (!field.solid() || grid >= sharpness) return refuse(normal, grid);
+        nearest = {grid, p, true, gradient};
+    } else if (grid >= field.refinementBand()) {
+        if (grid >= reach) return apart(field.lowerBound(p));
+        // Of a grid value nobody knows whether it is above or below the true distance.
+        const auto seen = field.nearestFromAfar(p);
+        const double gap = seen ? seen->value : field.upperBound(p);
+        const Vec3 normal =
+            seen ? Vec3((p - seen->point) / gap) : field.gridGradient(p).normalized();
+        if (gap < reach && normal.allFinite() && supports(normal)) return touch(normal, gap);
+        return apart(field.lowerBound(p));
+    } else {
+        nearest = field.nearest(p);
+        if (nearest.value >= reach) return apart(nearest.value);
     }
-    const SignedDistance::Nearest nearest =
-        field.solid() ? SignedDistance::Nearest{grid, p, true, field.gridGradient(p)}
-                      : field.nearest(p);
-    if (nearest.value >= reach) return {};
     const bool isAtEdge = !nearest.onFace && nearest.value < sharpness;
     if (!isAtEdge) {
         const Vec3 direct =
             nearest.onFace ? nearest.normal : Vec3((p - nearest.point) / nearest.value);
-        if (supports(direct)) return FeatureContact{p, direct, nearest.value};
-        if (nearest.value >= sharpness) return {};  // it passes beside: edges meet there, if any
+        if (supports(direct)) return touch(direct, nearest.value);
+        if (nearest.value >= sharpness) return apart(nearest.value);  // edges meet there, if any
     }
 
     // Corners of aligned blocks lie within rounding of several faces, of which only one can be
@@ -167,7 +177,7 @@ std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t 
         if (supports(face.normal)) best = FeatureContact{p, face.normal, face.height};
     }
     if (!best) return refuse(nearest.normal, nearest.value);
-    return best;
+    return FacedCorner{best, {}, 0.0};
 }
 
 std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,

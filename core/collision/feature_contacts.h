@@ -49,12 +49,19 @@ struct FeatureContact {
 /// Bounding radius of the smaller shape [m]; planes have none.
 double smallerRadius(const Shape& a, const Shape& b);
 
-/// A corner of the first shape and the surface of the second, when nearer than `reach`. A corner
-/// whose surroundings would have to pass through the surface first is no contact; if it lies inside
-/// all the same, `unsupported` is filled.
-std::optional<FeatureContact> faceCorner(const RelativePair& pair, std::int32_t corner,
-                                         double reach, double sharpness,
-                                         std::optional<FeatureContact>& unsupported);
+/// What a corner and a surface are to each other.
+struct FacedCorner {
+    std::optional<FeatureContact> contact;
+    /// If not, as though it were one: the corner lies inside, but what surrounds it would have had
+    /// to pass through the surface first.
+    std::optional<FeatureContact> unsupported;
+    double apart = 0.0;  ///< if neither, their distance at least [m]
+};
+
+/// A corner of the first shape and the surface of the second, which are in contact when nearer than
+/// `reach`: only when they are, so that a corner known to be farther away need not be asked about.
+FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double reach,
+                       double sharpness);
 
 /// An edge of either, when their gap is below `reach`.
 std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,

@@ -67,17 +67,6 @@ double apartAtLeast(const RelativePair& pair, const RelativePair& back)
     return atLeast;
 }
 
-/// An edge of the first shape in the frame of the second, all but its face normals.
-ConvexEdge placed(const RelativePair& pair, const ConvexEdge& edge)
-{
-    ConvexEdge moved = edge;
-    moved.start = pair * edge.start;
-    moved.direction = pair.rotation * edge.direction;
-    moved.outward = pair.rotation * edge.outward;
-    for (Vec3& intoFace : moved.intoFace) intoFace = pair.rotation * intoFace;
-    return moved;
-}
-
 /// Edges of the first shape that may come within `clearance` of the second, in the order of their
 /// tree, where what is near each other is next to each other.
 void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::int32_t>& near)
@@ -86,7 +75,15 @@ void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::
     const DistanceLanes field = fieldOfSecond(pair);
     pair.first.features.edgeTree().visit(
         [&](const SphereLanes& spheres) { return field.mayBeWithin(clearance, spheres); },
-        [&](std::uint32_t e) { near.push_back(static_cast<std::int32_t>(e)); });
+        [&](std::uint32_t e, int) { near.push_back(static_cast<std::int32_t>(e)); });
+}
+
+void inEights(const std::vector<ConvexEdge>& edges, const std::vector<std::int32_t>& chosen,
+              std::vector<FacingLanes>& eights)
+{
+    eights.resize((chosen.size() + kFloatLanes - 1) / kFloatLanes);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        eights[i / kFloatLanes].set(static_cast<int>(i % kFloatLanes), edges[chosen[i]]);
 }
 
 /// Of the points of the first body that turn in the frame of the second [m]. Seen from there
@@ -143,13 +140,14 @@ void NearFeatures::lookAtCorners(const RelativePair& pair, double clearance,
 {
     const ContactFeatures& features = pair.first.features;
     const DistanceLanes field = fieldOfSecond(pair);
+    FloatLanes atLeast;
     features.cornerTree().visit(
-        [&](const SphereLanes& spheres) { return field.mayBeWithin(clearance, spheres); },
-        [&](std::uint32_t i) {
-            const std::int32_t corner = features.corners()[i];
-            const double atLeast =
-                pair.second.distance.lowerBound(pair * features.points().col(corner));
-            if (atLeast < clearance) near.push_back({way_ + atLeast, corner});
+        [&](const SphereLanes& spheres) {
+            atLeast = field.apartAtLeast(spheres);
+            return bitsOf(atLeast < floatLanesOf(clearance));
+        },
+        [&](std::uint32_t i, int lane) {
+            near.push_back({way_ + atLeast[lane], features.corners()[i]});
         });
 }
 
@@ -158,26 +156,26 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     const ContactFeatures &first = pair.first.features, &second = pair.second.features;
     if (first.edges().empty() || second.edges().empty()) return;
     thread_local std::vector<std::int32_t> nearA, nearB;
-    thread_local std::vector<FacingLanes> eightsOfB;
+    thread_local std::vector<FacingLanes> eightsOfA, eightsOfB;
     findEdgesNear(pair, clearance_, nearA);
     if (nearA.empty()) return;
     findEdgesNear(back, clearance_, nearB);
-    eightsOfB.resize((nearB.size() + kFloatLanes - 1) / kFloatLanes);
-    for (std::size_t i = 0; i < nearB.size(); ++i)
-        eightsOfB[i / kFloatLanes].set(static_cast<int>(i % kFloatLanes), second.edges()[nearB[i]]);
+    inEights(first.edges(), nearA, eightsOfA);
+    inEights(second.edges(), nearB, eightsOfB);
 
     const double rounding = kSingle * (pair.first.boundingRadius + pair.translation.norm());
     const double farthest = std::max(reach, deepestEdges(pair)) + window_ + rounding;
     const double turn = window_ / leverOf(pair) + kSingle;
-    for (const std::int32_t a : nearA) {
-        const FacingLanes edge = FacingLanes::all(placed(pair, first.edges()[a]));
+    for (FacingLanes& eight : eightsOfA) eight = eight.placed(pair.rotation, pair.translation);
+    for (std::size_t a = 0; a < nearA.size(); ++a) {
+        const FacingLanes edge = eightsOfA[a / kFloatLanes].all(static_cast<int>(a % kFloatLanes));
         for (std::size_t eight = 0; eight < eightsOfB.size(); ++eight) {
             unsigned bits = mayFace(edge, eightsOfB[eight], farthest, turn);
             for (; bits; bits &= bits - 1) {
                 const std::size_t b =
                     kFloatLanes * eight + static_cast<std::size_t>(std::countr_zero(bits));
                 if (b >= nearB.size()) break;
-                edges_.push_back({way_, way_, a, nearB[b]});
+                edges_.push_back({way_, way_, nearA[a], nearB[b]});
             }
         }
     }
@@ -290,16 +288,13 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         for (NearCorner& candidate : near) {
             if (candidate.farUntil - way_ < reach) {
                 const std::uint64_t feature = featureId(kind, candidate.corner);
-                std::optional<FeatureContact> unsupported;
-                if (const auto contact =
-                        faceCorner(way, candidate.corner, reach, sharpness, unsupported)) {
+                const FacedCorner faced = faceCorner(way, candidate.corner, reach, sharpness);
+                candidate.farUntil = way_ + faced.apart;
+                if (faced.contact) {
                     list.add(way, {Part::corner, candidate.corner}, {Part::face}, toWorld, feature,
-                             *contact);
-                } else if (unsupported) {
-                    list.addUnsupported(toWorld(feature, *unsupported));
-                } else {
-                    const Vec3 p = way * way.first.features.points().col(candidate.corner);
-                    candidate.farUntil = way_ + way.second.distance.lowerBound(p);
+                             *faced.contact);
+                } else if (faced.unsupported) {
+                    list.addUnsupported(toWorld(feature, *faced.unsupported));
                 }
             }
             farUntil = std::min(farUntil, candidate.farUntil);

@@ -29,16 +29,15 @@ IntLanes gatheredInts(const std::uint32_t* values, IntLanes index)
         reinterpret_cast<const int*>(values), reinterpret_cast<__m256i>(index), 4));
 }
 
-struct AxisLanes {
-    IntLanes cell;
-    FloatLanes fraction;
-};
-
-AxisLanes placeAlong(FloatLanes x, int count)
+/// x ≥ 0, rounded.
+IntLanes nearestInt(FloatLanes x)
 {
-    IntLanes cell = __builtin_convertvector(x, IntLanes);
-    cell = minOf(maxOf(cell, intLanesOf(0)), intLanesOf(count - 2));
-    return {cell, x - __builtin_convertvector(cell, FloatLanes)};
+    return __builtin_convertvector(x + 0.5f, IntLanes);
+}
+
+FloatLanes floatsOf(IntLanes x)
+{
+    return __builtin_convertvector(x, FloatLanes);
 }
 
 }  // namespace
@@ -46,8 +45,7 @@ AxisLanes placeAlong(FloatLanes x, int count)
 DistanceLanes::DistanceLanes(const SignedDistance& field, const Mat3& rotation,
                              const Vec3& translation, double extent)
     : field_(field),
-      rows_{FloatLanes3::all(rotation.row(0)), FloatLanes3::all(rotation.row(1)),
-            FloatLanes3::all(rotation.row(2))},
+      rotation_(rotation),
       translation_(FloatLanes3::all(translation)),
       rounding_(floatLanesOf(kRounding * (translation.norm() + extent)))
 {
@@ -56,13 +54,8 @@ DistanceLanes::DistanceLanes(const SignedDistance& field, const Mat3& rotation,
     boxMax_ = FloatLanes3::all(field.surfaceBox().max);
     domainMin_ = FloatLanes3::all(field.domain().min);
     domainMax_ = FloatLanes3::all(field.domain().max);
+    spacing_ = floatLanesOf(field.spacing());
     inverseSpacing_ = floatLanesOf(1.0 / field.spacing());
-}
-
-FloatLanes3 DistanceLanes::placed(const FloatLanes3& p) const
-{
-    return {dot(rows_[0], p) + translation_.x, dot(rows_[1], p) + translation_.y,
-            dot(rows_[2], p) + translation_.z};
 }
 
 FloatLanes DistanceLanes::ofFormula(const FloatLanes3& p) const
@@ -73,56 +66,58 @@ FloatLanes DistanceLanes::ofFormula(const FloatLanes3& p) const
     return value;
 }
 
+/// Nodes are exact and nothing is nearer to a point than the nearest node says less the way to it.
 FloatLanes DistanceLanes::ofNodes(const FloatLanes3& p) const
 {
     const DistanceNodes& nodes = field_.field().nodes;
-    const auto& count = nodes.layout.count;
-    const AxisLanes x = placeAlong((p.x - domainMin_.x) * inverseSpacing_, count[0]);
-    const AxisLanes y = placeAlong((p.y - domainMin_.y) * inverseSpacing_, count[1]);
-    const AxisLanes z = placeAlong((p.z - domainMin_.z) * inverseSpacing_, count[2]);
-    static_assert(kBlockCells == 8);
-    const IntLanes blockX = x.cell >> 3, blockY = y.cell >> 3, blockZ = z.cell >> 3;
-    const IntLanes block =
-        kStride * (blockX + nodes.blockCount[0] * (blockY + nodes.blockCount[1] * blockZ));
-    FloatLanes fx = x.fraction, fy = y.fraction, fz = z.fraction;
-    IntLanes dx = intLanesOf(1), dy, dz, corner;
-    if (nodes.storage == FieldStorage::dense) {
-        dy = intLanesOf(count[0]);
-        dz = intLanesOf(count[0] * count[1]);
-        corner = x.cell + dy * y.cell + dz * z.cell;
-    } else {
-        const IntLanes isCoarse =
-            gatheredInts(first(nodes, &FieldBlock::isCoarse), block) != intLanesOf(0);
-        dy = isCoarse ? intLanesOf(2) : intLanesOf(kBrickNodes);
-        dz = isCoarse ? intLanesOf(4) : intLanesOf(kBrickNodes * kBrickNodes);
-        const auto inBlock = [&](const AxisLanes& axis, IntLanes at, int nodesAlong,
-                                 FloatLanes& fraction) {
-            const IntLanes cell = axis.cell - 8 * at;
-            const IntLanes cells = minOf(intLanesOf(kBlockCells), nodesAlong - 1 - 8 * at);
-            const FloatLanes ofCoarse = (__builtin_convertvector(cell, FloatLanes) + fraction) /
-                                        __builtin_convertvector(cells, FloatLanes);
-            fraction = isCoarse ? ofCoarse : fraction;
-            return isCoarse ? intLanesOf(0) : cell;
-        };
-        corner = gatheredInts(first(nodes, &FieldBlock::first), block) +
-                 inBlock(x, blockX, count[0], fx) + dy * inBlock(y, blockY, count[1], fy) +
-                 dz * inBlock(z, blockZ, count[2], fz);
-    }
-    const float* values = nodes.values.data();
-    const auto alongX = [&](IntLanes at) {
-        const FloatLanes a = gathered(values, at), b = gathered(values, at + dx);
-        return a + fx * (b - a);
+    const FloatLanes3 at = inverseSpacing_ * (p - domainMin_);
+    const auto distanceAt = [&](IntLanes index, const FloatLanes3& node) {
+        const FloatLanes3 way = at - node;
+        return gathered(nodes.values.data(), index) - spacing_ * sqrtOf(dot(way, way));
     };
-    const FloatLanes y0 = alongX(corner), y1 = alongX(corner + dy);
-    const FloatLanes z0 = y0 + fy * (y1 - y0);
-    const FloatLanes y2 = alongX(corner + dz), y3 = alongX(corner + dz + dy);
-    const FloatLanes z1 = y2 + fy * (y3 - y2);
-    return z0 + fz * (z1 - z0) - gathered(first(nodes, &FieldBlock::slack), block);
+    const auto& count = nodes.layout.count;
+    if (nodes.storage == FieldStorage::dense) {
+        const IntLanes i = nearestInt(at.x), j = nearestInt(at.y), k = nearestInt(at.z);
+        return distanceAt(i + count[0] * (j + count[1] * k),
+                          {floatsOf(i), floatsOf(j), floatsOf(k)});
+    }
+
+    static_assert(kBlockCells == 8);
+    const auto blockAlong = [](FloatLanes x, int nodesAlong) {
+        const IntLanes cell = __builtin_convertvector(x, IntLanes);
+        return minOf(cell, intLanesOf(nodesAlong - 2)) >> 3;
+    };
+    const IntLanes bx = blockAlong(at.x, count[0]), by = blockAlong(at.y, count[1]),
+                   bz = blockAlong(at.z, count[2]);
+    const IntLanes block =
+        kStride * (bx + nodes.blockCount[0] * (by + nodes.blockCount[1] * bz));
+    const IntLanes isCoarse =
+        gatheredInts(first(nodes, &FieldBlock::isCoarse), block) != intLanesOf(0);
+    // Of a coarse block only the corners are kept: nodes 0 and 1 along each axis.
+    const auto nodeAlong = [&](FloatLanes x, IntLanes blockBegin, int nodesAlong, IntLanes& node) {
+        const IntLanes cells = minOf(intLanesOf(kBlockCells), nodesAlong - 1 - blockBegin);
+        const FloatLanes inBlock = x - floatsOf(blockBegin);
+        const IntLanes isFar = inBlock + inBlock > floatsOf(cells);
+        const IntLanes fine = nearestInt(inBlock);
+        node = isCoarse ? -isFar : fine;
+        return floatsOf(blockBegin + (isCoarse ? isFar & cells : fine));
+    };
+    IntLanes i, j, k;
+    const FloatLanes3 node = {nodeAlong(at.x, 8 * bx, count[0], i),
+                              nodeAlong(at.y, 8 * by, count[1], j),
+                              nodeAlong(at.z, 8 * bz, count[2], k)};
+    const IntLanes perRow = isCoarse ? intLanesOf(2) : intLanesOf(kBrickNodes);
+    const IntLanes index =
+        gatheredInts(first(nodes, &FieldBlock::first), block) + i + perRow * (j + perRow * k);
+    // Where a fine block shares nodes with a coarse one they are interpolated.
+    const FloatLanes tooMuch = gathered(first(nodes, &FieldBlock::slack), block) -
+                               static_cast<float>(kHalfDiagonal) * spacing_;
+    return distanceAt(index, node) - (isCoarse ? FloatLanes{} : tooMuch);
 }
 
 FloatLanes DistanceLanes::apartAtLeast(const SphereLanes& spheres) const
 {
-    const FloatLanes3 p = placed(spheres.centre);
+    const FloatLanes3 p = rotation_ * spheres.centre + translation_;
     if (field_.solid()) return ofFormula(p) - spheres.radius - rounding_;
     // Nothing in a convex box is nearer to a point than to the point of the box next to it.
     const auto clamped = [&p](const FloatLanes3& low, const FloatLanes3& high) {
@@ -130,8 +125,9 @@ FloatLanes DistanceLanes::apartAtLeast(const SphereLanes& spheres) const
                            minOf(maxOf(p.z, low.z), high.z)};
     };
     const FloatLanes3 toBox = p - clamped(boxMin_, boxMax_);
-    const FloatLanes apart =
-        maxOf(sqrtOf(dot(toBox, toBox)), ofNodes(clamped(domainMin_, domainMax_)));
+    const FloatLanes beside = sqrtOf(dot(toBox, toBox));
+    const FloatLanes byNodes = ofNodes(clamped(domainMin_, domainMax_));
+    const FloatLanes apart = beside > 0.0f ? maxOf(beside, byNodes) : byNodes;
     return apart - spheres.radius - rounding_;
 }
 

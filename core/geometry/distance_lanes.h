@@ -24,16 +24,16 @@ public:
     }
 
 private:
-    FloatLanes3 placed(const FloatLanes3& p) const;
     FloatLanes ofFormula(const FloatLanes3& p) const;
     FloatLanes ofNodes(const FloatLanes3& p) const;
 
     const SignedDistance& field_;
-    FloatLanes3 rows_[3], translation_;  // of the rotation
-    FloatLanes rounding_;                // what single precision may have lost [m]
-    FloatLanes3 boxMin_, boxMax_;        // of the surface
+    RotationLanes rotation_;
+    FloatLanes3 translation_;
+    FloatLanes rounding_;          // what single precision may have lost [m]
+    FloatLanes3 boxMin_, boxMax_;  // of the surface
     FloatLanes3 domainMin_, domainMax_;
-    FloatLanes inverseSpacing_;
+    FloatLanes spacing_, inverseSpacing_;  // of the nodes [m], [1/m]
 };
 
 }  // namespace scree

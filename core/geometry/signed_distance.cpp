@@ -13,6 +13,9 @@
 namespace scree {
 namespace {
 
+/// Gradients shorter than this are near the medial axis and lead nowhere.  [A5]
+constexpr double kNoSlope = 0.1;
+
 /// Angle-weighted corner normals and summed edge normals give the right sign everywhere off the
 /// surface (Bærentzen and Aanæs 2005).
 struct PseudoNormals {
@@ -130,10 +133,10 @@ bool SignedDistance::isClearOf(const Vec3& point, double radius) const
     return nodes.interpolate(place) - block.slack > radius;
 }
 
-SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point) const
+SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point, const Vec3& place) const
 {
     Closest best{nullptr, TriangleFeature::face, Vec3::Zero(), 1e300};
-    for (const std::uint32_t f : facesOfCell(point)) {
+    for (const std::uint32_t f : facesOfCell(place)) {
         const Face& face = faces_[f];
         // Nothing of a triangle is closer than its plane.
         const double height = face.normal[6].dot(point - face.corner[0]);
@@ -158,14 +161,37 @@ double SignedDistance::signedValue(const Closest& closest, const Vec3& point)
 
 double SignedDistance::exact(const Vec3& point) const
 {
-    return signedValue(closestInCell(point), point);
+    return signedValue(closestInCell(point, point), point);
 }
 
 SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
 {
-    const Closest closest = closestInCell(point);
+    const Closest closest = closestInCell(point, point);
     return {signedValue(closest, point), closest.point, closest.feature == TriangleFeature::face,
             closest.face->normal[6]};
+}
+
+std::optional<SignedDistance::Nearest> SignedDistance::nearestFromAfar(const Vec3& point) const
+{
+    constexpr int kSteps = 3;  // the second mends what the first misses by a bent slope
+    Vec3 place = clamped(point);
+    for (int i = 0; i < kSteps; ++i) {
+        const Vec3 slope = gridGradient(place);
+        if (slope.norm() < kNoSlope) return {};
+        place = clamped(place - gridValue(place) * slope.normalized());
+        if (std::abs(gridValue(place)) >= band_) continue;
+        const Closest closest = closestInCell(point, place);
+        return Nearest{std::sqrt(closest.squaredDistance), closest.point,
+                       closest.feature == TriangleFeature::face, closest.face->normal[6]};
+    }
+    return {};
+}
+
+double SignedDistance::upperBound(const Vec3& point) const
+{
+    const double phi = gridValue(point);
+    if (solid_) return phi;
+    return phi + field_.nodes.blockOf(field_.nodes.placeOf(clamped(point)).cell).slack;
 }
 
 SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
@@ -173,7 +199,7 @@ SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
     if (solid_) return {solid_->value(point), solid_->gradient(point)};
     const double grid = gridValue(point);
     if (std::abs(grid) >= band_) return {grid, gridGradient(point)};
-    const Closest closest = closestInCell(point);
+    const Closest closest = closestInCell(point, point);
     const double phi = signedValue(closest, point);
     const Vec3& normal = closest.face->normal[static_cast<int>(closest.feature)];
     const bool onSurface = std::abs(phi) < 1e-9 * spacing();

@@ -82,6 +82,14 @@ public:
     /// Only for points where |gridValue| < refinementBand().
     Nearest nearest(const Vec3& point) const;
 
+    /// For points outside that are farther away than that: a place of the surface that is the
+    /// closest, or hardly farther, sought where the slope of the field leads. None where it leads
+    /// nowhere, as halfway between two walls.
+    std::optional<Nearest> nearestFromAfar(const Vec3& point) const;
+
+    /// Never less than the true distance.
+    double upperBound(const Vec3& point) const;
+
     /// The exact signed distance, from the triangles of the cell; only for points where |gridValue|
     /// < refinementBand().
     double exact(const Vec3& point) const;
@@ -110,7 +118,8 @@ private:
         return point.cwiseMax(domain_.min).cwiseMin(domain_.max);
     }
     std::span<const std::uint32_t> facesOfCell(const Vec3& pointInDomain) const;
-    Closest closestInCell(const Vec3& point) const;
+    /// Of the faces that can be closest to some point of the cell that `place` is in.
+    Closest closestInCell(const Vec3& point, const Vec3& place) const;
     static double signedValue(const Closest& closest, const Vec3& point);
 
     std::optional<ExactSolid> solid_;

@@ -27,8 +27,8 @@ public:
     /// The same input gives the same tree everywhere.
     explicit SphereLaneTree(std::span<const Sphere> things);
 
-    /// near(spheres) tells by its bits which of eight matter; leaf(thing) hears of all things that
-    /// do, those near each other one after the other.
+    /// near(spheres) tells by its bits which of eight matter; leaf(thing, lane) hears of all things
+    /// that do, those near each other one after the other, right after near() heard of their spheres.
     template <class Near, class Leaf>
     void visit(const Near& near, const Leaf& leaf) const
     {
@@ -44,13 +44,13 @@ private:
     {
         const std::size_t count = level > 0 ? levels_[level - 1].size() : things_.size();
         for (unsigned bits = near(levels_[level][group]); bits; bits &= bits - 1) {
-            const std::size_t below =
-                kFloatLanes * group + static_cast<std::size_t>(std::countr_zero(bits));
+            const int lane = std::countr_zero(bits);
+            const std::size_t below = kFloatLanes * group + static_cast<std::size_t>(lane);
             if (below >= count) break;
             if (level > 0) {
                 visit(near, leaf, level - 1, below);
             } else {
-                leaf(things_[below]);
+                leaf(things_[below], lane);
             }
         }
     }

@@ -154,6 +154,23 @@ VectorLanes<L> cross(const VectorLanes<L>& a, const VectorLanes<L>& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// One rotation for all lanes.
+class RotationLanes {
+public:
+    explicit RotationLanes(const Mat3& rotation)
+        : rows_{FloatLanes3::all(rotation.row(0)), FloatLanes3::all(rotation.row(1)),
+                FloatLanes3::all(rotation.row(2))}
+    {
+    }
+    FloatLanes3 operator*(const FloatLanes3& v) const
+    {
+        return {dot(rows_[0], v), dot(rows_[1], v), dot(rows_[2], v)};
+    }
+
+private:
+    FloatLanes3 rows_[3];
+};
+
 /// Four symmetric matrices.
 struct SymmetricLanes {
     Lanes xx = kNoLanes, yy = kNoLanes, zz = kNoLanes, xy = kNoLanes, xz = kNoLanes, yz = kNoLanes;

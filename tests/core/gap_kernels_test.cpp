@@ -77,6 +77,38 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
     EXPECT_GT(skipped, 500u);
 }
 
+/// Far from a surface the field only knows about how far it is, now too much and now too little:
+/// what is told of it must not depend on whether it was near enough a while ago.
+TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
+{
+    ShapeSettings coarse;
+    coarse.resolution = 10;
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.4, {16, 10}), coarse);
+    std::size_t contacts = 0, skipped = 0;
+    for (std::uint64_t run = 0; run < 60; ++run) {
+        Pose a{2.0 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
+        const Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
+        const Vec3 step = 0.01 * signedUnits(run, 9);
+        NearFeatures remembering;
+        double odometer = 0.0;
+        const double reach = 0.3 + 0.3 * randomUnit(7, run, 12);
+        for (std::uint64_t i = 0; i < 100; ++i) {
+            a.position += step;
+            odometer += step.norm();
+            const PlacedPair placed{ring.get(), ring.get(), a, b};
+            std::vector<GapContact> remembered, fresh;
+            const bool isApart = remembering.isApart(reach, odometer);
+            if (!isApart) remembering.findContacts(placed, reach, remembered, odometer);
+            NearFeatures().findContacts(placed, reach, fresh);
+            ASSERT_TRUE(sameContacts(remembered, fresh)) << run << ' ' << i << ' ' << isApart;
+            contacts += fresh.size();
+            skipped += isApart;
+        }
+    }
+    EXPECT_GT(contacts, 1000u);
+    EXPECT_GT(skipped, 20u);
+}
+
 /// The nearest of the vertices of either body to the other [m].
 double nearestVertex(const PlacedPair& pair)
 {
