@@ -80,9 +80,11 @@ unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double
 /// they can have crossed. Nearest points of segments wander: when no point moves farther than δ,
 /// the line between those at distance d changes by up to δ + 2 √(δ(d + δ)). Until that is as much
 /// as it points out of the second, o, they are outside.
-EdgeGaps edgeGaps(const EdgeLanes& ofFirst, const EdgeLanes& ofSecond, double deepest, double reach)
+EdgeGaps edgeGaps(const SegmentLanes& ofFirst, const EdgeLanes& ofSecond, double deepest,
+                  double reach)
 {
-    const EdgeLanes &a = ofFirst, &b = ofSecond;
+    const SegmentLanes& a = ofFirst;
+    const EdgeLanes& b = ofSecond;
     const Lanes3 between = a.start - b.start;
     const Lanes cosine = dot(a.direction, b.direction);
     const Lanes alongA = dot(a.direction, between), alongB = dot(b.direction, between);

@@ -2,22 +2,36 @@
 // touches is left to faceEdges; here it is told from the many that do not.  [A7, A8]
 #pragma once
 
+#include <array>
+
 #include "core/geometry/contact_features.h"
 #include "core/math/lanes.h"
 
 namespace scree {
 
-/// Four edges, in the frame of the second shape.
-struct EdgeLanes {
-    Lanes3 start, direction, outward;
-    Lanes length = kNoLanes;  ///< [m]
+/// Four segments in the frame of the second shape.
+struct SegmentLanes {
+    Lanes3 start, direction;
+    Lanes length;  ///< [m]
 
-    void set(int lane, const ConvexEdge& edge)
+    template <class Segment>
+    explicit SegmentLanes(const std::array<const Segment*, kLanes>& s)
+        : start(lanesOf(s[0]->start, s[1]->start, s[2]->start, s[3]->start)),
+          direction(
+              lanesOf(s[0]->direction, s[1]->direction, s[2]->direction, s[3]->direction)),
+          length{s[0]->length, s[1]->length, s[2]->length, s[3]->length}
     {
-        start.set(lane, edge.start);
-        direction.set(lane, edge.direction);
-        outward.set(lane, edge.outward);
-        length[lane] = edge.length;
+    }
+};
+
+/// Four edges of the second shape.
+struct EdgeLanes : SegmentLanes {
+    Lanes3 outward;
+
+    explicit EdgeLanes(const std::array<const ConvexEdge*, kLanes>& e)
+        : SegmentLanes(e),
+          outward(lanesOf(e[0]->outward, e[1]->outward, e[2]->outward, e[3]->outward))
+    {
     }
 };
 
@@ -56,7 +70,7 @@ struct EdgeGaps {
 };
 
 /// Edges deeper in each other than `deepest` do not touch.
-EdgeGaps edgeGaps(const EdgeLanes& ofFirst, const EdgeLanes& ofSecond, double deepest,
+EdgeGaps edgeGaps(const SegmentLanes& ofFirst, const EdgeLanes& ofSecond, double deepest,
                   double reach);
 
 }  // namespace scree

@@ -206,19 +206,31 @@ void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back,
 void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
                               ContactList& list)
 {
+    if (edges_.empty()) return;
     const double deepest = deepestEdges(pair);
     const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
     const std::vector<ConvexEdge>& first = pair.first.features.edges();
     const std::vector<ConvexEdge>& second = pair.second.features.edges();
-    EdgeLanes ofFirst, ofSecond;
-    NearEdges* four[kLanes];
-    int filled = 0;
-    std::int32_t placed = -1;  // edges of the first come several times running
-    Vec3 start = Vec3::Zero(), direction = Vec3::Zero();
+    struct Placed {
+        std::int32_t edge = -1;
+        Vec3 start, direction;
+        double length;
+    };
+    std::array<Placed, kLanes> placed;  // edges of the first come several times running
+    std::size_t last = 0;
+    std::array<const Placed*, kLanes> ofFirst;
+    std::array<const ConvexEdge*, kLanes> ofSecond;
+    std::array<NearEdges*, kLanes> four;
+    std::size_t filled = 0;
     const auto flush = [&] {
-        const EdgeGaps gaps = edgeGaps(ofFirst, ofSecond, deepest, reach);
+        for (std::size_t idle = filled; idle < kLanes; ++idle) {
+            ofFirst[idle] = ofFirst[0];
+            ofSecond[idle] = ofSecond[0];
+        }
+        const EdgeGaps gaps =
+            edgeGaps(SegmentLanes(ofFirst), EdgeLanes(ofSecond), deepest, reach);
         const unsigned mayTouch = bitsOf(gaps.mayTouch);
-        for (int lane = 0; lane < filled; ++lane) {
+        for (std::size_t lane = 0; lane < filled; ++lane) {
             NearEdges& edges = *four[lane];
             edges.farUntil = way_ + gaps.distance[lane];
             edges.outsideUntil = way_ + gaps.outside[lane];
@@ -232,15 +244,14 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
     };
     for (NearEdges& edges : edges_) {
         if (edges.farUntil - way_ >= reach && edges.outsideUntil > way_) continue;
-        if (edges.ofA != placed) {
-            placed = edges.ofA;
-            start = pair * first[placed].start;
-            direction = pair.rotation * first[placed].direction;
+        if (edges.ofA != placed[last].edge) {
+            last = (last + 1) % kLanes;
+            const ConvexEdge& edge = first[edges.ofA];
+            placed[last] = {edges.ofA, pair * edge.start, pair.rotation * edge.direction,
+                            edge.length};
         }
-        ofFirst.start.set(filled, start);
-        ofFirst.direction.set(filled, direction);
-        ofFirst.length[filled] = first[placed].length;
-        ofSecond.set(filled, second[edges.ofB]);
+        ofFirst[filled] = &placed[last];
+        ofSecond[filled] = &second[edges.ofB];
         four[filled++] = &edges;
         if (filled == kLanes) flush();
     }
@@ -309,10 +320,12 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
             return edges.farUntil - end >= reach && edges.outsideUntil > end;
         });
     }
+    double outsideUntil = std::numeric_limits<double>::infinity();
     for (const NearEdges& candidate : edges_) {
-        const double outside = (candidate.outsideUntil - way_) * countedOfWay(pair);
-        farUntil = std::min({farUntil, candidate.farUntil, way_ + outside});
+        farUntil = std::min(farUntil, candidate.farUntil);
+        outsideUntil = std::min(outsideUntil, candidate.outsideUntil);
     }
+    farUntil = std::min(farUntil, way_ + (outsideUntil - way_) * countedOfWay(pair));
     list.finish();
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? worldFromA : worldFromB, smaller);

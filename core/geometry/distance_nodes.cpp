@@ -20,6 +20,18 @@ double DistanceNodes::interpolateInBrick(const Place& place) const
     return betweenCorners(first, 1, 2, 4, fraction);
 }
 
+Vec3 DistanceNodes::slopeInCell(const Place& place) const
+{
+    Vec3 slope;
+    for (int axis = 0; axis < 3; ++axis) {
+        Place low = place, high = place;
+        low.fraction[axis] = 0.0;
+        high.fraction[axis] = 1.0;
+        slope[axis] = (interpolate(high) - interpolate(low)) / layout.spacing;
+    }
+    return slope;
+}
+
 double DistanceNodes::interpolateCoarse(std::size_t block, const std::array<int, 3>& node) const
 {
     const std::array<int, 3> at = blockAt(block), cells = cellsOfBlock(layout, at);

@@ -152,6 +152,9 @@ struct DistanceNodes {
         return betweenCorners(values.data() + i + nx * j + nxy * k, 1, nx, nxy, place.fraction);
     }
 
+    /// How the trilinear value changes from one side of the cell to the other along each axis.
+    Vec3 slopeInCell(const Place& place) const;
+
     /// What a coarse block says at a node that belongs to it [m].
     double interpolateCoarse(std::size_t block, const std::array<int, 3>& node) const;
 

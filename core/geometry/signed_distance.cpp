@@ -174,12 +174,15 @@ SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
 std::optional<SignedDistance::Nearest> SignedDistance::nearestFromAfar(const Vec3& point) const
 {
     constexpr int kSteps = 3;  // the second mends what the first misses by a bent slope
+    const DistanceNodes& nodes = field_.nodes;
     Vec3 place = clamped(point);
+    double phi = nodes.interpolate(nodes.placeOf(place));
     for (int i = 0; i < kSteps; ++i) {
-        const Vec3 slope = gridGradient(place);
+        const Vec3 slope = nodes.slopeInCell(nodes.placeOf(place));
         if (slope.norm() < kNoSlope) return {};
-        place = clamped(place - gridValue(place) * slope.normalized());
-        if (std::abs(gridValue(place)) >= band_) continue;
+        place = clamped(place - phi * slope.normalized());
+        phi = nodes.interpolate(nodes.placeOf(place));
+        if (std::abs(phi) >= band_) continue;
         const Closest closest = closestInCell(point, place);
         return Nearest{std::sqrt(closest.squaredDistance), closest.point,
                        closest.feature == TriangleFeature::face, closest.face->normal[6]};

@@ -335,12 +335,15 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
             ConvexEdge placed = ring->features.edges()[i];
             placed.start = pair * placed.start;
             placed.direction = pair.rotation * placed.direction;
-            EdgeLanes first, second;
-            for (int lane = 0; lane < kLanes; ++lane) first.set(lane, placed);
             const std::vector<ConvexEdge>& edges = other.features.edges();
             for (std::int32_t j = 0; j < std::ssize(edges); ++j) {
                 const int lane = j % kLanes;
-                second.set(lane, edges[j]);
+                std::array<const ConvexEdge*, kLanes> four = {&edges[0], &edges[0], &edges[0],
+                                                              &edges[0]};
+                four[static_cast<std::size_t>(lane)] = &edges[j];
+                const SegmentLanes first(
+                    std::array<const ConvexEdge*, kLanes>{&placed, &placed, &placed, &placed});
+                const EdgeLanes second(four);
                 const EdgeGaps gaps = edgeGaps(first, second, deepest, reach);
                 const bool mayTouch = bitsOf(gaps.mayTouch) >> lane & 1u;
                 const bool touches = faceEdges(pair, i, j, reach, 1e-3).has_value();
