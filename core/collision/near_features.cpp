@@ -18,7 +18,7 @@ namespace {
 
 /// How much farther than asked a look reaches, so that it need not be repeated at once. Only time
 /// depends on it.
-constexpr double kLookAhead = 1.0;        // times the reach
+constexpr double kLookAhead = 0.6;        // times the reach
 constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
 
 /// What arithmetic in single precision may lose, as a share of the numbers.
