@@ -20,7 +20,7 @@ FloatLanes squaredDistance(const FacingLanes& edge, const FloatLanes3& fromMiddl
 {
     const FloatLanes along = dot(fromMiddle, edge.direction);
     const FloatLanes t = minOf(maxOf(along, -edge.half), edge.half);
-    const FloatLanes3 away = fromMiddle - t * edge.direction;
+    const FloatLanes3 away = fnma(t, edge.direction, fromMiddle);
     return dot(away, away);
 }
 
@@ -62,8 +62,7 @@ unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double
                             (squaredDistance(b, FloatLanes3{} - between) <= farA * farA);
     if (!bitsOf(isNear)) return 0;
     const FloatLanes3 normal = cross(a.direction, b.direction);  // not unit; turns by `turn`
-    const FloatLanes slack =
-        static_cast<float>(kSupportSlack) * sqrtOf(dot(normal, normal));
+    const FloatLanes slack = static_cast<float>(kSupportSlack) * sqrtOf(dot(normal, normal));
     const FloatLanes ofB0 = dot(b.intoFace[0], normal), ofB1 = dot(b.intoFace[1], normal);
     const FloatLanes ofA0 = dot(a.intoFace[0], normal), ofA1 = dot(a.intoFace[1], normal);
     const FloatLanes out = dot(b.outward, normal), mayTurn = floatLanesOf(turn);
@@ -96,7 +95,7 @@ EdgeGaps edgeGaps(const SegmentLanes& ofFirst, const EdgeLanes& ofSecond, double
     const Lanes firstS = isParallel ? kNoLanes : clamped(lineS, a.length);
     const Lanes t = clamped(alongB + firstS * cosine, b.length);
     const Lanes s = clamped(t * cosine - alongA, a.length);
-    const Lanes3 nearest = between + s * a.direction - t * b.direction;
+    const Lanes3 nearest = fnma(t, b.direction, fma(s, a.direction, between));
     EdgeGaps gaps;
     gaps.distance = sqrtOf(dot(nearest, nearest)) - (isParallel ? kParallel * a.length : kNoLanes);
     const Lanes d = gaps.distance, o = dot(nearest, b.outward);

@@ -17,8 +17,7 @@ struct SegmentLanes {
     template <class Segment>
     explicit SegmentLanes(const std::array<const Segment*, kLanes>& s)
         : start(lanesOf(s[0]->start, s[1]->start, s[2]->start, s[3]->start)),
-          direction(
-              lanesOf(s[0]->direction, s[1]->direction, s[2]->direction, s[3]->direction)),
+          direction(lanesOf(s[0]->direction, s[1]->direction, s[2]->direction, s[3]->direction)),
           length{s[0]->length, s[1]->length, s[2]->length, s[3]->length}
     {
     }

@@ -43,8 +43,7 @@ double bulgeOf(const RelativePair& pair)
 double apartAtLeast(const DistanceLanes& field, const std::vector<SphereLanes>& cover)
 {
     FloatLanes atLeast = floatLanesOf(std::numeric_limits<float>::infinity());
-    for (const SphereLanes& spheres : cover)
-        atLeast = minOf(atLeast, field.apartAtLeast(spheres));
+    for (const SphereLanes& spheres : cover) atLeast = minOf(atLeast, field.apartAtLeast(spheres));
     float least = atLeast[0];
     for (int lane = 1; lane < kFloatLanes; ++lane) least = std::min(least, atLeast[lane]);
     return least;
@@ -227,8 +226,7 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
             ofFirst[idle] = ofFirst[0];
             ofSecond[idle] = ofSecond[0];
         }
-        const EdgeGaps gaps =
-            edgeGaps(SegmentLanes(ofFirst), EdgeLanes(ofSecond), deepest, reach);
+        const EdgeGaps gaps = edgeGaps(SegmentLanes(ofFirst), EdgeLanes(ofSecond), deepest, reach);
         const unsigned mayTouch = bitsOf(gaps.mayTouch);
         for (std::size_t lane = 0; lane < filled; ++lane) {
             NearEdges& edges = *four[lane];

@@ -17,7 +17,7 @@ struct GapLanes::Motion {
     {
         const auto gather = [&](const Side& side, Vec3 LaneBody::*part) {
             return lanesOf(bodies[side.body[0]].*part, bodies[side.body[1]].*part,
-                              bodies[side.body[2]].*part, bodies[side.body[3]].*part);
+                           bodies[side.body[2]].*part, bodies[side.body[3]].*part);
         };
         vA = gather(batch.a, &LaneBody::velocity);
         wA = gather(batch.a, &LaneBody::spin);
@@ -210,10 +210,10 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
 inline void GapLanes::apply(const Row& row, const Batch& batch, const Lanes3& change,
                             Motion& motion)
 {
-    const Lanes3 j = change.x * row.normal + change.y * row.tangent + change.z * row.second;
-    motion.vA += batch.a.inverseMass * j;
+    const Lanes3 j = fma(change.z, row.second, fma(change.y, row.tangent, change.x * row.normal));
+    motion.vA = fma(batch.a.inverseMass, j, motion.vA);
     motion.wA += batch.a.inverseInertia * cross(row.rA, j);
-    motion.vB -= batch.b.inverseMass * j;
+    motion.vB = fnma(batch.b.inverseMass, j, motion.vB);
     motion.wB -= batch.b.inverseInertia * cross(row.rB, j);
 }
 
@@ -229,17 +229,17 @@ inline void GapLanes::visit(Row& row, const Batch& batch, const Lanes3& u, Motio
 {
     const Lanes3 old = row.impulse;
     const Lanes un = dot(u, row.normal);
-    const Lanes normal = maxOf(kNoLanes, old.x - (un - row.target) * row.normalMass);
+    const Lanes normal = maxOf(kNoLanes, fnma(un - row.target, row.normalMass, old.x));
     const Lanes pushed = normal - old.x;
 
-    const Lanes ut = dot(u, row.tangent) + pushed * row.turnsIntoTangent;
-    const Lanes us = dot(u, row.second) + pushed * row.turnsIntoSecond;
-    const Lanes stickT = old.y - (row.massTt * ut + row.massTs * us);
-    const Lanes stickS = old.z - (row.massTs * ut + row.massSs * us);
+    const Lanes ut = fma(pushed, row.turnsIntoTangent, dot(u, row.tangent));
+    const Lanes us = fma(pushed, row.turnsIntoSecond, dot(u, row.second));
+    const Lanes stickT = fnma(row.massTt, ut, fnma(row.massTs, us, old.y));
+    const Lanes stickS = fnma(row.massTs, ut, fnma(row.massSs, us, old.z));
     const Lanes limit = row.friction * normal;
-    const auto slides = stickT * stickT + stickS * stickS > limit * limit;
-    const Lanes slideT = old.y - row.slideMass * ut, slideS = old.z - row.slideMass * us;
-    const Lanes length = sqrtOf(slideT * slideT + slideS * slideS);
+    const auto slides = fma(stickT, stickT, stickS * stickS) > limit * limit;
+    const Lanes slideT = fnma(row.slideMass, ut, old.y), slideS = fnma(row.slideMass, us, old.z);
+    const Lanes length = sqrtOf(fma(slideT, slideT, slideS * slideS));
     const Lanes shorter = length > limit ? limit / length : lanesOf(1.0);
     row.impulse = {normal, slides ? shorter * slideT : stickT, slides ? shorter * slideS : stickS};
     const Lanes3 change = row.impulse - old;
@@ -285,8 +285,9 @@ void GapLanes::sweepDown(Section& section)
             Row& row = rows_[r];
             visit(row, batch, velocityAt(row, motion), motion, section);
             const Lanes3 d = row.impulse - row.before;
-            section.energy +=
-                row.inverseNormalMass * d.x * d.x + (d.y * d.y + d.z * d.z) * row.inverseSlideMass;
+            const Lanes sideways = fma(d.y, d.y, d.z * d.z);
+            section.energy = fma(row.inverseNormalMass, d.x * d.x, section.energy);
+            section.energy = fma(row.inverseSlideMass, sideways, section.energy);
         }
         motion.store(batch, *bodies_);
     }

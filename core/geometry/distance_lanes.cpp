@@ -25,8 +25,8 @@ static_assert(sizeof(FieldBlock) % 4 == 0);
 
 IntLanes gatheredInts(const std::uint32_t* values, IntLanes index)
 {
-    return reinterpret_cast<IntLanes>(_mm256_i32gather_epi32(
-        reinterpret_cast<const int*>(values), reinterpret_cast<__m256i>(index), 4));
+    return reinterpret_cast<IntLanes>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(values),
+                                                             reinterpret_cast<__m256i>(index), 4));
 }
 
 /// x ≥ 0, rounded.
@@ -89,8 +89,7 @@ FloatLanes DistanceLanes::ofNodes(const FloatLanes3& p) const
     };
     const IntLanes bx = blockAlong(at.x, count[0]), by = blockAlong(at.y, count[1]),
                    bz = blockAlong(at.z, count[2]);
-    const IntLanes block =
-        kStride * (bx + nodes.blockCount[0] * (by + nodes.blockCount[1] * bz));
+    const IntLanes block = kStride * (bx + nodes.blockCount[0] * (by + nodes.blockCount[1] * bz));
     const IntLanes isCoarse =
         gatheredInts(first(nodes, &FieldBlock::isCoarse), block) != intLanesOf(0);
     // Of a coarse block only the corners are kept: nodes 0 and 1 along each axis.

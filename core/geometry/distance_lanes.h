@@ -9,8 +9,8 @@ namespace scree {
 
 class DistanceLanes {
 public:
-    /// Rotation and translation lead from the frame of the spheres to that of the field; `extent` is
-    /// how far from their origin the spheres reach [m]. Borrows the field.
+    /// Rotation and translation lead from the frame of the spheres to that of the field; `extent`
+    /// is how far from their origin the spheres reach [m]. Borrows the field.
     DistanceLanes(const SignedDistance& field, const Mat3& rotation, const Vec3& translation,
                   double extent);
 

@@ -14,8 +14,8 @@ std::vector<Sphere> heldByEights(std::span<const Sphere> spheres)
 {
     std::vector<Sphere> holding;
     for (std::size_t begin = 0; begin < spheres.size(); begin += kFloatLanes) {
-        const auto eight = spheres.subspan(
-            begin, std::min<std::size_t>(kFloatLanes, spheres.size() - begin));
+        const auto eight =
+            spheres.subspan(begin, std::min<std::size_t>(kFloatLanes, spheres.size() - begin));
         Aabb centres;
         for (const Sphere& sphere : eight) centres.include(sphere.centre);
         Sphere& held = holding.emplace_back(Sphere{centres.centre(), 0.0});
@@ -37,8 +37,8 @@ std::vector<SphereLanes> inLanes(std::span<const Sphere> spheres)
         const int lane = static_cast<int>(i % kFloatLanes);
         const Sphere& sphere = spheres[std::min(i, spheres.size() - 1)];
         eight.centre.set(lane, sphere.centre);
-        eight.radius[lane] = static_cast<float>(
-            sphere.radius + kRoundUp * (sphere.radius + sphere.centre.norm()));
+        eight.radius[lane] =
+            static_cast<float>(sphere.radius + kRoundUp * (sphere.radius + sphere.centre.norm()));
     }
     return lanes;
 }

@@ -28,7 +28,8 @@ public:
     explicit SphereLaneTree(std::span<const Sphere> things);
 
     /// near(spheres) tells by its bits which of eight matter; leaf(thing, lane) hears of all things
-    /// that do, those near each other one after the other, right after near() heard of their spheres.
+    /// that do, those near each other one after the other, right after near() heard of their
+    /// spheres.
     template <class Near, class Leaf>
     void visit(const Near& near, const Leaf& leaf) const
     {

@@ -1,6 +1,6 @@
 // Numbers side by side: the same arithmetic on independent problems at once, four in double and
-// eight in single precision. Lanes never mix, and no operation is contracted, so that a lane
-// computes the bits it would compute alone.
+// eight in single precision. Lanes never mix, and what is multiplied and added at once is said so,
+// not left to the compiler: a lane computes the same bits on every machine.
 #pragma once
 
 #include <immintrin.h>
@@ -66,6 +66,24 @@ inline Lanes sqrtOf(Lanes a)
 inline FloatLanes sqrtOf(FloatLanes a)
 {
     return _mm256_sqrt_ps(a);
+}
+/// a b + c, rounded once.
+inline Lanes fma(Lanes a, Lanes b, Lanes c)
+{
+    return _mm256_fmadd_pd(a, b, c);
+}
+inline FloatLanes fma(FloatLanes a, FloatLanes b, FloatLanes c)
+{
+    return _mm256_fmadd_ps(a, b, c);
+}
+/// c - a b.
+inline Lanes fnma(Lanes a, Lanes b, Lanes c)
+{
+    return _mm256_fnmadd_pd(a, b, c);
+}
+inline FloatLanes fnma(FloatLanes a, FloatLanes b, FloatLanes c)
+{
+    return _mm256_fnmadd_ps(a, b, c);
 }
 inline double sumOf(Lanes a)
 {
@@ -146,12 +164,24 @@ VectorLanes<L> operator*(L s, const VectorLanes<L>& a)
 template <class L>
 L dot(const VectorLanes<L>& a, const VectorLanes<L>& b)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
 }
 template <class L>
 VectorLanes<L> cross(const VectorLanes<L>& a, const VectorLanes<L>& b)
 {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return {fnma(a.z, b.y, a.y * b.z), fnma(a.x, b.z, a.z * b.x), fnma(a.y, b.x, a.x * b.y)};
+}
+/// s a + b.
+template <class L>
+VectorLanes<L> fma(L s, const VectorLanes<L>& a, const VectorLanes<L>& b)
+{
+    return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
+}
+/// b - s a.
+template <class L>
+VectorLanes<L> fnma(L s, const VectorLanes<L>& a, const VectorLanes<L>& b)
+{
+    return {fnma(s, a.x, b.x), fnma(s, a.y, b.y), fnma(s, a.z, b.z)};
 }
 
 /// One rotation for all lanes.
@@ -186,8 +216,8 @@ struct SymmetricLanes {
     }
     Lanes3 operator*(const Lanes3& v) const
     {
-        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
-                xz * v.x + yz * v.y + zz * v.z};
+        return {fma(xz, v.z, fma(xy, v.y, xx * v.x)), fma(yz, v.z, fma(yy, v.y, xy * v.x)),
+                fma(zz, v.z, fma(yz, v.y, xz * v.x))};
     }
 };
 

@@ -1,5 +1,5 @@
-// What is asked eight abreast in single precision, beside what is asked one by one in double: it may
-// err to the safe side only, and by little.
+// What is asked eight abreast in single precision, beside what is asked one by one in double: it
+// may err to the safe side only, and by little.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,8 +148,7 @@ TEST(EdgeLanes, ThatComeToTouchMayFaceEachOtherBeforehand)
         before.rotation = exponentialMap(turned).toRotationMatrix() * then.rotation;
         before.translation = then.translation + moved;
         const double reach = 0.1;
-        const double farthest =
-            reach + moved.norm() + turned.norm() * ring->boundingRadius + 1e-5;
+        const double farthest = reach + moved.norm() + turned.norm() * ring->boundingRadius + 1e-5;
         const std::vector<ConvexEdge>&first = ring->features.edges(),
               &second = other.features.edges();
         FacingLanes a{}, b{};
@@ -159,8 +158,7 @@ TEST(EdgeLanes, ThatComeToTouchMayFaceEachOtherBeforehand)
             for (std::int32_t j = 0; j < std::ssize(second); ++j) {
                 const int lane = j % kFloatLanes;
                 b.set(lane, second[j]);
-                const bool mayTouch =
-                    mayFace(edge, b, farthest, turned.norm() + 1e-5) >> lane & 1u;
+                const bool mayTouch = mayFace(edge, b, farthest, turned.norm() + 1e-5) >> lane & 1u;
                 const bool touches = faceEdges(then, i, j, reach, 1e-3).has_value();
                 EXPECT_TRUE(mayTouch || !touches) << run << ' ' << i << ' ' << j;
                 touching += touches;
