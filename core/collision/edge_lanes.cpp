@@ -15,7 +15,7 @@ Lanes clamped(Lanes x, Lanes most)
     return minOf(maxOf(x, kNoLanes), most);
 }
 
-/// How far out of the way to its middle an edge is from a point, squared.
+/// Of edges from points, seen from their middles [m²].
 FloatLanes squaredDistance(const FacingLanes& edge, const FloatLanes3& fromMiddle)
 {
     const FloatLanes along = dot(fromMiddle, edge.direction);

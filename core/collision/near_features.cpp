@@ -21,9 +21,6 @@ namespace {
 constexpr double kLookAhead = 0.6;        // times the reach
 constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
 
-/// What arithmetic in single precision may lose, as a share of the numbers.
-constexpr double kSingle = 2e-6;
-
 using Part = ContactPart::Kind;
 
 RelativePair relativePair(const PlacedPair& bodies, const Mat3& worldFromA, const Mat3& worldFromB)
@@ -162,9 +159,9 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     inEights(first.edges(), nearA, eightsOfA);
     inEights(second.edges(), nearB, eightsOfB);
 
-    const double rounding = kSingle * (pair.first.boundingRadius + pair.translation.norm());
+    const double rounding = kSinglePrecision * (pair.first.boundingRadius + pair.translation.norm());
     const double farthest = std::max(reach, deepestEdges(pair)) + window_ + rounding;
-    const double turn = window_ / leverOf(pair) + kSingle;
+    const double turn = window_ / leverOf(pair) + kSinglePrecision;
     for (FacingLanes& eight : eightsOfA) eight = eight.placed(pair.rotation, pair.translation);
     for (std::size_t a = 0; a < nearA.size(); ++a) {
         const FacingLanes edge = eightsOfA[a / kFloatLanes].all(static_cast<int>(a % kFloatLanes));

@@ -6,9 +6,6 @@
 namespace scree {
 namespace {
 
-/// Some ten operations, each of which loses 2⁻²⁴ of numbers as large as what they measure.
-constexpr double kRounding = 2e-6;
-
 IntLanes intLanesOf(int value)
 {
     return IntLanes{value, value, value, value, value, value, value, value};
@@ -47,7 +44,7 @@ DistanceLanes::DistanceLanes(const SignedDistance& field, const Mat3& rotation,
     : field_(field),
       rotation_(rotation),
       translation_(FloatLanes3::all(translation)),
-      rounding_(floatLanesOf(kRounding * (translation.norm() + extent)))
+      rounding_(floatLanesOf(kSinglePrecision * (translation.norm() + extent)))
 {
     if (field.solid()) return;
     boxMin_ = FloatLanes3::all(field.surfaceBox().min);

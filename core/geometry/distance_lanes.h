@@ -7,6 +7,10 @@
 
 namespace scree {
 
+/// What placing and measuring in single precision may lose, as a share of the numbers: some ten
+/// operations lose 2⁻²⁴ each.
+inline constexpr double kSinglePrecision = 2e-6;
+
 class DistanceLanes {
 public:
     /// Rotation and translation lead from the frame of the spheres to that of the field; `extent`

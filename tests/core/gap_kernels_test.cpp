@@ -109,6 +109,57 @@ TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
     EXPECT_GT(skipped, 20u);
 }
 
+/// The smallest gap of all corners and all pairs of edges, asked one after the other [m].
+double smallestGap(const RelativePair& pair, double reach, double sharpness)
+{
+    double smallest = reach;
+    const auto face = [&](const RelativePair& way) {
+        for (const std::int32_t corner : way.first.features.corners()) {
+            const FacedCorner faced = faceCorner(way, corner, reach, sharpness);
+            for (const auto& contact : {faced.contact, faced.unsupported})
+                if (contact) smallest = std::min(smallest, contact->gap);
+        }
+    };
+    face(pair);
+    face(pair.reversed());
+    for (std::int32_t a = 0; a < std::ssize(pair.first.features.edges()); ++a) {
+        for (std::int32_t b = 0; b < std::ssize(pair.second.features.edges()); ++b) {
+            const auto contact = faceEdges(pair, a, b, reach, sharpness);
+            if (contact) smallest = std::min(smallest, contact->gap);
+        }
+    }
+    return smallest;
+}
+
+TEST(NearFeatures, TheNearestOfAllFeaturesIsAmongThoseLookedAt)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const auto pole = buildMeshShape("pole", makeCylinder(0.25, 8.0, 20, 21));
+    ShapeSettings bricks;
+    bricks.resolution = 64;
+    bricks.storage = FieldStorage::bricks;
+    const auto bricked = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}), bricks);
+    const auto block = boxShape({1.0, 0.6, 0.4}, 1);
+    const std::array<const Shape*, 4> others = {ring.get(), pole.get(), bricked.get(),
+                                                block.get()};
+    int near = 0;
+    for (std::uint64_t run = 0; run < 120; ++run) {
+        const Shape& other = *others[run % 4];
+        const Pose a{1.6 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
+        const PlacedPair placed{ring.get(), &other, a, Pose{}};
+        const double reach = 0.02 + 0.2 * randomUnit(7, run, 30);
+        std::vector<GapContact> found;
+        NearFeatures().findContacts(placed, reach, found);
+        double smallest = reach;
+        for (const GapContact& contact : found) smallest = std::min(smallest, contact.gap);
+        const RelativePair pair{*ring, other, a.orientation.toRotationMatrix(), a.position};
+        const double sharpness = kSharpness * smallerRadius(*ring, other);
+        EXPECT_NEAR(smallest, smallestGap(pair, reach, sharpness), 1e-12) << run;
+        near += smallest < reach;
+    }
+    EXPECT_GT(near, 40);
+}
+
 /// The nearest of the vertices of either body to the other [m].
 double nearestVertex(const PlacedPair& pair)
 {
