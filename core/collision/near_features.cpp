@@ -159,7 +159,8 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     inEights(first.edges(), nearA, eightsOfA);
     inEights(second.edges(), nearB, eightsOfB);
 
-    const double rounding = kSinglePrecision * (pair.first.boundingRadius + pair.translation.norm());
+    const double rounding =
+        kSinglePrecision * (pair.first.boundingRadius + pair.translation.norm());
     const double farthest = std::max(reach, deepestEdges(pair)) + window_ + rounding;
     const double turn = window_ / leverOf(pair) + kSinglePrecision;
     for (FacingLanes& eight : eightsOfA) eight = eight.placed(pair.rotation, pair.translation);

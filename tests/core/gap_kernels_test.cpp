@@ -15,22 +15,11 @@
 #include "core/dynamics/gap_lanes.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
+#include "tests/support/draw.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
 namespace {
-
-/// Uniform in −1 … 1.
-double signedUnit(std::uint64_t stream, std::uint64_t index)
-{
-    return 2.0 * randomUnit(7, stream, index) - 1.0;
-}
-
-Vec3 signedUnits(std::uint64_t stream, std::uint64_t first)
-{
-    return {signedUnit(stream, first), signedUnit(stream, first + 1),
-            signedUnit(stream, first + 2)};
-}
 
 bool sameContacts(const std::vector<GapContact>& p, const std::vector<GapContact>& q)
 {
@@ -39,6 +28,24 @@ bool sameContacts(const std::vector<GapContact>& p, const std::vector<GapContact
             return a.feature == b.feature && a.gap == b.gap && a.rA == b.rA && a.normal == b.normal;
         });
 }
+
+/// A pair that remembers, asked the same as one that sees it for the first time.
+struct Asked {
+    NearFeatures remembering;
+    double odometer = 0.0;
+    std::size_t contacts = 0, skipped = 0;
+
+    bool answersAsFresh(const PlacedPair& placed, double reach)
+    {
+        std::vector<GapContact> remembered, fresh;
+        const bool isApart = remembering.isApart(reach, odometer);
+        if (!isApart) remembering.findContacts(placed, reach, remembered, odometer);
+        NearFeatures().findContacts(placed, reach, fresh);
+        contacts += fresh.size();
+        skipped += isApart;
+        return sameContacts(remembered, fresh);
+    }
+};
 
 /// Rings tumble into, through and past rings and a pole, with reaches that grow and shrink: edges
 /// that were apart cross, and what was not noted comes near.
@@ -54,24 +61,18 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
         Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
         const Vec3 step = 0.02 * signedUnits(run, 9), turnA = 0.02 * signedUnits(run, 12),
                    turnB = 0.01 * signedUnits(run, 15);
-        NearFeatures remembering;
-        double odometer = 0.0;
+        Asked asked;
         for (std::uint64_t i = 0; i < 60; ++i) {
             a.position += step;
             a.orientation = rotated(a.orientation, turnA);
             b.orientation = rotated(b.orientation, turnB);
-            odometer += step.norm() + turnA.norm() * ring->boundingRadius +
-                        turnB.norm() * other.boundingRadius;
+            asked.odometer += step.norm() + turnA.norm() * ring->boundingRadius +
+                              turnB.norm() * other.boundingRadius;
             const double reach = 0.01 + 0.03 * std::abs(signedUnit(run, 20 + i));
-            const PlacedPair placed{ring.get(), &other, a, b};
-            std::vector<GapContact> remembered, fresh;
-            const bool isApart = remembering.isApart(reach, odometer);
-            if (!isApart) remembering.findContacts(placed, reach, remembered, odometer);
-            NearFeatures().findContacts(placed, reach, fresh);
-            ASSERT_TRUE(sameContacts(remembered, fresh)) << run << ' ' << i << ' ' << isApart;
-            contacts += fresh.size();
-            skipped += isApart;
+            ASSERT_TRUE(asked.answersAsFresh({ring.get(), &other, a, b}, reach)) << run << ' ' << i;
         }
+        contacts += asked.contacts;
+        skipped += asked.skipped;
     }
     EXPECT_GT(contacts, 1000u);
     EXPECT_GT(skipped, 500u);
@@ -89,21 +90,16 @@ TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
         Pose a{2.0 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
         const Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
         const Vec3 step = 0.01 * signedUnits(run, 9);
-        NearFeatures remembering;
-        double odometer = 0.0;
+        Asked asked;
         const double reach = 0.3 + 0.3 * randomUnit(7, run, 12);
         for (std::uint64_t i = 0; i < 100; ++i) {
             a.position += step;
-            odometer += step.norm();
-            const PlacedPair placed{ring.get(), ring.get(), a, b};
-            std::vector<GapContact> remembered, fresh;
-            const bool isApart = remembering.isApart(reach, odometer);
-            if (!isApart) remembering.findContacts(placed, reach, remembered, odometer);
-            NearFeatures().findContacts(placed, reach, fresh);
-            ASSERT_TRUE(sameContacts(remembered, fresh)) << run << ' ' << i << ' ' << isApart;
-            contacts += fresh.size();
-            skipped += isApart;
+            asked.odometer += step.norm();
+            ASSERT_TRUE(asked.answersAsFresh({ring.get(), ring.get(), a, b}, reach))
+                << run << ' ' << i;
         }
+        contacts += asked.contacts;
+        skipped += asked.skipped;
     }
     EXPECT_GT(contacts, 1000u);
     EXPECT_GT(skipped, 20u);
@@ -140,8 +136,7 @@ TEST(NearFeatures, TheNearestOfAllFeaturesIsAmongThoseLookedAt)
     bricks.storage = FieldStorage::bricks;
     const auto bricked = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}), bricks);
     const auto block = boxShape({1.0, 0.6, 0.4}, 1);
-    const std::array<const Shape*, 4> others = {ring.get(), pole.get(), bricked.get(),
-                                                block.get()};
+    const std::array<const Shape*, 4> others = {ring.get(), pole.get(), bricked.get(), block.get()};
     int near = 0;
     for (std::uint64_t run = 0; run < 120; ++run) {
         const Shape& other = *others[run % 4];

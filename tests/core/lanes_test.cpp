@@ -14,21 +14,11 @@
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
 #include "core/math/rotation.h"
+#include "tests/support/draw.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
 namespace {
-
-double signedUnit(std::uint64_t stream, std::uint64_t index)
-{
-    return 2.0 * randomUnit(23, stream, index) - 1.0;
-}
-
-Vec3 signedUnits(std::uint64_t stream, std::uint64_t first)
-{
-    return {signedUnit(stream, first), signedUnit(stream, first + 1),
-            signedUnit(stream, first + 2)};
-}
 
 TEST(SphereLaneTree, TellsAllThingsThatAreNearAndFewOthers)
 {

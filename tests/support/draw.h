@@ -1,0 +1,23 @@
+// Random numbers and vectors that are the same everywhere.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/random.h"
+#include "core/math/types.h"
+
+namespace scree::test {
+
+/// Uniform in −1 … 1.
+inline double signedUnit(std::uint64_t stream, std::uint64_t index)
+{
+    return 2.0 * randomUnit(7, stream, index) - 1.0;
+}
+
+inline Vec3 signedUnits(std::uint64_t stream, std::uint64_t first)
+{
+    return {signedUnit(stream, first), signedUnit(stream, first + 1),
+            signedUnit(stream, first + 2)};
+}
+
+}  // namespace scree::test
