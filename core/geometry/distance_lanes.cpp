@@ -1,4 +1,4 @@
-// Symbols: p a point in the frame of the field, i j k the cell it is in.
+// Symbols: p a point in the frame of the field, i j k the node nearest to it.
 #include "core/geometry/distance_lanes.h"
 
 #include <cstddef>
