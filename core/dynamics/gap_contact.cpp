@@ -86,92 +86,9 @@ double resistSpin(GapRow& row, GapBody& a, GapBody& b)
     return (response * change).norm() * row.rA.norm();
 }
 
-/// Weighs normal and friction impulses of heavy and light pairs alike: by the energy they move.
-double energyOf(const GapRow& row, const Vec3& impulse)
-{
-    return row.inverseNormalMass * impulse.x() * impulse.x() +
-           (impulse.y() * impulse.y() + impulse.z() * impulse.z()) / row.slideMass;
-}
-
-/// The plain twin of GapLanes, for one row after the other.
-class PlainRows {
-public:
-    PlainRows(GapScratch& scratch, const GapIsland& island) : scratch_(scratch)
-    {
-        for (const std::size_t i : island.pairs) {
-            const GapPair& pair = scratch.pairs[i];
-            for (std::size_t r = pair.begin; r < pair.end; ++r)
-                visits_.push_back({&scratch.rows[r]});
-        }
-    }
-
-    void begin()
-    {
-        for (const Visit& visit : visits_) {
-            const GapRow& row = *visit.row;
-            apply(row, row.worldImpulse());
-            applyCouple(row, scratch_.bodies[row.a], scratch_.bodies[row.b], row.couple);
-        }
-    }
-
-    GapSweep sweep()
-    {
-        GapSweep swept;
-        const auto solve = [&](GapRow& row) {
-            const double changed = visitRow(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
-            swept.residual = std::max(swept.residual, changed);
-        };
-        for (Visit& visit : visits_) {
-            GapRow& row = *visit.row;
-            visit.before = row.impulse;
-            const Vec3 u = velocityAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
-            swept.fastest = std::max(swept.fastest, u.norm());
-            solve(row);
-        }
-        for (std::size_t i = visits_.size(); i-- > 0;) solve(*visits_[i].row);
-        return swept;
-    }
-
-    double goOn(double energyBefore)
-    {
-        double energy = 0.0;
-        for (const Visit& visit : visits_)
-            energy += energyOf(*visit.row, visit.row->impulse - visit.before);
-        const double beta = shareOfLastWay(energy, energyBefore);
-        for (Visit& visit : visits_) {
-            if (beta > 1.0) {
-                visit.way = Vec3::Zero();  // the active set has changed: start again
-                continue;
-            }
-            GapRow& row = *visit.row;
-            const Vec3 step = beta * visit.way;
-            visit.way = step + (row.impulse - visit.before);
-            row.impulse += step;
-            apply(row,
-                  step.x() * row.normal + step.y() * row.tangent + step.z() * row.secondTangent());
-        }
-        return energy;
-    }
-
-private:
-    struct Visit {
-        GapRow* row;
-        Vec3 before = Vec3::Zero(), way = Vec3::Zero();  // of its impulse
-    };
-
-    void apply(const GapRow& row, const Vec3& impulse)
-    {
-        applyRow(row, scratch_.bodies[row.a], scratch_.bodies[row.b], impulse);
-    }
-
-    GapScratch& scratch_;
-    std::vector<Visit> visits_;  // bottom to top
-};
-
 /// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
 /// next step, which begins with what this one found.
-template <class Rows>
-void solve(const StepSettings& settings, double dt, const GapIsland& island, Rows& rows)
+void solve(const StepSettings& settings, double dt, const GapIsland& island, GapLanes& rows)
 {
     double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
     const int most = mostSweeps(settings, island);
@@ -191,25 +108,9 @@ void solve(const StepSettings& settings, double dt, const GapIsland& island, Row
     }
 }
 
-bool resistsRolling(const GapScratch& scratch, const GapIsland& island)
-{
-    for (std::size_t i : island.pairs) {
-        const GapPair& pair = scratch.pairs[i];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            if (scratch.rows[r].resistsSpin()) return true;
-        }
-    }
-    return false;
-}
-
 void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
                  const GapIsland& island, std::vector<LaneBody>& laneBodies)
 {
-    if (resistsRolling(scratch, island)) {
-        PlainRows rows(scratch, island);
-        solve(settings, dt, island, rows);
-        return;
-    }
     thread_local GapLanes lanes;
     lanes.build(scratch, island, laneBodies);
     solve(settings, dt, island, lanes);

@@ -70,6 +70,24 @@ std::array<std::vector<std::size_t>, 3> cutInTwo(const GapScratch& scratch, cons
     return parts;
 }
 
+bool anyResistsSpin(const GapScratch& scratch, const GapIsland& island)
+{
+    return std::any_of(island.pairs.begin(), island.pairs.end(), [&](std::size_t i) {
+        const auto rows = scratch.rows.begin();
+        const GapPair& pair = scratch.pairs[i];
+        return std::any_of(rows + static_cast<std::ptrdiff_t>(pair.begin),
+                           rows + static_cast<std::ptrdiff_t>(pair.end),
+                           [](const GapRow& row) { return row.resistsSpin(); });
+    });
+}
+
+/// Where friction holds the place.
+LaneMask sticks(Lanes friction, const Lanes3& impulse)
+{
+    const Lanes limit = (1.0 - 1e-9) * friction * impulse.x;
+    return fma(impulse.y, impulse.y, impulse.z * impulse.z) < limit * limit;
+}
+
 }  // namespace
 
 /// Calls work(batch) for all batches. Small islands keep to their thread: while it waited for
@@ -106,6 +124,7 @@ void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
         }
     }
     rows_.resize(rowCount);
+    rolls_.resize(anyResistsSpin(scratch, island) ? rowCount : 0);
     forBatches([&](Batch& batch) { fill(scratch, batch); });
 }
 
@@ -170,7 +189,10 @@ void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t
 
 void GapLanes::fill(const GapScratch& scratch, Batch& batch)
 {
-    for (std::size_t r = batch.begin; r < batch.end; ++r) rows_[r] = Row{};
+    for (std::size_t r = batch.begin; r < batch.end; ++r) {
+        rows_[r] = Row{};
+        if (resistsRolling()) rolls_[r] = Roll{};
+    }
     for (int lane = 0; lane < batch.lanesUsed; ++lane) fillLane(scratch, batch, lane);
 }
 
@@ -203,6 +225,17 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
         row.slideMass[lane] = from->slideMass;
         row.inverseSlideMass[lane] = 1.0 / from->slideMass;
         row.impulse.set(lane, from->impulse);
+        if (!from->resistsSpin()) continue;
+        Roll& roll = rolls_[r];
+        const Mat3 response =
+            coupleResponse(*from, scratch.bodies[from->a], scratch.bodies[from->b]);
+        roll.rollingArm[lane] = from->rollingArm;
+        roll.spinningArm[lane] = from->spinningArm;
+        roll.lever[lane] = from->rA.norm();
+        roll.rollMass[lane] = 1.0 / from->rollResponse;
+        roll.slipMass[lane] = 1.0 / response.trace();
+        roll.spinMass[lane] = 1.0 / from->normal.dot(response * from->normal);
+        roll.couple.set(lane, from->couple);
     }
 }
 
@@ -217,23 +250,59 @@ inline void GapLanes::apply(const Row& row, const Batch& batch, const Lanes3& ch
     motion.wB -= batch.b.inverseInertia * cross(row.rB, j);
 }
 
+inline void GapLanes::applyCouple(const Batch& batch, const Lanes3& couple, Motion& motion)
+{
+    motion.wA += batch.a.inverseInertia * couple;
+    motion.wB -= batch.b.inverseInertia * couple;
+}
+
 inline Lanes3 GapLanes::velocityAt(const Row& row, const Motion& motion)
 {
     return motion.vA + cross(motion.wA, row.rA) - motion.vB - cross(motion.wB, row.rB);
 }
 
-/// visitRow without branches, where surfaces move with u; friction sees what the normal impulse
-/// changes without that having been applied.
-inline void GapLanes::visit(Row& row, const Batch& batch, const Lanes3& u, Motion& motion,
-                            Section& section) const
+/// resistSpin of the plain twin without branches.
+inline Lanes GapLanes::resistSpin(std::size_t place, const Batch& batch, Motion& motion)
 {
+    const Row& row = rows_[place];
+    Roll& roll = rolls_[place];
+    const Lanes3 w = motion.wA - motion.wB, old = roll.couple;
+    const Lanes wn = dot(w, row.normal), before = dot(old, row.normal);
+    const Lanes most = roll.spinningArm * row.impulse.x;
+    const Lanes about = minOf(maxOf(fnma(wn, roll.spinMass, before), -most), most);
+    const Lanes mass = sticks(row.friction, row.impulse) ? roll.rollMass : roll.slipMass;
+    const Lanes3 across = fnma(mass, fnma(wn, row.normal, w), fnma(before, row.normal, old));
+    const Lanes length = sqrtOf(dot(across, across)), limit = roll.rollingArm * row.impulse.x;
+    const Lanes shorter = length > limit ? limit / length : lanesOf(1.0);
+    roll.couple = fma(about, row.normal, shorter * across);
+    applyCouple(batch, roll.couple - old, motion);
+    const Lanes3 change = motion.wA - motion.wB - w;
+    return roll.lever * sqrtOf(dot(change, change));
+}
+
+/// visitRow without branches, where surfaces move with u. Friction sees what the normal impulse
+/// changes without that having been applied, unless a couple comes between them.
+template <bool kRolls>
+inline void GapLanes::visit(std::size_t place, const Batch& batch, const Lanes3& u, Motion& motion,
+                            Section& section)
+{
+    Row& row = rows_[place];
     const Lanes3 old = row.impulse;
     const Lanes un = dot(u, row.normal);
     const Lanes normal = maxOf(kNoLanes, fnma(un - row.target, row.normalMass, old.x));
     const Lanes pushed = normal - old.x;
-
-    const Lanes ut = fma(pushed, row.turnsIntoTangent, dot(u, row.tangent));
-    const Lanes us = fma(pushed, row.turnsIntoSecond, dot(u, row.second));
+    Lanes ut, us;
+    if constexpr (kRolls) {
+        row.impulse.x = normal;
+        apply(row, batch, {pushed, kNoLanes, kNoLanes}, motion);
+        section.residual = maxOf(section.residual, resistSpin(place, batch, motion));
+        const Lanes3 turned = velocityAt(row, motion);
+        ut = dot(turned, row.tangent);
+        us = dot(turned, row.second);
+    } else {
+        ut = fma(pushed, row.turnsIntoTangent, dot(u, row.tangent));
+        us = fma(pushed, row.turnsIntoSecond, dot(u, row.second));
+    }
     const Lanes stickT = fnma(row.massTt, ut, fnma(row.massTs, us, old.y));
     const Lanes stickS = fnma(row.massTs, ut, fnma(row.massSs, us, old.z));
     const Lanes limit = row.friction * normal;
@@ -243,7 +312,7 @@ inline void GapLanes::visit(Row& row, const Batch& batch, const Lanes3& u, Motio
     const Lanes shorter = length > limit ? limit / length : lanesOf(1.0);
     row.impulse = {normal, slides ? shorter * slideT : stickT, slides ? shorter * slideS : stickS};
     const Lanes3 change = row.impulse - old;
-    apply(row, batch, change, motion);
+    apply(row, batch, {kRolls ? kNoLanes : change.x, change.y, change.z}, motion);
     const Lanes changed = maxOf(absOf(pushed) * row.inverseNormalMass,
                                 maxOf(absOf(change.y), absOf(change.z)) * row.inverseSlideMass);
     section.residual = maxOf(section.residual, changed);
@@ -253,12 +322,15 @@ void GapLanes::begin(const Section& section)
 {
     for (const Batch& batch : section.batches) {
         Motion motion(batch, *bodies_);
-        for (std::size_t r = batch.begin; r < batch.end; ++r)
+        for (std::size_t r = batch.begin; r < batch.end; ++r) {
             apply(rows_[r], batch, rows_[r].impulse, motion);
+            if (resistsRolling()) applyCouple(batch, rolls_[r].couple, motion);
+        }
         motion.store(batch, *bodies_);
     }
 }
 
+template <bool kRolls>
 void GapLanes::sweepUp(Section& section)
 {
     section.residual = section.squaredSpeed = kNoLanes;
@@ -269,12 +341,13 @@ void GapLanes::sweepUp(Section& section)
             row.before = row.impulse;
             const Lanes3 u = velocityAt(row, motion);
             section.squaredSpeed = maxOf(section.squaredSpeed, dot(u, u));
-            visit(row, batch, u, motion, section);
+            visit<kRolls>(r, batch, u, motion, section);
         }
         motion.store(batch, *bodies_);
     }
 }
 
+template <bool kRolls>
 void GapLanes::sweepDown(Section& section)
 {
     section.energy = kNoLanes;
@@ -283,7 +356,7 @@ void GapLanes::sweepDown(Section& section)
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.end; r-- > batch.begin;) {
             Row& row = rows_[r];
-            visit(row, batch, velocityAt(row, motion), motion, section);
+            visit<kRolls>(r, batch, velocityAt(row, motion), motion, section);
             const Lanes3 d = row.impulse - row.before;
             const Lanes sideways = fma(d.y, d.y, d.z * d.z);
             section.energy = fma(row.inverseNormalMass, d.x * d.x, section.energy);
@@ -330,10 +403,12 @@ void GapLanes::begin()
 
 GapSweep GapLanes::sweep()
 {
-    inHalves([&](Section& section) { sweepUp(section); });
-    sweepUp(sections_[2]);
-    sweepDown(sections_[2]);
-    inHalves([&](Section& section) { sweepDown(section); });
+    const auto up = resistsRolling() ? &GapLanes::sweepUp<true> : &GapLanes::sweepUp<false>;
+    const auto down = resistsRolling() ? &GapLanes::sweepDown<true> : &GapLanes::sweepDown<false>;
+    inHalves([&](Section& section) { (this->*up)(section); });
+    (this->*up)(sections_[2]);
+    (this->*down)(sections_[2]);
+    inHalves([&](Section& section) { (this->*down)(section); });
     GapSweep swept;
     for (const Section& section : sections_) {
         swept.residual = std::max(swept.residual, largestOf(section.residual));
@@ -371,8 +446,10 @@ void GapLanes::store(GapScratch& scratch)
     forBatches([&](const Batch& batch) {
         for (int lane = 0; lane < batch.lanesUsed; ++lane) {
             GapRow* to = &scratch.rows[batch.from[lane]];
-            for (std::size_t r = batch.begin; r < batch.end; ++r, ++to)
+            for (std::size_t r = batch.begin; r < batch.end; ++r, ++to) {
                 to->impulse = rows_[r].impulse.get(lane);
+                if (resistsRolling()) to->couple = rolls_[r].couple.get(lane);
+            }
         }
     });
 }

@@ -31,8 +31,8 @@ constexpr std::size_t kRowsWorthACut = 1000;
 
 class GapLanes {
 public:
-    /// Lays the rows of an island out; none may resist rolling. `bodies` are those of the world,
-    /// and one more that no row has.
+    /// Lays the rows of an island out. `bodies` are those of the world, and one more that no row
+    /// has.
     void build(const GapScratch& scratch, const GapIsland& island, std::vector<LaneBody>& bodies);
 
     /// The bodies take the impulses that the rows begin with.
@@ -63,6 +63,13 @@ private:
               inverseSlideMass = kNoLanes;
         Lanes3 impulse, before, way;  // along normal, tangent, second
     };
+    /// What of a row resists rolling and spinning.
+    struct Roll {
+        Lanes rollingArm = kNoLanes, spinningArm = kNoLanes, lever = kNoLanes;
+        Lanes rollMass = kNoLanes, slipMass = kNoLanes;  // of what rolls, and of what slips besides
+        Lanes spinMass = kNoLanes;                       // about the normal
+        Lanes3 couple;
+    };
     struct Side {
         std::int32_t body[kLanes];
         bool isMovable[kLanes];
@@ -92,20 +99,27 @@ private:
     template <class Work>
     void forBatches(const Work& work);
     bool isCut() const { return !sections_[1].batches.empty(); }
+    bool resistsRolling() const { return !rolls_.empty(); }
+    template <bool kRolls>
     void sweepUp(Section& section);
+    template <bool kRolls>
     void sweepDown(Section& section);
     void begin(const Section& section);
     void goOn(const Section& section, double beta);
     void fill(const GapScratch& scratch, Batch& batch);
     void fillLane(const GapScratch& scratch, Batch& batch, int lane);
-    void visit(Row& row, const Batch& batch, const Lanes3& u, Motion& motion,
-               Section& section) const;
+    template <bool kRolls>
+    void visit(std::size_t place, const Batch& batch, const Lanes3& u, Motion& motion,
+               Section& section);
+    Lanes resistSpin(std::size_t place, const Batch& batch, Motion& motion);
+    static void applyCouple(const Batch& batch, const Lanes3& couple, Motion& motion);
     static Lanes3 velocityAt(const Row& row, const Motion& motion);
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
     std::vector<LaneBody>* bodies_ = nullptr;
     std::vector<std::int32_t> firstFree_;  // per body: the batch after the last that has it
     std::vector<Row> rows_;
+    std::vector<Roll> rolls_;          // of the rows; empty where none resists
     std::array<Section, 3> sections_;  // either half, and what lies across the cut
 };
 

@@ -407,7 +407,8 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
     EXPECT_GT(spared, 1000 * touching);
 }
 
-GapScratch randomHeap(std::uint64_t seed)
+/// `rolling`: of every third pair only, so that they share batches with others.
+GapScratch randomHeap(std::uint64_t seed, bool rolling)
 {
     constexpr int kBodies = 12, kPairs = 30;
     GapScratch scratch;
@@ -439,6 +440,11 @@ GapScratch randomHeap(std::uint64_t seed)
             row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
             row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
             prepareRow(scratch, row);
+            if (rolling && p % 3 == 0) {
+                row.rollingArm = 0.2 * randomUnit(seed, 5011, r);
+                row.spinningArm = 0.1 * randomUnit(seed, 5012, r);
+                row.rollResponse = 5.0 + 5.0 * randomUnit(seed, 5013, r);
+            }
             scratch.rows.push_back(row);
         }
         island.pairs.push_back(scratch.pairs.size());
@@ -448,10 +454,11 @@ GapScratch randomHeap(std::uint64_t seed)
     return scratch;
 }
 
-TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
+void expectRowsAbreastAreRowsOneByOne(bool rolling)
 {
+    int resisted = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        GapScratch plain = randomHeap(seed), abreast = randomHeap(seed);
+        GapScratch plain = randomHeap(seed, rolling), abreast = randomHeap(seed, rolling);
         std::vector<LaneBody> bodies(abreast.bodies.size() + 1);
         for (std::size_t i = 0; i < abreast.bodies.size(); ++i) {
             bodies[i] = {abreast.bodies[i].velocity, abreast.bodies[i].spin};
@@ -480,12 +487,41 @@ TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
         // Friction sees the normal impulse in another order of operations: rounding, not more.
         for (std::size_t r = 0; r < plain.rows.size(); ++r) {
             EXPECT_NEAR((plain.rows[r].impulse - abreast.rows[r].impulse).norm(), 0.0, 1e-11);
+            EXPECT_NEAR((plain.rows[r].couple - abreast.rows[r].couple).norm(), 0.0, 1e-11);
+            resisted += !plain.rows[r].couple.isZero(1e-3);
         }
         for (std::size_t i = 0; i < plain.bodies.size(); ++i) {
             EXPECT_NEAR((plain.bodies[i].velocity - abreast.bodies[i].velocity).norm(), 0.0, 1e-11);
             EXPECT_NEAR((plain.bodies[i].spin - abreast.bodies[i].spin).norm(), 0.0, 1e-11);
         }
+        // What was found is taken up again where the next step begins.
+        for (LaneBody& body : bodies) body = {};
+        lanes.build(abreast, abreast.islands[0], bodies);
+        lanes.begin();
+        for (GapBody& body : plain.bodies) body.velocity = body.spin = Vec3::Zero();
+        for (const GapRow& row : abreast.rows) {
+            GapBody &a = plain.bodies[row.a], &b = plain.bodies[row.b];
+            if (row.movesA) applyTo(a, row.rA, row.worldImpulse());
+            if (row.movesA) applyCoupleTo(a, row.couple);
+            if (row.movesB) applyTo(b, row.rB, -row.worldImpulse());
+            if (row.movesB) applyCoupleTo(b, -row.couple);
+        }
+        for (std::size_t i = 0; i < plain.bodies.size(); ++i) {
+            EXPECT_NEAR((plain.bodies[i].velocity - bodies[i].velocity).norm(), 0.0, 1e-11);
+            EXPECT_NEAR((plain.bodies[i].spin - bodies[i].spin).norm(), 0.0, 1e-11);
+        }
     }
+    EXPECT_EQ(resisted > 100, rolling) << resisted;
+}
+
+TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
+{
+    expectRowsAbreastAreRowsOneByOne(false);
+}
+
+TEST(GapLanes, RowsAbreastThatResistRollingAreRowsVisitedOneByOneToo)
+{
+    expectRowsAbreastAreRowsOneByOne(true);
 }
 
 }  // namespace
