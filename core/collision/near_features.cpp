@@ -41,9 +41,7 @@ double apartAtLeast(const DistanceLanes& field, const std::vector<SphereLanes>& 
 {
     FloatLanes atLeast = floatLanesOf(std::numeric_limits<float>::infinity());
     for (const SphereLanes& spheres : cover) atLeast = minOf(atLeast, field.apartAtLeast(spheres));
-    float least = atLeast[0];
-    for (int lane = 1; lane < kFloatLanes; ++lane) least = std::min(least, atLeast[lane]);
-    return least;
+    return leastOf(atLeast);
 }
 
 /// The second shape asked about features of the first.
@@ -100,6 +98,22 @@ double countedOfWay(const RelativePair& pair)
     return std::min(1.0, pair.second.boundingRadius / lever);
 }
 
+/// In single precision, and then some: what is remembered must not be more than was seen.
+float roundedDown(double x)
+{
+    return static_cast<float>(x - kSinglePrecision * std::abs(x));
+}
+double roundedUp(double x)
+{
+    return x + kSinglePrecision * std::abs(x);
+}
+
+void fetchLines(const void* begin, const void* end)
+{
+    constexpr std::ptrdiff_t kLine = 64;
+    for (auto p = static_cast<const char*>(begin); p < end; p += kLine) __builtin_prefetch(p);
+}
+
 }  // namespace
 
 double apartAtLeast(const PlacedPair& bodies)
@@ -120,34 +134,41 @@ void NearFeatures::moveTo(const RelativePair& pair)
 {
     // The norm of what two rotations differ by is √2 times the chord of a point at unit distance.
     const double chord = (pair.rotation - rotation_).norm() / std::numbers::sqrt2;
-    way_ += (pair.translation - translation_).norm() + chord * leverOf(pair);
+    moved_ += (pair.translation - translation_).norm() + chord * leverOf(pair);
     rotation_ = pair.rotation;
     translation_ = pair.translation;
 }
 
 bool NearFeatures::isStale(double reach) const
 {
-    const double moved = way_ - lookedAt_;
-    return !isKnown_ || moved > window_ || reach + moved > clearance_;
+    return !isKnown_ || moved_ > window_ || reach + moved_ > clearance_;
 }
 
-void NearFeatures::lookAtCorners(const RelativePair& pair, double clearance,
-                                 std::vector<NearCorner>& near) const
+void NearFeatures::lookAtCorners(const RelativePair& pair, std::vector<NearCorners>& near) const
 {
+    thread_local std::vector<NearCorners> found;
+    found.clear();
     const ContactFeatures& features = pair.first.features;
     const DistanceLanes field = fieldOfSecond(pair);
+    const FloatLanes clearance = floatLanesOf(clearance_);
     FloatLanes atLeast;
+    std::size_t count = 0;
     features.cornerTree().visit(
         [&](const SphereLanes& spheres) {
             atLeast = field.apartAtLeast(spheres);
-            return bitsOf(atLeast < floatLanesOf(clearance));
+            return bitsOf(atLeast < clearance);
         },
         [&](std::uint32_t i, int lane) {
-            near.push_back({way_ + atLeast[lane], features.corners()[i]});
+            const std::size_t free = count++ % kFloatLanes;
+            if (free == 0) found.emplace_back();
+            found.back().farUntil[free] = atLeast[lane];
+            found.back().corner[free] = features.corners()[i];
         });
+    near.assign(found.begin(), found.end());
 }
 
-void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach)
+void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach,
+                               std::vector<NearEdges>& found) const
 {
     const ContactFeatures &first = pair.first.features, &second = pair.second.features;
     if (first.edges().empty() || second.edges().empty()) return;
@@ -164,6 +185,7 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     const double farthest = std::max(reach, deepestEdges(pair)) + window_ + rounding;
     const double turn = window_ / leverOf(pair) + kSinglePrecision;
     for (FacingLanes& eight : eightsOfA) eight = eight.placed(pair.rotation, pair.translation);
+    std::size_t count = 0;
     for (std::size_t a = 0; a < nearA.size(); ++a) {
         const FacingLanes edge = eightsOfA[a / kFloatLanes].all(static_cast<int>(a % kFloatLanes));
         for (std::size_t eight = 0; eight < eightsOfB.size(); ++eight) {
@@ -172,19 +194,25 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
                 const std::size_t b =
                     kFloatLanes * eight + static_cast<std::size_t>(std::countr_zero(bits));
                 if (b >= nearB.size()) break;
-                edges_.push_back({way_, way_, nearA[a], nearB[b]});
+                const std::size_t free = count++ % kFloatLanes;
+                if (free == 0) found.emplace_back();
+                found.back().farUntil[free] = 0.0f;
+                found.back().outsideUntil[free] = 0.0f;
+                found.back().ofA[free] = nearA[a];
+                found.back().ofB[free] = nearB[b];
             }
         }
     }
 }
 
-void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back, double reach)
+void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back, double reach,
+                             std::vector<NearEdges>& found)
 {
     isKnown_ = true;
     cornersOfA_.clear();
     cornersOfB_.clear();
     edges_.clear();
-    lookedAt_ = way_;
+    moved_ = 0.0;
 
     // Most pairs whose boxes meet are far apart: a few spheres say how far.
     clearance_ = apartAtLeast(pair, back);
@@ -195,15 +223,37 @@ void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back,
         return;
     }
     clearance_ = reach + window_;
-    lookAtCorners(pair, clearance_, cornersOfA_);
-    lookAtCorners(back, clearance_, cornersOfB_);
-    lookAtEdges(pair, back, reach);
+    lookAtCorners(pair, cornersOfA_);
+    lookAtCorners(back, cornersOfB_);
+    lookAtEdges(pair, back, reach, found);
+}
+
+void NearFeatures::faceCorners(const RelativePair& pair, FeatureKind kind, const ToWorld& toWorld,
+                               double reach, std::vector<NearCorners>& near,
+                               ContactList& list) const
+{
+    const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
+    const FloatLanes needed = floatLanesOf(roundedUp(reach + moved_));
+    for (NearCorners& eight : near) {
+        for (unsigned bits = bitsOf(eight.farUntil < needed); bits; bits &= bits - 1) {
+            const int lane = std::countr_zero(bits);
+            const std::int32_t corner = eight.corner[lane];
+            const FacedCorner faced = faceCorner(pair, corner, reach, sharpness);
+            eight.farUntil[lane] = roundedDown(moved_ + faced.apart);
+            if (faced.contact) {
+                list.add(pair, {Part::corner, corner}, {Part::face}, toWorld,
+                         featureId(kind, corner), *faced.contact);
+            } else if (faced.unsupported) {
+                list.addUnsupported(toWorld(featureId(kind, corner), *faced.unsupported));
+            }
+        }
+    }
 }
 
 void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
-                              ContactList& list)
+                              std::vector<NearEdges>& near, ContactList& list) const
 {
-    if (edges_.empty()) return;
+    if (near.empty()) return;
     const double deepest = deepestEdges(pair);
     const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
     const std::vector<ConvexEdge>& first = pair.first.features.edges();
@@ -217,7 +267,7 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
     std::size_t last = 0;
     std::array<const Placed*, kLanes> ofFirst;
     std::array<const ConvexEdge*, kLanes> ofSecond;
-    std::array<NearEdges*, kLanes> four;
+    std::array<std::pair<NearEdges*, int>, kLanes> four;
     std::size_t filled = 0;
     const auto flush = [&] {
         for (std::size_t idle = filled; idle < kLanes; ++idle) {
@@ -226,36 +276,66 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
         }
         const EdgeGaps gaps = edgeGaps(SegmentLanes(ofFirst), EdgeLanes(ofSecond), deepest, reach);
         const unsigned mayTouch = bitsOf(gaps.mayTouch);
-        for (std::size_t lane = 0; lane < filled; ++lane) {
-            NearEdges& edges = *four[lane];
-            edges.farUntil = way_ + gaps.distance[lane];
-            edges.outsideUntil = way_ + gaps.outside[lane];
-            if (!(mayTouch >> lane & 1u)) continue;
-            const auto contact = faceEdges(pair, edges.ofA, edges.ofB, reach, sharpness);
+        for (std::size_t i = 0; i < filled; ++i) {
+            const auto [eight, lane] = four[i];
+            eight->farUntil[lane] = roundedDown(moved_ + gaps.distance[i]);
+            eight->outsideUntil[lane] = roundedDown(moved_ + gaps.outside[i]);
+            if (!(mayTouch >> i & 1u)) continue;
+            const std::int32_t ofA = eight->ofA[lane], ofB = eight->ofB[lane];
+            const auto contact = faceEdges(pair, ofA, ofB, reach, sharpness);
             if (!contact) continue;
-            list.add(pair, {Part::edge, edges.ofA}, {Part::edge, edges.ofB}, toWorld,
-                     featureId(FeatureKind::edges, edges.ofA, edges.ofB), *contact);
+            list.add(pair, {Part::edge, ofA}, {Part::edge, ofB}, toWorld,
+                     featureId(FeatureKind::edges, ofA, ofB), *contact);
         }
         filled = 0;
     };
-    for (NearEdges& edges : edges_) {
-        if (edges.farUntil - way_ >= reach && edges.outsideUntil > way_) continue;
-        if (edges.ofA != placed[last].edge) {
-            last = (last + 1) % kLanes;
-            const ConvexEdge& edge = first[edges.ofA];
-            placed[last] = {edges.ofA, pair * edge.start, pair.rotation * edge.direction,
-                            edge.length};
+    const FloatLanes needed = floatLanesOf(roundedUp(reach + moved_));
+    const FloatLanes moved = floatLanesOf(roundedUp(moved_));
+    for (NearEdges& eight : near) {
+        unsigned bits = bitsOf((eight.farUntil < needed) | (eight.outsideUntil <= moved));
+        for (; bits; bits &= bits - 1) {
+            const int lane = std::countr_zero(bits);
+            const std::int32_t ofA = eight.ofA[lane];
+            if (ofA != placed[last].edge) {
+                last = (last + 1) % kLanes;
+                const ConvexEdge& edge = first[ofA];
+                placed[last] = {ofA, pair * edge.start, pair.rotation * edge.direction,
+                                edge.length};
+            }
+            ofFirst[filled] = &placed[last];
+            ofSecond[filled] = &second[eight.ofB[lane]];
+            four[filled++] = {&eight, lane};
+            if (filled == kLanes) flush();
         }
-        ofFirst[filled] = &placed[last];
-        ofSecond[filled] = &second[edges.ofB];
-        four[filled++] = &edges;
-        if (filled == kLanes) flush();
     }
     if (filled > 0) flush();
 }
 
-void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
-                                std::vector<GapContact>& contacts, double odometer)
+/// Of the pairs of edges found those that may matter before the next look.
+void NearFeatures::keep(const std::vector<NearEdges>& found, double reach)
+{
+    thread_local std::vector<NearEdges> kept;
+    kept.clear();
+    const FloatLanes needed = floatLanesOf(roundedUp(reach + window_));
+    const FloatLanes window = floatLanesOf(roundedUp(window_));
+    std::size_t count = 0;
+    for (const NearEdges& eight : found) {
+        unsigned bits = bitsOf((eight.farUntil < needed) | (eight.outsideUntil <= window));
+        for (; bits; bits &= bits - 1) {
+            const int lane = std::countr_zero(bits);
+            const std::size_t free = count++ % kFloatLanes;
+            if (free == 0) kept.emplace_back();
+            kept.back().farUntil[free] = eight.farUntil[lane];
+            kept.back().outsideUntil[free] = eight.outsideUntil[lane];
+            kept.back().ofA[free] = eight.ofA[lane];
+            kept.back().ofB[free] = eight.ofB[lane];
+        }
+    }
+    edges_.assign(kept.begin(), kept.end());
+}
+
+double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
+                                  std::vector<GapContact>& contacts)
 {
     const Shape &shapeA = *bodies.shapeA, &shapeB = *bodies.shapeB;
     const Mat3 worldFromA = bodies.worldFromA.orientation.toRotationMatrix();
@@ -281,52 +361,45 @@ void NearFeatures::findContacts(const PlacedPair& bodies, double reach,
             list.add(way, {Part::ball}, {Part::face}, isA ? ofA : ofB, feature, ball.contact);
         }
         list.finish();
-        return;
+        return 0.0;
     }
 
     moveTo(pair);
+    thread_local std::vector<NearEdges> found;
+    found.clear();
     const bool isNew = isStale(reach);
-    if (isNew) lookAgain(pair, back, reach);
-
-    const double sharpness = kSharpness * smaller;
-    double farUntil = lookedAt_ + std::min(clearance_, window_);  // of all features
-    const auto faceCorners = [&](const RelativePair& way, std::vector<NearCorner>& near,
-                                 FeatureKind kind, const ToWorld& toWorld) {
-        for (NearCorner& candidate : near) {
-            if (candidate.farUntil - way_ < reach) {
-                const std::uint64_t feature = featureId(kind, candidate.corner);
-                const FacedCorner faced = faceCorner(way, candidate.corner, reach, sharpness);
-                candidate.farUntil = way_ + faced.apart;
-                if (faced.contact) {
-                    list.add(way, {Part::corner, candidate.corner}, {Part::face}, toWorld, feature,
-                             *faced.contact);
-                } else if (faced.unsupported) {
-                    list.addUnsupported(toWorld(feature, *faced.unsupported));
-                }
-            }
-            farUntil = std::min(farUntil, candidate.farUntil);
-        }
-    };
-    faceCorners(pair, cornersOfA_, FeatureKind::cornerOfA, ofA);
-    faceCorners(back, cornersOfB_, FeatureKind::cornerOfB, ofB);
-    touchEdges(pair, ofA, reach, list);
-    if (isNew) {
-        const double end = lookedAt_ + window_;
-        std::erase_if(edges_, [&](const NearEdges& edges) {
-            return edges.farUntil - end >= reach && edges.outsideUntil > end;
-        });
-    }
-    double outsideUntil = std::numeric_limits<double>::infinity();
-    for (const NearEdges& candidate : edges_) {
-        farUntil = std::min(farUntil, candidate.farUntil);
-        outsideUntil = std::min(outsideUntil, candidate.outsideUntil);
-    }
-    farUntil = std::min(farUntil, way_ + (outsideUntil - way_) * countedOfWay(pair));
+    if (isNew) lookAgain(pair, back, reach, found);
+    faceCorners(pair, FeatureKind::cornerOfA, ofA, reach, cornersOfA_, list);
+    faceCorners(back, FeatureKind::cornerOfB, ofB, reach, cornersOfB_, list);
+    touchEdges(pair, ofA, reach, isNew ? found : edges_, list);
+    if (isNew) keep(found, reach);
     list.finish();
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? worldFromA : worldFromB, smaller);
-    apart_ = farUntil - way_ - bulge;
-    odometerThen_ = odometer;
+
+    FloatLanes farUntil = kNever, outsideUntil = kNever;
+    for (const std::vector<NearCorners>* near : {&cornersOfA_, &cornersOfB_}) {
+        for (const NearCorners& eight : *near) farUntil = minOf(farUntil, eight.farUntil);
+    }
+    for (const NearEdges& eight : edges_) {
+        farUntil = minOf(farUntil, eight.farUntil);
+        outsideUntil = minOf(outsideUntil, eight.outsideUntil);
+    }
+    const double far = std::min({clearance_, window_, double{leastOf(farUntil)}}) - moved_;
+    const double outside = (leastOf(outsideUntil) - moved_) * countedOfWay(pair);
+    return std::min(far, outside) - bulge;
+}
+
+void NearFeatures::prefetch() const
+{
+    fetchLines(this, this + 1);
+}
+
+void NearFeatures::prefetchLists() const
+{
+    fetchLines(cornersOfA_.data(), cornersOfA_.data() + cornersOfA_.size());
+    fetchLines(cornersOfB_.data(), cornersOfB_.data() + cornersOfB_.size());
+    fetchLines(edges_.data(), edges_.data() + edges_.size());
 }
 
 }  // namespace scree

@@ -9,7 +9,9 @@
 // of the poses, so that one detection serves a whole step.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/collision/feature_contacts.h"
@@ -31,6 +33,7 @@ struct GapContact {
 double apartAtLeast(const PlacedPair& bodies);
 
 class ContactList;
+enum class FeatureKind : std::uint64_t;
 struct ToWorld;
 
 /// The features of a pair that may come within reach, remembered while the pair moves little. The
@@ -38,50 +41,55 @@ struct ToWorld;
 ///
 /// Distances change no faster than points move. So for every feature there is a place on the way of
 /// the pair (how far any point has moved in the frame of the other body, added up) before which it
-/// need not be looked at; and for most pairs one for all of them. `odometer` is a bound of that
-/// way that costs nothing: what the two bodies have moved in the world, added up [m].
-class NearFeatures {
+/// need not be looked at; and for most pairs one for all of them.
+class alignas(64) NearFeatures {
 public:
-    /// Whether nothing can be within reach; may say no too often.
-    bool isApart(double reach, double odometer) const
-    {
-        return reach + (odometer - odometerThen_) < apart_;
-    }
+    /// Appends all contacts with gaps below `reach` [m], in an order of the shapes. Answers how far
+    /// apart the bodies are at least: once the points of both have moved in the world by at most m,
+    /// added up, there is no contact with a gap below that less m [m].
+    double findContacts(const PlacedPair& pair, double reach, std::vector<GapContact>& contacts);
 
-    /// Appends all contacts with gaps below `reach` [m], in an order of the shapes.
-    void findContacts(const PlacedPair& pair, double reach, std::vector<GapContact>& contacts,
-                      double odometer = 0.0);
+    /// Memories lie scattered: what is asked soon can be fetched beforehand, first what it is, then
+    /// what it lists.
+    void prefetch() const;
+    void prefetchLists() const;
 
 private:
-    struct NearCorner {
-        double farUntil;  // its distance plus the way, when last looked at [m]
-        std::int32_t corner;
-    };
-    struct NearEdges {
-        double farUntil;
-        double outsideUntil;  // place on the way until which they cannot have crossed [m]
-        std::int32_t ofA, ofB;
-    };
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    static constexpr FloatLanes kNever = {kInfinity, kInfinity, kInfinity, kInfinity,
+                                          kInfinity, kInfinity, kInfinity, kInfinity};
 
+    /// What is told eight at a time, in single precision, on the way since the last look [m]. Lanes
+    /// that are left over are infinitely far.
+    struct alignas(64) NearCorners {
+        FloatLanes farUntil = kNever;  // how far they were when last looked at
+        std::array<std::int32_t, kFloatLanes> corner = {};
+    };
+    struct alignas(64) NearEdges {
+        FloatLanes farUntil = kNever;
+        FloatLanes outsideUntil = kNever;  // the way until which they cannot have crossed
+        std::array<std::int32_t, kFloatLanes> ofA = {}, ofB = {};
+    };
     void moveTo(const RelativePair& pair);
     bool isStale(double reach) const;
-    void lookAgain(const RelativePair& pair, const RelativePair& back, double reach);
-    void lookAtCorners(const RelativePair& pair, double clearance,
-                       std::vector<NearCorner>& near) const;
-    void lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach);
+    void lookAgain(const RelativePair& pair, const RelativePair& back, double reach,
+                   std::vector<NearEdges>& found);
+    void lookAtCorners(const RelativePair& pair, std::vector<NearCorners>& near) const;
+    void lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach,
+                     std::vector<NearEdges>& found) const;
+    void faceCorners(const RelativePair& pair, FeatureKind kind, const ToWorld& toWorld,
+                     double reach, std::vector<NearCorners>& near, ContactList& list) const;
     void touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
-                    ContactList& list);
+                    std::vector<NearEdges>& near, ContactList& list) const;
+    void keep(const std::vector<NearEdges>& found, double reach);
 
     bool isKnown_ = false;
-    double apart_ = 0.0;  // distance of the bodies at odometerThen_; 0 if not known to be [m]
-    double odometerThen_ = 0.0;         // [m]
-    double way_ = 0.0;                  // [m]
-    double lookedAt_ = 0.0;             // place on the way of the last look [m]
-    double window_ = 0.0;               // the way for which that is good [m]
+    double moved_ = 0.0;                // the way since the last look [m]
+    double window_ = 0.0;               // for which that is good [m]
     double clearance_ = 0.0;            // everything nearer was noted then [m]
     Mat3 rotation_ = Mat3::Identity();  // B from A, when last moved to
     Vec3 translation_ = Vec3::Zero();
-    std::vector<NearCorner> cornersOfA_, cornersOfB_;
+    std::vector<NearCorners> cornersOfA_, cornersOfB_;
     std::vector<NearEdges> edges_;
 };
 

@@ -242,9 +242,7 @@ private:
     double look(NearPair& pair, double reach)
     {
         contacts_.clear();
-        // Bodies have moved since their ways were measured: nothing follows from them.
-        pair.near->findContacts(placePair(world_, pair.bodies), reach, contacts_,
-                                -std::numeric_limits<double>::infinity());
+        pair.near->findContacts(placePair(world_, pair.bodies), reach, contacts_);
         return deepestOf(contacts_);
     }
 

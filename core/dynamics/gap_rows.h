@@ -71,6 +71,7 @@ struct NearPair {
     std::unique_ptr<NearFeatures> near = std::make_unique<NearFeatures>();
     std::vector<GapContact> contacts;
     double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
+    double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
     double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
 };
 

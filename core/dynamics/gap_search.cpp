@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/integrator.h"
@@ -142,22 +143,47 @@ void findGapPairs(const World& world, double dt, GapScratch& scratch)
     }
 }
 
-/// A step that is solved again asks again, most of it the same.
-void findContacts(const World& world, double dt, bool isAgain, const GapScratch& scratch,
-                  NearPair& pair)
+double odometerOf(const GapScratch& scratch, BodyPair bodies)
 {
-    const auto [a, b] = pair.bodies;
-    const double reach =
-        reachOf(world, scratch, pair.bodies, scratch.paces[a], scratch.paces[b], dt);
-    const double odometer = scratch.odometer[a] + scratch.odometer[b];
-    const bool hasMoved = !isAgain && (scratch.hasMoved[a] || scratch.hasMoved[b]);
-    if (hasMoved || reach != pair.foundWithin) {
+    return scratch.odometer[bodies.a] + scratch.odometer[bodies.b];
+}
+
+/// What is asked of a pair.
+struct Question {
+    NearPair* pair;
+    double reach;
+};
+
+/// Notes the pairs whose contacts are not what they were. A step that is solved again asks again,
+/// most of it the same.
+void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scratch,
+              std::span<NearPair> pairs, std::vector<Question>& questions)
+{
+    for (NearPair& pair : pairs) {
+        const auto [a, b] = pair.bodies;
+        const double reach =
+            reachOf(world, scratch, pair.bodies, scratch.paces[a], scratch.paces[b], dt);
+        const bool hasMoved = !isAgain && (scratch.hasMoved[a] || scratch.hasMoved[b]);
+        if (!hasMoved && reach == pair.foundWithin) continue;
         pair.contacts.clear();
         pair.foundWithin = reach;
-        if (!pair.near->isApart(reach, odometer))
-            pair.near->findContacts(placePair(world, pair.bodies), reach, pair.contacts, odometer);
+        pair.depth = 0.0;
+        if (reach + odometerOf(scratch, pair.bodies) >= pair.farUntil)
+            questions.push_back({&pair, reach});
     }
-    pair.depth = deepestOf(pair.contacts);
+}
+
+void answer(const World& world, const GapScratch& scratch, std::span<const Question> questions)
+{
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        if (i + 2 < questions.size()) questions[i + 2].pair->near->prefetch();
+        if (i + 1 < questions.size()) questions[i + 1].pair->near->prefetchLists();
+        auto& [pair, reach] = questions[i];
+        pair->farUntil =
+            odometerOf(scratch, pair->bodies) +
+            pair->near->findContacts(placePair(world, pair->bodies), reach, pair->contacts);
+        pair->depth = deepestOf(pair->contacts);
+    }
 }
 
 /// As solved, do the bodies run visibly into each other where they were not looked at?
@@ -172,10 +198,9 @@ bool runsIntoUnseen(const World& world, double dt, const GapScratch& scratch, Bo
     const auto [a, b] = bodies;
     const double reach = reachOf(world, scratch, bodies, paceOf(world, scratch, a, dt),
                                  paceOf(world, scratch, b, dt), dt);
-    const double odometer = scratch.odometer[a] + scratch.odometer[b];
-    if (near.isApart(reach, odometer)) return false;
+    if (isKnown && reach + odometerOf(scratch, bodies) < known->farUntil) return false;
     std::vector<GapContact> contacts;
-    near.findContacts(placePair(world, bodies), reach, contacts, odometer);
+    near.findContacts(placePair(world, bodies), reach, contacts);
     const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
     return std::any_of(contacts.begin(), contacts.end(), [&](const GapContact& contact) {
         if (isKnown && contact.gap < known->foundWithin) return false;
@@ -202,8 +227,11 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
         readBodies(world, scratch);
         findGapPairs(world, dt, scratch);
         parallelFor(scratch.nearPairs.size(), 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                findContacts(world, dt, isAgain, scratch, scratch.nearPairs[i]);
+            thread_local std::vector<Question> questions;
+            questions.clear();
+            askPairs(world, dt, isAgain, scratch,
+                     std::span(scratch.nearPairs).subspan(begin, end - begin), questions);
+            answer(world, scratch, questions);
         });
         isAgain = true;
     } while (wakeByTouch(world, dt, scratch));

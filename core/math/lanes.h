@@ -94,6 +94,12 @@ inline double largestOf(Lanes a)
     const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
     return low > high ? low : high;
 }
+inline float leastOf(FloatLanes a)
+{
+    float least = a[0];
+    for (int lane = 1; lane < kFloatLanes; ++lane) least = a[lane] < least ? a[lane] : least;
+    return least;
+}
 /// values[index], lane by lane.
 inline FloatLanes gathered(const float* values, IntLanes index)
 {

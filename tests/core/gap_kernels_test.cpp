@@ -32,14 +32,14 @@ bool sameContacts(const std::vector<GapContact>& p, const std::vector<GapContact
 /// A pair that remembers, asked the same as one that sees it for the first time.
 struct Asked {
     NearFeatures remembering;
-    double odometer = 0.0;
+    double odometer = 0.0, farUntil = 0.0;
     std::size_t contacts = 0, skipped = 0;
 
     bool answersAsFresh(const PlacedPair& placed, double reach)
     {
         std::vector<GapContact> remembered, fresh;
-        const bool isApart = remembering.isApart(reach, odometer);
-        if (!isApart) remembering.findContacts(placed, reach, remembered, odometer);
+        const bool isApart = reach + odometer < farUntil;
+        if (!isApart) farUntil = odometer + remembering.findContacts(placed, reach, remembered);
         NearFeatures().findContacts(placed, reach, fresh);
         contacts += fresh.size();
         skipped += isApart;
