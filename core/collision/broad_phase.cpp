@@ -68,7 +68,8 @@ void mergeTail(std::vector<Item>& items, std::size_t middle)
 
 const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxes,
                                                    const std::vector<BodyMass>& mass,
-                                                   const Filter& counts)
+                                                   const Filter& counts,
+                                                   std::span<const char> isAsked)
 {
     if (findMoved(boxes, mass)) {
         forgetMoved();
@@ -77,9 +78,11 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
     }
     isPair_.resize(meetings_.size());
     parallelFor(meetings_.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            isPair_[i] =
-                boxes[meetings_[i].a].overlaps(boxes[meetings_[i].b]) && counts(meetings_[i]);
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [a, b] = meetings_[i];
+            isPair_[i] = (isAsked.empty() || isAsked[a] || isAsked[b]) &&
+                         boxes[a].overlaps(boxes[b]) && counts(meetings_[i]);
+        }
     });
     // Which of them do cannot be guessed: no branch.
     pairs_.resize(meetings_.size());

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/math/aabb.h"
@@ -29,9 +30,11 @@ public:
     using Filter = std::function<bool(BodyPair)>;
 
     /// All pairs that count whose boxes overlap and of which at least one body is movable, sorted,
-    /// each once. The result stays valid until the next call.
+    /// each once; with `isAsked`, per body, only those of which one is. The result stays valid
+    /// until the next call.
     const std::vector<BodyPair>& findPairs(const std::vector<Aabb>& boxes,
-                                           const std::vector<BodyMass>& mass, const Filter& counts);
+                                           const std::vector<BodyMass>& mass, const Filter& counts,
+                                           std::span<const char> isAsked = {});
 
 private:
     struct Entry {

@@ -146,41 +146,44 @@ int mostSweeps(const StepSettings& settings, const GapIsland& island)
 
 double visitRow(GapRow& row, GapBody& a, GapBody& b)
 {
-    const double un = velocityAt(row, a, b).dot(row.normal);
-    const double before = row.impulse.x();
-    const double normal = std::max(0.0, before - (un - row.target) / row.inverseNormalMass);
-    double changed = 0.0;
-    if (normal != before) {
-        row.impulse.x() = normal;
-        changed = std::abs(normal - before) * row.inverseNormalMass;
-        applyRow(row, a, b, (normal - before) * row.normal);
-    }
-    if (row.resistsSpin()) changed = std::max(changed, resistSpin(row, a, b));
-    if (normal == 0.0 && row.impulse.y() == 0.0 && row.impulse.z() == 0.0) return changed;
+    Vec3 u = velocityAt(row, a, b);
+    const Vec3 before = row.impulse;
+    const double missing = (u.dot(row.normal) - row.target) / row.inverseNormalMass;
+    const double normal = std::max(0.0, before.x() - missing), pushed = normal - before.x();
+    if (normal == 0.0 && before.isZero(0.0) && !row.resistsSpin()) return 0.0;
 
-    const Vec3 u = velocityAt(row, a, b);
     const Vec3 s = row.secondTangent();
-    const double ut = u.dot(row.tangent), us = u.dot(s);
+    double changed = std::abs(pushed) * row.inverseNormalMass, ut, us;
+    row.impulse.x() = normal;
+    if (row.resistsSpin()) {
+        applyRow(row, a, b, pushed * row.normal);
+        changed = std::max(changed, resistSpin(row, a, b));
+        u = velocityAt(row, a, b);
+        ut = u.dot(row.tangent);
+        us = u.dot(s);
+    } else {
+        ut = u.dot(row.tangent) + pushed * row.normalIntoFriction[0];
+        us = u.dot(s) + pushed * row.normalIntoFriction[1];
+    }
     const double* k = row.frictionMass;
-    double t1 = row.impulse.y() - (k[0] * ut + k[1] * us);
-    double t2 = row.impulse.z() - (k[1] * ut + k[2] * us);
+    double t1 = before.y() - (k[0] * ut + k[1] * us);
+    double t2 = before.z() - (k[1] * ut + k[2] * us);
     const double limit = row.friction * normal;
     if (t1 * t1 + t2 * t2 > limit * limit) {
         // Projecting the sticking impulse would turn friction away from the sliding direction.
-        t1 = row.impulse.y() - row.slideMass * ut;
-        t2 = row.impulse.z() - row.slideMass * us;
+        t1 = before.y() - row.slideMass * ut;
+        t2 = before.z() - row.slideMass * us;
         const double length = std::sqrt(t1 * t1 + t2 * t2);
         if (length > limit) {
             t1 *= limit / length;
             t2 *= limit / length;
         }
     }
-    const double d1 = t1 - row.impulse.y(), d2 = t2 - row.impulse.z();
-    row.impulse.y() = t1;
-    row.impulse.z() = t2;
-    applyRow(row, a, b, d1 * row.tangent + d2 * s);
-    changed = std::max(changed, std::max(std::abs(d1), std::abs(d2)) / row.slideMass);
-    return changed;
+    row.impulse = {normal, t1, t2};
+    const double d1 = t1 - before.y(), d2 = t2 - before.z();
+    const double pushedYet = row.resistsSpin() ? 0.0 : pushed;
+    applyRow(row, a, b, pushedYet * row.normal + d1 * row.tangent + d2 * s);
+    return std::max(changed, std::max(std::abs(d1), std::abs(d2)) / row.slideMass);
 }
 
 void addForcesToGaps(double dt, GapScratch& scratch)

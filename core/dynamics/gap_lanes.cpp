@@ -190,7 +190,7 @@ void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t
 void GapLanes::fill(const GapScratch& scratch, Batch& batch)
 {
     for (std::size_t r = batch.begin; r < batch.end; ++r) {
-        rows_[r] = Row{};
+        if (batch.lanesUsed < kLanes) rows_[r] = Row{};
         if (resistsRolling()) rolls_[r] = Roll{};
     }
     for (int lane = 0; lane < batch.lanesUsed; ++lane) fillLane(scratch, batch, lane);

@@ -169,6 +169,7 @@ private:
     void findDeepPairs()
     {
         for (const GapPair& pair : scratch_.pairs) {
+            if (!isDeep(pair.bodies, scratch_.nearPairs[pair.near].depth)) continue;
             double deepest = 0.0;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapRow& row = scratch_.rows[r];

@@ -8,6 +8,7 @@
 #include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/rolling_friction.h"
 #include "core/geometry/surface_curvature.h"
+#include "core/math/lanes.h"
 
 namespace scree {
 namespace {
@@ -20,6 +21,14 @@ Vec3 anyTangent(const Vec3& normal)
 {
     const Vec3 aside = std::abs(normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
     return normal.cross(aside).normalized();
+}
+
+/// The second axis in the place of the first, the third in that of the second, the first in that
+/// of the third.
+Lanes3 shifted(const Lanes3& axes)
+{
+    const auto shift = [](Lanes x) { return Lanes{x[1], x[2], x[0], x[3]}; };
+    return {shift(axes.x), shift(axes.y), shift(axes.z)};
 }
 
 /// Of a symmetric 2×2 matrix.
@@ -185,22 +194,22 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
     row.movesB = b.inverseMass > 0.0 && !row.isHeldB;
     row.tangent = anyTangent(row.normal);
 
-    // The response in the axes of the row, normal first.
-    Mat3 axes;
-    axes << row.normal, row.tangent, row.secondTangent();
-    Mat3 k = Mat3::Zero();
+    // The response in the axes of the row, a lane each: normal, tangent, second. What one turns
+    // into itself, and what into the next.
+    const Lanes3 axes = lanesOf(row.normal, row.tangent, row.secondTangent(), Vec3::Zero());
+    Lanes own = kNoLanes, next = kNoLanes;
     const auto addBody = [&](const GapBody& body, const Vec3& r) {
-        Mat3 arms;
-        for (int axis = 0; axis < 3; ++axis) arms.col(axis) = r.cross(axes.col(axis));
-        k.diagonal().array() += body.inverseMass;
-        k += arms.transpose() * (body.inverseInertia * arms);
+        const Lanes3 arms = cross(Lanes3::all(r), axes);
+        const Lanes3 turned = SymmetricLanes::all(body.inverseInertia) * arms;
+        own += body.inverseMass + dot(arms, turned);
+        next += dot(shifted(arms), turned);
     };
     if (row.movesA) addBody(a, row.rA);
     if (row.movesB) addBody(b, row.rB);
-    row.inverseNormalMass = k(0, 0);
-    row.normalIntoFriction[0] = k(1, 0);
-    row.normalIntoFriction[1] = k(2, 0);
-    const double tt = k(1, 1), ts = k(1, 2), ss = k(2, 2);
+    const double tt = own[1], ss = own[2], ts = next[1];
+    row.inverseNormalMass = own[0];
+    row.normalIntoFriction[0] = next[0];
+    row.normalIntoFriction[1] = next[2];
     const double determinant = tt * ss - ts * ts;
     row.frictionMass[0] = ss / determinant;
     row.frictionMass[1] = -ts / determinant;

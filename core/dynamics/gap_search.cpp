@@ -240,8 +240,9 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
 bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
 {
     std::vector<double> gain(world.bodyCount(), 0.0);
+    std::vector<char> isFaster(world.bodyCount(), 0);
     std::vector<Aabb> boxes = scratch.boxes;
-    bool isFaster = false;
+    bool isAnyFaster = false;
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) continue;
@@ -250,27 +251,26 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
         if (dt * faster <= kVisible * world.shapeOf(body).boundingRadius) continue;
         gain[i] = scratch.gain[i] + faster;
         boxes[i] = boxes[i].grown(dt * faster);
-        isFaster = true;
+        isFaster[i] = isAnyFaster = true;
     }
-    if (!isFaster) return false;
+    if (!isAnyFaster) return false;
 
-    const std::vector<BodyPair>& pairs =
-        scratch.broadPhase.findPairs(boxes, world.mass, [&](BodyPair pair) {
-            return (gain[pair.a] > 0.0 || gain[pair.b] > 0.0) && isMovedPair(world, scratch, pair);
-        });
+    const std::vector<BodyPair>& pairs = scratch.broadPhase.findPairs(
+        boxes, world.mass, [&](BodyPair pair) { return isMovedPair(world, scratch, pair); },
+        isFaster);
     std::vector<char> isMet(pairs.size(), 0);
     parallelFor(pairs.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             isMet[i] = runsIntoUnseen(world, dt, scratch, pairs[i]);
     });
-    bool isAny = false;
+    bool isAnyMet = false;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (!isMet[i]) continue;
-        isAny = true;
+        isAnyMet = true;
         for (const BodyId body : {pairs[i].a, pairs[i].b})
             scratch.gain[body] = std::max(scratch.gain[body], gain[body]);
     }
-    return isAny;
+    return isAnyMet;
 }
 
 }  // namespace scree

@@ -211,6 +211,11 @@ private:
 struct SymmetricLanes {
     Lanes xx = kNoLanes, yy = kNoLanes, zz = kNoLanes, xy = kNoLanes, xz = kNoLanes, yz = kNoLanes;
 
+    static SymmetricLanes all(const Mat3& m)
+    {
+        return {lanesOf(m(0, 0)), lanesOf(m(1, 1)), lanesOf(m(2, 2)),
+                lanesOf(m(0, 1)), lanesOf(m(0, 2)), lanesOf(m(1, 2))};
+    }
     void set(int lane, const Mat3& m)
     {
         xx[lane] = m(0, 0);
