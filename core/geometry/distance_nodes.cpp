@@ -1,7 +1,8 @@
 #include "core/geometry/distance_nodes.h"
 
 namespace scree {
-double DistanceNodes::interpolateInBrick(const Place& place) const
+
+DistanceNodes::BrickCorners DistanceNodes::cornersInBrick(const Place& place) const
 {
     const auto [i, j, k] = place.cell;
     const FieldBlock& block = blockOf(place.cell);
@@ -9,27 +10,34 @@ double DistanceNodes::interpolateInBrick(const Place& place) const
     const std::array<int, 3> inBlock = {i % kBlockCells, j % kBlockCells, k % kBlockCells};
     if (!block.isCoarse) {
         constexpr std::size_t n = kBrickNodes;
-        return betweenCorners(first + inBlock[0] + n * (inBlock[1] + n * inBlock[2]), 1, n, n * n,
-                              place.fraction);
+        first += inBlock[0] + n * (inBlock[1] + n * inBlock[2]);
+        return {first, 1, n, n * n, place.fraction, Vec3::Ones()};
     }
     const std::array<int, 3> cells = cellsOfBlock(layout, blockAt(blockIndex(place.cell)));
-    Vec3 fraction;
+    BrickCorners corners{first, 1, 2, 4, {}, Vec3(cells[0], cells[1], cells[2])};
     for (int axis = 0; axis < 3; ++axis) {
-        fraction[axis] = (inBlock[axis] + place.fraction[axis]) / cells[axis];
+        corners.fraction[axis] = (inBlock[axis] + place.fraction[axis]) / cells[axis];
     }
-    return betweenCorners(first, 1, 2, 4, fraction);
+    return corners;
+}
+
+double DistanceNodes::interpolateInBrick(const Place& place) const
+{
+    const BrickCorners c = cornersInBrick(place);
+    return betweenCorners(c.first, c.dx, c.dy, c.dz, c.fraction);
 }
 
 Vec3 DistanceNodes::slopeInCell(const Place& place) const
 {
-    Vec3 slope;
-    for (int axis = 0; axis < 3; ++axis) {
-        Place low = place, high = place;
-        low.fraction[axis] = 0.0;
-        high.fraction[axis] = 1.0;
-        slope[axis] = (interpolate(high) - interpolate(low)) / layout.spacing;
+    if (storage != FieldStorage::dense) {
+        const BrickCorners c = cornersInBrick(place);
+        return slopeBetweenCorners(c.first, c.dx, c.dy, c.dz, c.fraction).cwiseQuotient(c.cells) /
+               layout.spacing;
     }
-    return slope;
+    const auto [i, j, k] = place.cell;
+    const std::size_t nx = layout.count[0], nxy = nx * layout.count[1];
+    return slopeBetweenCorners(values.data() + i + nx * j + nxy * k, 1, nx, nxy, place.fraction) /
+           layout.spacing;
 }
 
 double DistanceNodes::interpolateCoarse(std::size_t block, const std::array<int, 3>& node) const

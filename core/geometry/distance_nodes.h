@@ -67,6 +67,23 @@ inline double betweenCorners(const float* corner, std::size_t dx, std::size_t dy
     return y0 + f.z() * (y1 - y0);
 }
 
+/// How that changes from one side of the cell to the other along each axis.
+inline Vec3 slopeBetweenCorners(const float* corner, std::size_t dx, std::size_t dy, std::size_t dz,
+                                const Vec3& f)
+{
+    const auto rise = [&](std::size_t offset, std::size_t along) {
+        return static_cast<double>(corner[offset + along]) - corner[offset];
+    };
+    const auto slope = [&](std::size_t along, std::size_t p, double fp, std::size_t q, double fq) {
+        const double near = rise(0, along), far = rise(q, along);
+        const double q0 = near + fp * (rise(p, along) - near);
+        const double q1 = far + fp * (rise(p + q, along) - far);
+        return q0 + fq * (q1 - q0);
+    };
+    return {slope(dx, dy, f.y(), dz, f.z()), slope(dy, dx, f.x(), dz, f.z()),
+            slope(dz, dx, f.x(), dy, f.y())};
+}
+
 /// One block of cells. All of it is outside where low > 0 and inside where high < 0; only in the
 /// others does a sign ask for more.
 struct FieldBlock {
@@ -152,12 +169,20 @@ struct DistanceNodes {
         return betweenCorners(values.data() + i + nx * j + nxy * k, 1, nx, nxy, place.fraction);
     }
 
-    /// How the trilinear value changes from one side of the cell to the other along each axis.
+    /// Gradient of the trilinear value, of the cell alone: it jumps between cells.
     Vec3 slopeInCell(const Place& place) const;
 
     /// What a coarse block says at a node that belongs to it [m].
     double interpolateCoarse(std::size_t block, const std::array<int, 3>& node) const;
 
+    /// The corners that a place in a brick lies between, and where between them.
+    struct BrickCorners {
+        const float* first;
+        std::size_t dx, dy, dz;
+        Vec3 fraction;
+        Vec3 cells;  // from corner to corner, along each axis
+    };
+    BrickCorners cornersInBrick(const Place& place) const;
     double interpolateInBrick(const Place& place) const;
 
     std::size_t byteCount() const

@@ -231,6 +231,12 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
     }
 }
 
+Vec3 SignedDistance::cellGradient(const Vec3& point) const
+{
+    if (solid_) return solid_->gradient(point);
+    return field_.nodes.slopeInCell(field_.nodes.placeOf(clamped(point)));
+}
+
 Vec3 SignedDistance::gridGradient(const Vec3& point) const
 {
     if (solid_) return solid_->gradient(point);

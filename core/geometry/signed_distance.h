@@ -64,6 +64,10 @@ public:
     /// the clamped point when outside the domain. Short (< 0.1) near the medial axis.  [A5]
     Vec3 gridGradient(const Vec3& point) const;
 
+    /// The same of the one cell that the point lies in: a sixth of the work, but it jumps between
+    /// cells.
+    Vec3 cellGradient(const Vec3& point) const;
+
     /// Signed distance with its slope: the exact gradient (unit) near the surface, that of the
     /// trilinear cell elsewhere.
     struct Sloped {
