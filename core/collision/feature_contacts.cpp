@@ -138,14 +138,14 @@ FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double rea
         if (!field.solid() || grid >= sharpness) return refuse(normal, grid);
         nearest = {grid, p, true, gradient};
     } else if (grid >= field.refinementBand()) {
-        if (grid >= reach) return apart(field.lowerBound(p));
+        if (grid >= reach) return apart(field.lowerBound(p, grid));
         // Of a grid value nobody knows whether it is above or below the true distance.
         const auto seen = field.nearestFromAfar(p);
         const double gap = seen ? seen->value : field.upperBound(p);
         const Vec3 normal =
             seen ? Vec3((p - seen->point) / gap) : field.gridGradient(p).normalized();
         if (gap < reach && normal.allFinite() && supports(normal)) return touch(normal, gap);
-        return apart(field.lowerBound(p));
+        return apart(field.lowerBound(p, grid));
     } else {
         nearest = field.nearest(p);
         if (nearest.value >= reach) return apart(nearest.value);

@@ -109,14 +109,13 @@ double SignedDistance::value(const Vec3& point) const
     return exact(point);
 }
 
-double SignedDistance::lowerBound(const Vec3& point) const
+double SignedDistance::lowerBound(const Vec3& point, double gridValue) const
 {
-    if (solid_) return solid_->value(point);
+    if (solid_) return gridValue;
     if (domain_.distanceTo(point) > 0.0) return surfaceBox_.distanceTo(point);
+    if (std::abs(gridValue) < band_) return exact(point);
     const DistanceNodes& nodes = field_.nodes;
-    const DistanceNodes::Place place = nodes.placeOf(point);
-    const double phi = nodes.interpolate(place);
-    return std::abs(phi) < band_ ? exact(point) : phi - nodes.blockOf(place.cell).slack;
+    return gridValue - nodes.blockOf(nodes.placeOf(point).cell).slack;
 }
 
 bool SignedDistance::isClearOf(const Vec3& point, double radius) const

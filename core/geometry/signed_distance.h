@@ -54,7 +54,9 @@ public:
     double gridValue(const Vec3& point) const;
 
     /// Never more than the true signed distance, and equal to it within the refinement band.
-    double lowerBound(const Vec3& point) const;
+    double lowerBound(const Vec3& point) const { return lowerBound(point, gridValue(point)); }
+    /// The same where the trilinear value is known already.
+    double lowerBound(const Vec3& point, double gridValue) const;
 
     /// True when nothing of the solid can lie within `radius` of the point: a quick filter that may
     /// say no too often but never yes wrongly.
