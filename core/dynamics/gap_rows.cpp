@@ -61,8 +61,8 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
         !row.movesA || (row.movesB && shapeB.unitMass.volume < shapeA.unitMass.volume) ? shapeB
                                                                                        : shapeA;
     const double curvature =
-        meanCurvature(shapeA, world.motion[row.a].orientation.conjugate() * row.rA) +
-        meanCurvature(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
+        meanCurvatureOfCells(shapeA, world.motion[row.a].orientation.conjugate() * row.rA) +
+        meanCurvatureOfCells(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
     const double factor = curvatureFactor(curvature, finer);
     const double about = row.normal.dot(response * row.normal);
     const Mat3 rollers = rollingResponse(inertiaOf(scratch.bodies[row.a], row.movesA), row.rA,

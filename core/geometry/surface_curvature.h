@@ -10,4 +10,7 @@ namespace scree {
 /// field's spacing resolves.
 double meanCurvature(const Shape& shape, const Vec3& point);
 
+/// The same from a sixth of the samples; it jumps a little from one cell of the field to the next.
+double meanCurvatureOfCells(const Shape& shape, const Vec3& point);
+
 }  // namespace scree

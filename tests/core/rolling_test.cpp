@@ -246,17 +246,21 @@ TEST(E9bIncline, ALeverArmSlowsTheBallAndHoldsItAFifthAboveTheoreticalNeed)
 TEST(Curvature, OfASphereIsOneOverItsRadiusAndOfFlatFacesNone)  // [A50]
 {
     const auto sphere = buildMeshShape("sphere", makeSphere(0.5, 4));
-    for (int i = 0; i < 100; ++i) {
-        Vec3 p;
-        for (int k = 0; k < 3; ++k) p[k] = randomUnit(50, static_cast<std::uint64_t>(i), k) - 0.5;
-        // Facets and trilinear cells ripple a second difference by some per cent.
-        EXPECT_NEAR(meanCurvature(*sphere, 0.5 * p.normalized()), 2.0, 0.3);
-    }
-    EXPECT_NEAR(meanCurvature(*boxShape(Vec3::Ones(), 2), {0.1, 0.5, 0.05}), 0.0, 1e-4);
+    const auto block = boxShape(Vec3::Ones(), 2);
     const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {64, 40}));
-    // Inside the hole the tube bends by 1/0.25 one way and −1/0.75 the other.
-    const Vec3 inner = ring->bodyFromAsset * Vec3(0.75, 0.0, 0.0);
-    EXPECT_NEAR(meanCurvature(*ring, inner), 0.5 * (4.0 - 4.0 / 3.0), 0.3);
+    for (const auto& curvature : {meanCurvature, meanCurvatureOfCells}) {
+        for (int i = 0; i < 100; ++i) {
+            Vec3 p;
+            for (int k = 0; k < 3; ++k)
+                p[k] = randomUnit(50, static_cast<std::uint64_t>(i), k) - 0.5;
+            // Facets and trilinear cells ripple a second difference by some per cent.
+            EXPECT_NEAR(curvature(*sphere, 0.5 * p.normalized()), 2.0, 0.3);
+        }
+        EXPECT_NEAR(curvature(*block, {0.1, 0.5, 0.05}), 0.0, 1e-4);
+        // Inside the hole the tube bends by 1/0.25 one way and −1/0.75 the other.
+        const Vec3 inner = ring->bodyFromAsset * Vec3(0.75, 0.0, 0.0);
+        EXPECT_NEAR(curvature(*ring, inner), 0.5 * (4.0 - 4.0 / 3.0), 0.3);
+    }
 }
 
 TEST(Curvature, ScalesResistanceFromATenthToTenfold)  // [A50]
