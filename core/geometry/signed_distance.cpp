@@ -65,25 +65,27 @@ std::size_t SignedDistance::byteCount() const
 {
     return field_.nodes.byteCount() +
            sizeof(std::uint32_t) * (field_.nearest.start.size() + field_.nearest.faces.size()) +
-           sizeof(Face) * faces_.size();
+           (sizeof(Face) + sizeof(Border)) * faces_.size();
 }
 
 void SignedDistance::buildFaces(const TriMesh& mesh)
 {
     const PseudoNormals normals = pseudoNormals(mesh);
     faces_.resize(mesh.triangles.cols());
+    borders_.resize(faces_.size());
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         Face& face = faces_[f];
+        Border& border = borders_[f];
         for (int k = 0; k < 3; ++k) {
             const int from = mesh.triangles(k, f), to = mesh.triangles((k + 1) % 3, f);
             face.corner[k] = mesh.points.col(from);
-            face.normal[k] = normals.corner[from];
-            face.normal[3 + k] = normals.edge.at(std::minmax(from, to));
+            border.normal[k] = normals.corner[from];
+            border.normal[3 + k] = normals.edge.at(std::minmax(from, to));
         }
-        face.normal[6] = normals.face[f];
+        face.normal = normals.face[f];
         for (int k = 0; k < 3; ++k) {
-            face.angle[k] = angleBetween(face.corner[(k + 1) % 3] - face.corner[k],
-                                         face.corner[(k + 2) % 3] - face.corner[k]);
+            border.angle[k] = angleBetween(face.corner[(k + 1) % 3] - face.corner[k],
+                                           face.corner[(k + 2) % 3] - face.corner[k]);
         }
     }
 }
@@ -134,28 +136,41 @@ bool SignedDistance::isClearOf(const Vec3& point, double radius) const
 
 SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point, const Vec3& place) const
 {
-    Closest best{nullptr, TriangleFeature::face, Vec3::Zero(), 1e300};
-    for (const std::uint32_t f : facesOfCell(place)) {
+    const std::span<const std::uint32_t> candidates = facesOfCell(place);
+    SCREE_CHECK(!candidates.empty(), "a cell near the surface has no triangles");
+    Closest best{candidates.front(), TriangleFeature::face, Vec3::Zero(), 1e300};
+    for (const std::uint32_t f : candidates) {
         const Face& face = faces_[f];
         // Nothing of a triangle is closer than its plane.
-        const double height = face.normal[6].dot(point - face.corner[0]);
+        const double height = face.normal.dot(point - face.corner[0]);
         if (height * height >= best.squaredDistance) continue;
         const ClosestOnTriangle closest =
             closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]);
         const double squared = (point - closest.point).squaredNorm();
-        if (squared < best.squaredDistance) best = {&face, closest.feature, closest.point, squared};
+        if (squared < best.squaredDistance) best = {f, closest.feature, closest.point, squared};
     }
-    SCREE_CHECK(best.face != nullptr, "a cell near the surface has no triangles");
     return best;
 }
 
-double SignedDistance::signedValue(const Closest& closest, const Vec3& point)
+const Vec3& SignedDistance::normalAt(const Closest& closest) const
 {
-    const Vec3& normal = closest.face->normal[static_cast<int>(closest.feature)];
+    if (closest.feature == TriangleFeature::face) return faces_[closest.face].normal;
+    return borders_[closest.face].normal[static_cast<int>(closest.feature)];
+}
+
+double SignedDistance::signedValue(const Closest& closest, const Vec3& point) const
+{
+    const Vec3& normal = normalAt(closest);
     // The plane's distance keeps its last bits where the square root of a square would not.
     if (closest.feature == TriangleFeature::face)
-        return normal.dot(point - closest.face->corner[0]);
+        return normal.dot(point - faces_[closest.face].corner[0]);
     return std::copysign(std::sqrt(closest.squaredDistance), normal.dot(point - closest.point));
+}
+
+SignedDistance::Nearest SignedDistance::nearestOf(const Closest& closest, double value) const
+{
+    return {value, closest.point, closest.feature == TriangleFeature::face,
+            faces_[closest.face].normal};
 }
 
 double SignedDistance::exact(const Vec3& point) const
@@ -166,8 +181,7 @@ double SignedDistance::exact(const Vec3& point) const
 SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
 {
     const Closest closest = closestInCell(point, point);
-    return {signedValue(closest, point), closest.point, closest.feature == TriangleFeature::face,
-            closest.face->normal[6]};
+    return nearestOf(closest, signedValue(closest, point));
 }
 
 std::optional<SignedDistance::Nearest> SignedDistance::nearestFromAfar(const Vec3& point) const
@@ -183,8 +197,7 @@ std::optional<SignedDistance::Nearest> SignedDistance::nearestFromAfar(const Vec
         phi = nodes.interpolate(nodes.placeOf(place));
         if (std::abs(phi) >= band_) continue;
         const Closest closest = closestInCell(point, place);
-        return Nearest{std::sqrt(closest.squaredDistance), closest.point,
-                       closest.feature == TriangleFeature::face, closest.face->normal[6]};
+        return nearestOf(closest, std::sqrt(closest.squaredDistance));
     }
     return {};
 }
@@ -203,7 +216,7 @@ SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
     if (std::abs(grid) >= band_) return {grid, gridGradient(point)};
     const Closest closest = closestInCell(point, point);
     const double phi = signedValue(closest, point);
-    const Vec3& normal = closest.face->normal[static_cast<int>(closest.feature)];
+    const Vec3& normal = normalAt(closest);
     const bool onSurface = std::abs(phi) < 1e-9 * spacing();
     if (closest.feature == TriangleFeature::face) return {phi, normal};
     if (onSurface) return {phi, normal.normalized()};
@@ -216,7 +229,7 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
     if (solid_) return solid_->facesNear(point, tolerance, faces);
     for (const std::uint32_t f : facesOfCell(point)) {
         const Face& face = faces_[f];
-        const double height = face.normal[6].dot(point - face.corner[0]);
+        const double height = face.normal.dot(point - face.corner[0]);
         if (std::abs(height) > tolerance) continue;
         const ClosestOnTriangle closest =
             closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]);
@@ -224,9 +237,9 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
         if (distance > tolerance) continue;
         double angle = kPi;
         for (int k = 0; k < 3; ++k) {
-            if ((point - face.corner[k]).norm() <= tolerance) angle = face.angle[k];
+            if ((point - face.corner[k]).norm() <= tolerance) angle = borders_[f].angle[k];
         }
-        faces.push_back({face.normal[6], angle, height, distance});
+        faces.push_back({face.normal, angle, height, distance});
     }
 }
 

@@ -105,14 +105,18 @@ public:
     void facesNear(const Vec3& point, double tolerance, std::vector<NearFace>& faces) const;
 
 private:
+    /// What every search reads; what only some answers need lies apart.
     struct Face {
         Vec3 corner[3];
+        Vec3 normal;
+    };
+    struct Border {
+        Vec3 normal[6];  // by TriangleFeature: angle-weighted at corners, summed at edges
         double angle[3];
-        Vec3 normal[7];  // by TriangleFeature: angle-weighted at corners, summed at edges, face
     };
 
     struct Closest {
-        const Face* face;
+        std::uint32_t face;
         TriangleFeature feature;
         Vec3 point;
         double squaredDistance;
@@ -126,7 +130,9 @@ private:
     std::span<const std::uint32_t> facesOfCell(const Vec3& pointInDomain) const;
     /// Of the faces that can be closest to some point of the cell that `place` is in.
     Closest closestInCell(const Vec3& point, const Vec3& place) const;
-    static double signedValue(const Closest& closest, const Vec3& point);
+    const Vec3& normalAt(const Closest& closest) const;
+    double signedValue(const Closest& closest, const Vec3& point) const;
+    Nearest nearestOf(const Closest& closest, double value) const;
 
     std::optional<ExactSolid> solid_;
     double solidSpacing_ = 0.0;
@@ -135,6 +141,7 @@ private:
     Aabb surfaceBox_;    // of the mesh
     double band_ = 0.0;  // 0: never refine
     std::vector<Face> faces_;
+    std::vector<Border> borders_;  // of these
 };
 
 }  // namespace scree
