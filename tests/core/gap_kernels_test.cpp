@@ -457,13 +457,13 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling)
 void expectRowsAbreastAreRowsOneByOne(bool rolling)
 {
     int resisted = 0;
+    GapLanes lanes;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         GapScratch plain = randomHeap(seed, rolling), abreast = randomHeap(seed, rolling);
         std::vector<LaneBody> bodies(abreast.bodies.size() + 1);
         for (std::size_t i = 0; i < abreast.bodies.size(); ++i) {
             bodies[i] = {abreast.bodies[i].velocity, abreast.bodies[i].spin};
         }
-        GapLanes lanes;
         lanes.build(abreast, abreast.islands[0], bodies);
         for (int sweep = 0; sweep < 3; ++sweep) {
             double residual = 0.0, fastest = 0.0;
@@ -517,6 +517,21 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
 TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
 {
     expectRowsAbreastAreRowsOneByOne(false);
+}
+
+TEST(GapLanes, NothingIsLeftOfTheIslandBefore)
+{
+    GapLanes lanes;
+    GapScratch scratch = randomHeap(1, true);
+    std::vector<LaneBody> bodies(scratch.bodies.size() + 1);
+    lanes.build(scratch, scratch.islands[0], bodies);
+    lanes.sweep();
+
+    for (LaneBody& body : bodies) body = {};
+    for (GapRow& row : scratch.rows) row.target = 0.0;
+    scratch.islands[0].pairs = {0};
+    lanes.build(scratch, scratch.islands[0], bodies);
+    EXPECT_EQ(lanes.sweep().residual, 0.0);
 }
 
 TEST(GapLanes, RowsAbreastThatResistRollingAreRowsVisitedOneByOneToo)
