@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/collision/ball_contacts.h"
 #include "core/collision/contact_list.h"
@@ -108,6 +109,15 @@ double roundedUp(double x)
     return x + kSinglePrecision * std::abs(x);
 }
 
+/// The next free lane of eights that are filled one lane after the other.
+template <class Eight>
+std::pair<Eight&, std::size_t> nextLane(std::vector<Eight>& eights, std::size_t& filled)
+{
+    const std::size_t lane = filled++ % kFloatLanes;
+    if (lane == 0) eights.emplace_back();
+    return {eights.back(), lane};
+}
+
 void fetchLines(const void* begin, const void* end)
 {
     constexpr std::ptrdiff_t kLine = 64;
@@ -159,10 +169,9 @@ void NearFeatures::lookAtCorners(const RelativePair& pair, std::vector<NearCorne
             return bitsOf(atLeast < clearance);
         },
         [&](std::uint32_t i, int lane) {
-            const std::size_t free = count++ % kFloatLanes;
-            if (free == 0) found.emplace_back();
-            found.back().farUntil[free] = atLeast[lane];
-            found.back().corner[free] = features.corners()[i];
+            auto [eight, free] = nextLane(found, count);
+            eight.farUntil[free] = atLeast[lane];
+            eight.corner[free] = features.corners()[i];
         });
     near.assign(found.begin(), found.end());
 }
@@ -194,12 +203,10 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
                 const std::size_t b =
                     kFloatLanes * eight + static_cast<std::size_t>(std::countr_zero(bits));
                 if (b >= nearB.size()) break;
-                const std::size_t free = count++ % kFloatLanes;
-                if (free == 0) found.emplace_back();
-                found.back().farUntil[free] = 0.0f;
-                found.back().outsideUntil[free] = 0.0f;
-                found.back().ofA[free] = nearA[a];
-                found.back().ofB[free] = nearB[b];
+                auto [edges, free] = nextLane(found, count);
+                edges.farUntil[free] = edges.outsideUntil[free] = 0.0f;
+                edges.ofA[free] = nearA[a];
+                edges.ofB[free] = nearB[b];
             }
         }
     }
@@ -323,12 +330,11 @@ void NearFeatures::keep(const std::vector<NearEdges>& found, double reach)
         unsigned bits = bitsOf((eight.farUntil < needed) | (eight.outsideUntil <= window));
         for (; bits; bits &= bits - 1) {
             const int lane = std::countr_zero(bits);
-            const std::size_t free = count++ % kFloatLanes;
-            if (free == 0) kept.emplace_back();
-            kept.back().farUntil[free] = eight.farUntil[lane];
-            kept.back().outsideUntil[free] = eight.outsideUntil[lane];
-            kept.back().ofA[free] = eight.ofA[lane];
-            kept.back().ofB[free] = eight.ofB[lane];
+            auto [keeping, free] = nextLane(kept, count);
+            keeping.farUntil[free] = eight.farUntil[lane];
+            keeping.outsideUntil[free] = eight.outsideUntil[lane];
+            keeping.ofA[free] = eight.ofA[lane];
+            keeping.ofB[free] = eight.ofB[lane];
         }
     }
     edges_.assign(kept.begin(), kept.end());
