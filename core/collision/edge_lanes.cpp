@@ -40,6 +40,13 @@ FacingLanes FacingLanes::all(int lane) const
             FloatLanes{} + half[lane]};
 }
 
+Sphere FacingLanes::around() const
+{
+    const Vec3 centre = Vec3(sumOf(middle.x), sumOf(middle.y), sumOf(middle.z)) / kFloatLanes;
+    const FloatLanes3 way = middle - FloatLanes3::all(centre);
+    return {centre, largestOf(sqrtOf(dot(way, way)) + half)};
+}
+
 FacingLanes FacingLanes::placed(const Mat3& rotation, const Vec3& translation) const
 {
     const RotationLanes turned(rotation);

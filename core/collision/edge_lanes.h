@@ -50,6 +50,8 @@ struct FacingLanes {
     }
     /// One of them in all lanes.
     FacingLanes all(int lane) const;
+    /// A sphere that holds all eight.
+    Sphere around() const;
     /// In the frame of another body.
     FacingLanes placed(const Mat3& rotation, const Vec3& translation) const;
 };

@@ -10,6 +10,13 @@
 namespace scree {
 namespace {
 
+constexpr double kRounding = 1e-9;  // of lengths
+
+/// Sine of the angle by which a face may lean out from the way on which an edge leaves, and still
+/// be taken for one along it. Of boxes flush with each other faces lean by rounding, to either
+/// side.
+constexpr double kNearlySquare = 5e-3;
+
 /// Where the lines of two edges are closest.
 struct Crossing {
     Vec3 onFirst, onSecond, normal;    // normal not oriented
@@ -67,8 +74,9 @@ Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3&
     const Vec3 &face0 = edge.faceNormal[0], &face1 = edge.faceNormal[1];
     const double height0 = gap * n.dot(face0), height1 = gap * n.dot(face1);
     const double slope0 = direction.dot(face0), slope1 = direction.dot(face1);
-    if (std::max(height0, height1) <= 0.0 || slope0 * slope1 >= 0.0)
-        return {0.0, std::min(0.0, std::max(height0, height1))};
+    const double height = std::max(height0, height1);
+    if (height <= -kNearlySquare * gap) return {0.0, height};
+    if (slope0 * slope1 >= 0.0) return {0.0, 0.0};
     const double along = std::clamp((height1 - height0) / (slope0 - slope1), -length, length);
     return {along, std::min(0.0, std::max(height0 + along * slope0, height1 + along * slope1))};
 }
@@ -191,7 +199,8 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     const Vec3 n = at->normal.dot(b.outward) >= 0.0 ? at->normal : Vec3(-at->normal);
     const double gap = n.dot(at->onFirst - at->onSecond);
     if (gap >= reach) return {};
-    const bool isWithin = at->beyondFirst <= 0.0 && at->beyondSecond <= 0.0;
+    const double rounding = kRounding * (a.length + b.length);
+    const bool isWithin = at->beyondFirst <= rounding && at->beyondSecond <= rounding;
     if (!isWithin && !crossesInNotch(pair, a, b, *at, gap)) return {};
     if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
     if (gap >= -sharpness) return FeatureContact{at->onFirst, n, gap};
@@ -203,7 +212,8 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     const Dip dip =
         deepestBeside(b, n, gap, pair.rotation * a.direction, std::max(-at->beyondFirst, 0.0));
     const Vec3 deepest = at->onFirst + dip.along * (pair.rotation * a.direction);
-    if (pair.second.distance.value(deepest) > 0.5 * dip.height) return {};
+    const double highest = std::max(dip.height, 0.5 * dip.height) + rounding;
+    if (pair.second.distance.value(deepest) > highest) return {};
     if (leavesByFace(pair, a, b, n, -gap) ||
         leavesByFace(pair.reversed(), b, a, pair.rotation.transpose() * -n, -gap)) {
         return {};

@@ -22,6 +22,8 @@ namespace {
 constexpr double kLookAhead = 0.6;        // times the reach
 constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
 
+constexpr double kFarAway = 1e15;  // [m]; its square is a float
+
 using Part = ContactPart::Kind;
 
 RelativePair relativePair(const PlacedPair& bodies, const Mat3& worldFromA, const Mat3& worldFromB)
@@ -73,12 +75,43 @@ void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::
         [&](std::uint32_t e, int) { near.push_back(static_cast<std::int32_t>(e)); });
 }
 
+/// Lanes that are left over repeat the last edge.
 void inEights(const std::vector<ConvexEdge>& edges, const std::vector<std::int32_t>& chosen,
               std::vector<FacingLanes>& eights)
 {
     eights.resize((chosen.size() + kFloatLanes - 1) / kFloatLanes);
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-        eights[i / kFloatLanes].set(static_cast<int>(i % kFloatLanes), edges[chosen[i]]);
+    for (std::size_t i = 0; i < kFloatLanes * eights.size(); ++i) {
+        const std::int32_t edge = chosen[std::min(i, chosen.size() - 1)];
+        eights[i / kFloatLanes].set(static_cast<int>(i % kFloatLanes), edges[edge]);
+    }
+}
+
+/// A sphere around each eight, eight of these side by side; lanes that are left over hold nothing.
+void inSpheres(const std::vector<FacingLanes>& eights, std::vector<SphereLanes>& spheres)
+{
+    spheres.assign((eights.size() + kFloatLanes - 1) / kFloatLanes, {{}, floatLanesOf(-kFarAway)});
+    for (std::size_t i = 0; i < eights.size(); ++i) {
+        const Sphere around = eights[i].around();
+        SphereLanes& eight = spheres[i / kFloatLanes];
+        const int lane = static_cast<int>(i % kFloatLanes);
+        eight.centre.set(lane, around.centre);
+        eight.radius[lane] = static_cast<float>(around.radius);
+    }
+}
+
+/// Those eights with anything within `farthest` of an edge. Of two bones one in eight has.
+void findEightsNear(const FacingLanes& edge, const std::vector<SphereLanes>& spheres,
+                    double farthest, std::vector<std::size_t>& near)
+{
+    near.clear();
+    const FloatLanes reach = edge.half + floatLanesOf(farthest);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const FloatLanes3 way = spheres[i].centre - edge.middle;
+        const FloatLanes most = reach + spheres[i].radius;
+        unsigned bits = bitsOf((dot(way, way) <= most * most) & (most > 0.0f));
+        for (; bits; bits &= bits - 1)
+            near.push_back(kFloatLanes * i + static_cast<std::size_t>(std::countr_zero(bits)));
+    }
 }
 
 /// Of the points of the first body that turn in the frame of the second [m]. Seen from there
@@ -194,10 +227,14 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     const double farthest = std::max(reach, deepestEdges(pair)) + window_ + rounding;
     const double turn = window_ / leverOf(pair) + kSinglePrecision;
     for (FacingLanes& eight : eightsOfA) eight = eight.placed(pair.rotation, pair.translation);
+    thread_local std::vector<SphereLanes> spheresOfB;
+    thread_local std::vector<std::size_t> nearEights;
+    inSpheres(eightsOfB, spheresOfB);
     std::size_t count = 0;
     for (std::size_t a = 0; a < nearA.size(); ++a) {
         const FacingLanes edge = eightsOfA[a / kFloatLanes].all(static_cast<int>(a % kFloatLanes));
-        for (std::size_t eight = 0; eight < eightsOfB.size(); ++eight) {
+        findEightsNear(edge, spheresOfB, farthest, nearEights);
+        for (const std::size_t eight : nearEights) {
             unsigned bits = mayFace(edge, eightsOfB[eight], farthest, turn);
             for (; bits; bits &= bits - 1) {
                 const std::size_t b =

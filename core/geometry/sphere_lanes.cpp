@@ -1,6 +1,7 @@
 #include "core/geometry/sphere_lanes.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/math/aabb.h"
 
@@ -8,6 +9,28 @@ namespace scree {
 namespace {
 
 constexpr double kRoundUp = 1e-6;  // of what single precision loses of a sphere
+
+/// Halves [begin, end) across its longest side, and both halves again, so that eights of things,
+/// and eights of eights, are near each other: cut anywhere else they would straddle what is apart.
+void sortIntoEights(std::span<const Sphere> spheres, std::uint32_t* begin, std::uint32_t* end)
+{
+    const std::ptrdiff_t count = end - begin;
+    if (count <= kFloatLanes) return;
+    std::ptrdiff_t whole = kFloatLanes;
+    while (whole * kFloatLanes < count) whole *= kFloatLanes;
+    const std::ptrdiff_t groups = (count + whole - 1) / whole;
+    std::uint32_t* const middle = begin + (groups + 1) / 2 * whole;
+    Aabb centres;
+    for (const std::uint32_t* i = begin; i < end; ++i) centres.include(spheres[*i].centre);
+    Eigen::Index axis = 0;
+    centres.size().maxCoeff(&axis);
+    std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+        const double ca = spheres[a].centre[axis], cb = spheres[b].centre[axis];
+        return ca < cb || (ca == cb && a < b);
+    });
+    sortIntoEights(spheres, begin, middle);
+    sortIntoEights(spheres, middle, end);
+}
 
 /// One sphere around each eight.
 std::vector<Sphere> heldByEights(std::span<const Sphere> spheres)
@@ -45,9 +68,10 @@ std::vector<SphereLanes> inLanes(std::span<const Sphere> spheres)
 
 SphereLaneTree::SphereLaneTree(std::span<const Sphere> things)
 {
-    const SphereTree tree(things);
-    things_.assign(tree.things().begin(), tree.things().end());
-    cover_ = inLanes(tree.cover());
+    cover_ = inLanes(SphereTree(things).cover());
+    things_.resize(things.size());
+    std::iota(things_.begin(), things_.end(), 0u);
+    sortIntoEights(things, things_.data(), things_.data() + things_.size());
     std::vector<Sphere> level;
     for (const std::uint32_t thing : things_) level.push_back(things[thing]);
     while (!level.empty()) {

@@ -94,6 +94,18 @@ inline double largestOf(Lanes a)
     const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
     return low > high ? low : high;
 }
+inline float sumOf(FloatLanes a)
+{
+    float sum = a[0];
+    for (int lane = 1; lane < kFloatLanes; ++lane) sum += a[lane];
+    return sum;
+}
+inline float largestOf(FloatLanes a)
+{
+    float largest = a[0];
+    for (int lane = 1; lane < kFloatLanes; ++lane) largest = a[lane] > largest ? a[lane] : largest;
+    return largest;
+}
 inline float leastOf(FloatLanes a)
 {
     float least = a[0];
