@@ -1,18 +1,32 @@
 // Symbols: s and t places along the edges of the first and of the second.
 #include "core/collision/edge_lanes.h"
 
+#include <cstddef>
+
 #include "core/collision/feature_contacts.h"
 
 namespace scree {
 namespace {
 
-/// What faceEdges sees an edge reach beyond its end, or an angle, is what is seen here but for
-/// rounding: this share of the lengths, and of one.
-constexpr double kRounding = 1e-6;
+/// Of a unit direction, a few operations on.
+constexpr float kDirection = 1e-6f;
 
-Lanes clamped(Lanes x, Lanes most)
+FloatLanes clamped(FloatLanes x, FloatLanes most)
 {
-    return minOf(maxOf(x, kNoLanes), most);
+    return minOf(maxOf(x, FloatLanes{}), most);
+}
+
+/// Eight rows of four as four columns of eight.
+std::array<FloatLanes, 4> transposed(const std::array<const float*, kFloatLanes>& rows)
+{
+    const auto both = [&](std::size_t i) {
+        return _mm256_set_m128(_mm_load_ps(rows[i + 4]), _mm_load_ps(rows[i]));
+    };
+    const __m256 r0 = both(0), r1 = both(1), r2 = both(2), r3 = both(3);
+    const __m256 low01 = _mm256_unpacklo_ps(r0, r1), high01 = _mm256_unpackhi_ps(r0, r1);
+    const __m256 low23 = _mm256_unpacklo_ps(r2, r3), high23 = _mm256_unpackhi_ps(r2, r3);
+    return {_mm256_shuffle_ps(low01, low23, 0x44), _mm256_shuffle_ps(low01, low23, 0xee),
+            _mm256_shuffle_ps(high01, high23, 0x44), _mm256_shuffle_ps(high01, high23, 0xee)};
 }
 
 /// Of edges from points, seen from their middles [m²].
@@ -82,49 +96,78 @@ unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double
     return bitsOf(isNear & (isOut | isOutReversed));
 }
 
+LineLanes::LineLanes(const std::array<const EdgeLine*, kFloatLanes>& lines)
+{
+    const auto columns = [&](std::array<float, 3> EdgeLine::*part) {
+        std::array<const float*, kFloatLanes> rows;
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = (lines[i]->*part).data();
+        return transposed(rows);
+    };
+    static_assert(offsetof(EdgeLine, length) == 3 * sizeof(float));
+    const auto s = columns(&EdgeLine::start), d = columns(&EdgeLine::direction),
+               o = columns(&EdgeLine::outward);
+    start = {s[0], s[1], s[2]};
+    length = s[3];
+    direction = {d[0], d[1], d[2]};
+    outward = {o[0], o[1], o[2]};
+}
+
+void LineLanes::place(const RotationLanes& rotation, const FloatLanes3& translation)
+{
+    start = rotation * start + translation;
+    direction = rotation * direction;
+}
+
 /// Edges may be deep in each other and still touch, so of two that are apart it also matters when
 /// they can have crossed. Nearest points of segments wander: when no point moves farther than δ,
 /// the line between those at distance d changes by up to δ + 2 √(δ(d + δ)). Until that is as much
 /// as it points out of the second, o, they are outside.
-EdgeGaps edgeGaps(const SegmentLanes& ofFirst, const EdgeLanes& ofSecond, double deepest,
-                  double reach)
+///
+/// What rounding ρ does grows as lines get parallel: where they are nearest is wrong by ρ / sine²
+/// or the length of the segment, their distance by sine times that; and two places that are e
+/// farther apart than the nearest lie √(e (2 d + e)) beside them.
+EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double deepest, double reach,
+                  double rounding)
 {
-    const SegmentLanes& a = ofFirst;
-    const EdgeLanes& b = ofSecond;
-    const Lanes3 between = a.start - b.start;
-    const Lanes cosine = dot(a.direction, b.direction);
-    const Lanes alongA = dot(a.direction, between), alongB = dot(b.direction, between);
-    const Lanes sineSquared = 1.0 - cosine * cosine;
-    const LaneMask isParallel = sineSquared < lanesOf(kParallel * kParallel);
-    const Lanes lineS = (cosine * alongB - alongA) / sineSquared;
-    const Lanes lineT = (alongB - cosine * alongA) / sineSquared;
+    const LineLanes &a = ofFirst, &b = ofSecond;
+    const FloatLanes wrong = floatLanesOf(rounding), none = {};
+    const FloatLanes3 between = a.start - b.start;
+    const FloatLanes3 normal = cross(a.direction, b.direction);
+    const FloatLanes cosine = dot(a.direction, b.direction);
+    const FloatLanes alongA = dot(a.direction, between), alongB = dot(b.direction, between);
+    const FloatLanes sineSquared = maxOf(dot(normal, normal), floatLanesOf(1e-12));
+    const FloatLanes sine = sqrtOf(sineSquared);
+    const FloatLanes lineS = (cosine * alongB - alongA) / sineSquared;
+    const FloatLanes lineT = (alongB - cosine * alongA) / sineSquared;
+    const FloatLanes lineWrong = 2.0f * wrong / sineSquared;
 
-    const Lanes firstS = isParallel ? kNoLanes : clamped(lineS, a.length);
-    const Lanes t = clamped(alongB + firstS * cosine, b.length);
-    const Lanes s = clamped(t * cosine - alongA, a.length);
-    const Lanes3 nearest = fnma(t, b.direction, fma(s, a.direction, between));
+    const FloatLanes t = clamped(fma(clamped(lineS, a.length), cosine, alongB), b.length);
+    const FloatLanes s = clamped(fma(t, cosine, -alongA), a.length);
+    const FloatLanes3 nearest = fnma(t, b.direction, fma(s, a.direction, between));
+    const FloatLanes d = sqrtOf(dot(nearest, nearest));
+    const FloatLanes tooFar = wrong + sine * minOf(lineWrong, a.length);
     EdgeGaps gaps;
-    gaps.distance = sqrtOf(dot(nearest, nearest)) - (isParallel ? kParallel * a.length : kNoLanes);
-    const Lanes d = gaps.distance, o = dot(nearest, b.outward);
-    const Lanes half = 2.0 * d + o;
-    const Lanes mayCross = (sqrtOf(half * half + 3.0 * o * o) - half) / 3.0;
-    const LaneMask isOutside = (o > kNoLanes) & (d <= lanesOf(2.0 * deepest));
-    gaps.outside = d - deepest;
+    gaps.distance = d - tooFar;
+    const FloatLanes aside = sqrtOf(tooFar * (2.0f * d + tooFar));
+    const FloatLanes o = dot(nearest, b.outward) - aside - wrong;
+    const FloatLanes half = 2.0f * d + o;
+    const FloatLanes mayCross = o * o / (sqrtOf(fma(half, half, 3.0f * o * o)) + half + wrong);
+    const IntLanes isOutside = (o > none) & (d <= floatLanesOf(2.0 * deepest));
+    gaps.outside = gaps.distance - floatLanesOf(deepest);
     gaps.outside = isOutside ? maxOf(gaps.outside, mayCross) : gaps.outside;
 
     // Where their lines are closest, beyond the ends no farther than they overlap.
-    const Lanes3 normal = cross(a.direction, b.direction);
-    const Lanes sine = sqrtOf(dot(normal, normal)), out = dot(normal, b.outward) / sine;
-    const Lanes apart = dot(normal, between) / sine;
-    const Lanes towardsSecond = absOf(out) < lanesOf(kRounding) ? -absOf(apart)
-                                : out < kNoLanes                ? -apart
-                                                                : apart;
-    const Lanes beyond = maxOf(maxOf(-lineS, lineS - a.length), kNoLanes) +
-                         maxOf(maxOf(-lineT, lineT - b.length), kNoLanes);
-    const Lanes rounding = kRounding * (a.length + b.length);
-    gaps.mayTouch = (sineSquared >= lanesOf((1.0 - kRounding) * kParallel * kParallel)) &
-                    (towardsSecond < reach + rounding) &
-                    (beyond <= maxOf(-towardsSecond, kNoLanes) + rounding);
+    const FloatLanes out = dot(normal, b.outward), apart = dot(normal, between) / sine;
+    const FloatLanes towardsSecond = maxOf(out, -out) < floatLanesOf(kDirection)
+                                         ? -maxOf(apart, -apart)
+                                     : out < none ? -apart
+                                                  : apart;
+    const FloatLanes beyond = maxOf(maxOf(-lineS, lineS - a.length), none) +
+                              maxOf(maxOf(-lineT, lineT - b.length), none);
+    const FloatLanes slack = 2.0f * lineWrong + 2.0f * wrong / sine;
+    gaps.mayTouch = (sine >= floatLanesOf(0.99 * kParallel)) &
+                    (towardsSecond < floatLanesOf(reach) + slack) &
+                    (beyond <= maxOf(-towardsSecond, none) + slack);
     return gaps;
 }
 

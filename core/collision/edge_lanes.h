@@ -9,29 +9,14 @@
 
 namespace scree {
 
-/// Four segments in the frame of the second shape.
-struct SegmentLanes {
-    Lanes3 start, direction;
-    Lanes length;  ///< [m]
+/// Eight edges in one frame.
+struct LineLanes {
+    FloatLanes3 start, direction, outward;
+    FloatLanes length;  ///< [m]
 
-    template <class Segment>
-    explicit SegmentLanes(const std::array<const Segment*, kLanes>& s)
-        : start(lanesOf(s[0]->start, s[1]->start, s[2]->start, s[3]->start)),
-          direction(lanesOf(s[0]->direction, s[1]->direction, s[2]->direction, s[3]->direction)),
-          length{s[0]->length, s[1]->length, s[2]->length, s[3]->length}
-    {
-    }
-};
-
-/// Four edges of the second shape.
-struct EdgeLanes : SegmentLanes {
-    Lanes3 outward;
-
-    explicit EdgeLanes(const std::array<const ConvexEdge*, kLanes>& e)
-        : SegmentLanes(e),
-          outward(lanesOf(e[0]->outward, e[1]->outward, e[2]->outward, e[3]->outward))
-    {
-    }
+    explicit LineLanes(const std::array<const EdgeLine*, kFloatLanes>& lines);
+    /// Moves them into the frame of another body, where outward is not asked for.
+    void place(const RotationLanes& rotation, const FloatLanes3& translation);
 };
 
 /// Eight edges in one frame, with what tells from where they can be touched.
@@ -63,15 +48,17 @@ struct FacingLanes {
 unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double farthest,
                  double turn);
 
+/// Filters: they err to the side of asking again.
 struct EdgeGaps {
-    Lanes distance;  ///< of the segments; where they are nearly parallel a hair less [m]
-    /// How far any point may move before they can have crossed; may be negative [m].
-    Lanes outside;
-    LaneMask mayTouch;  ///< where faceEdges may answer something
+    FloatLanes distance;  ///< of the segments, at least [m]
+    /// How far any point may move at least before they can have crossed; may be negative [m].
+    FloatLanes outside;
+    IntLanes mayTouch;  ///< where faceEdges may answer something
 };
 
-/// Edges deeper in each other than `deepest` do not touch.
-EdgeGaps edgeGaps(const SegmentLanes& ofFirst, const EdgeLanes& ofSecond, double deepest,
-                  double reach);
+/// In the frame of the second, whose places are known to `rounding` [m]. Edges deeper in each other
+/// than `deepest` do not touch.
+EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double deepest,
+                  double reach, double rounding);
 
 }  // namespace scree

@@ -142,6 +142,12 @@ double roundedUp(double x)
     return x + kSinglePrecision * std::abs(x);
 }
 
+/// Of places of the first body in the frame of the second, told in single precision [m].
+double roundingOf(const RelativePair& pair)
+{
+    return kSinglePrecision * (pair.first.boundingRadius + pair.translation.norm());
+}
+
 /// The next free lane of eights that are filled one lane after the other.
 template <class Eight>
 std::pair<Eight&, std::size_t> nextLane(std::vector<Eight>& eights, std::size_t& filled)
@@ -222,9 +228,7 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     inEights(first.edges(), nearA, eightsOfA);
     inEights(second.edges(), nearB, eightsOfB);
 
-    const double rounding =
-        kSinglePrecision * (pair.first.boundingRadius + pair.translation.norm());
-    const double farthest = std::max(reach, deepestEdges(pair)) + window_ + rounding;
+    const double farthest = std::max(reach, deepestEdges(pair)) + window_ + roundingOf(pair);
     const double turn = window_ / leverOf(pair) + kSinglePrecision;
     for (FacingLanes& eight : eightsOfA) eight = eight.placed(pair.rotation, pair.translation);
     thread_local std::vector<SphereLanes> spheresOfB;
@@ -300,30 +304,29 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
     if (near.empty()) return;
     const double deepest = deepestEdges(pair);
     const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
-    const std::vector<ConvexEdge>& first = pair.first.features.edges();
-    const std::vector<ConvexEdge>& second = pair.second.features.edges();
-    struct Placed {
-        std::int32_t edge = -1;
-        Vec3 start, direction;
-        double length;
-    };
-    std::array<Placed, kLanes> placed;  // edges of the first come several times running
-    std::size_t last = 0;
-    std::array<const Placed*, kLanes> ofFirst;
-    std::array<const ConvexEdge*, kLanes> ofSecond;
-    std::array<std::pair<NearEdges*, int>, kLanes> four;
+    const double rounding = roundingOf(pair) + kSinglePrecision * pair.second.boundingRadius;
+    const std::vector<EdgeLine>& first = pair.first.features.lines();
+    const std::vector<EdgeLine>& second = pair.second.features.lines();
+    const RotationLanes rotation(pair.rotation);
+    const FloatLanes3 translation = FloatLanes3::all(pair.translation);
+    const FloatLanes moved = floatLanesOf(roundedDown(moved_));
+    std::array<const EdgeLine*, kFloatLanes> ofFirst, ofSecond;
+    std::array<std::pair<NearEdges*, int>, kFloatLanes> asked;
     std::size_t filled = 0;
     const auto flush = [&] {
-        for (std::size_t idle = filled; idle < kLanes; ++idle) {
+        for (std::size_t idle = filled; idle < kFloatLanes; ++idle) {
             ofFirst[idle] = ofFirst[0];
             ofSecond[idle] = ofSecond[0];
         }
-        const EdgeGaps gaps = edgeGaps(SegmentLanes(ofFirst), EdgeLanes(ofSecond), deepest, reach);
+        LineLanes a(ofFirst);
+        a.place(rotation, translation);
+        const EdgeGaps gaps = edgeGaps(a, LineLanes(ofSecond), deepest, reach, rounding);
+        const FloatLanes farUntil = moved + gaps.distance, outsideUntil = moved + gaps.outside;
         const unsigned mayTouch = bitsOf(gaps.mayTouch);
         for (std::size_t i = 0; i < filled; ++i) {
-            const auto [eight, lane] = four[i];
-            eight->farUntil[lane] = roundedDown(moved_ + gaps.distance[i]);
-            eight->outsideUntil[lane] = roundedDown(moved_ + gaps.outside[i]);
+            const auto [eight, lane] = asked[i];
+            eight->farUntil[lane] = farUntil[i];
+            eight->outsideUntil[lane] = outsideUntil[i];
             if (!(mayTouch >> i & 1u)) continue;
             const std::int32_t ofA = eight->ofA[lane], ofB = eight->ofB[lane];
             const auto contact = faceEdges(pair, ofA, ofB, reach, sharpness);
@@ -334,22 +337,15 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
         filled = 0;
     };
     const FloatLanes needed = floatLanesOf(roundedUp(reach + moved_));
-    const FloatLanes moved = floatLanesOf(roundedUp(moved_));
+    const FloatLanes hasMoved = floatLanesOf(roundedUp(moved_));
     for (NearEdges& eight : near) {
-        unsigned bits = bitsOf((eight.farUntil < needed) | (eight.outsideUntil <= moved));
+        unsigned bits = bitsOf((eight.farUntil < needed) | (eight.outsideUntil <= hasMoved));
         for (; bits; bits &= bits - 1) {
             const int lane = std::countr_zero(bits);
-            const std::int32_t ofA = eight.ofA[lane];
-            if (ofA != placed[last].edge) {
-                last = (last + 1) % kLanes;
-                const ConvexEdge& edge = first[ofA];
-                placed[last] = {ofA, pair * edge.start, pair.rotation * edge.direction,
-                                edge.length};
-            }
-            ofFirst[filled] = &placed[last];
+            ofFirst[filled] = &first[eight.ofA[lane]];
             ofSecond[filled] = &second[eight.ofB[lane]];
-            four[filled++] = {&eight, lane};
-            if (filled == kLanes) flush();
+            asked[filled++] = {&eight, lane};
+            if (filled == kFloatLanes) flush();
         }
     }
     if (filled > 0) flush();

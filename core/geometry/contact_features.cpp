@@ -40,6 +40,18 @@ Vec3 oppositeCorner(const TriMesh& mesh, int face, const std::pair<int, int>& en
     return mesh.points.col(ends.first);
 }
 
+EdgeLine lineOf(const ConvexEdge& edge)
+{
+    const auto single = [](const Vec3& v) {
+        return std::array{static_cast<float>(v.x()), static_cast<float>(v.y()),
+                          static_cast<float>(v.z())};
+    };
+    return {.start = single(edge.start),
+            .length = static_cast<float>(edge.length),
+            .direction = single(edge.direction),
+            .outward = single(edge.outward)};
+}
+
 }  // namespace
 
 ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
@@ -74,6 +86,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         if (edge.intoFace[1].dot(edge.faceNormal[0]) > -kFlat) continue;
         edge.outward = (edge.faceNormal[0] + edge.faceNormal[1]).normalized();
         edges_.push_back(edge);
+        lines_.push_back(lineOf(edge));
         edgeSpheres.push_back({0.5 * (start + end), 0.5 * length});
     }
 

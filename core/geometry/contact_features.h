@@ -28,6 +28,16 @@ struct ConvexEdge {
     std::array<bool, 2> goesOn;      ///< past either end, straight, as another edge
 };
 
+/// What tells how far apart edges are, in single precision and within a line of the cache.
+struct alignas(16) EdgeLine {
+    std::array<float, 3> start;
+    float length;
+    std::array<float, 3> direction;
+    float unused = 0.0f;
+    std::array<float, 3> outward;
+    float unusedToo = 0.0f;
+};
+
 /// Sine of the angle by which surroundings may stand in front of a feature that still counts: the
 /// far corners of a block that rocks on an edge are its next supports and must be known before they
 /// touch. Anything from 0.2 to 0.5 does.
@@ -43,6 +53,7 @@ public:
     /// Those where at least three faces of different directions meet.
     const std::vector<std::int32_t>& corners() const { return corners_; }
     const std::vector<ConvexEdge>& edges() const { return edges_; }
+    const std::vector<EdgeLine>& lines() const { return lines_; }  ///< of edges()
     const SphereLaneTree& cornerTree() const { return cornerTree_; }  ///< over corners()
     const SphereLaneTree& edgeTree() const { return edgeTree_; }      ///< over edges()
 
@@ -58,6 +69,7 @@ private:
     std::vector<std::uint32_t> neighbourStart_;  // #V + 1
     std::vector<Vec3> neighbours_;               // unit directions from the corner along its edges
     std::vector<ConvexEdge> edges_;
+    std::vector<EdgeLine> lines_;
     SphereLaneTree cornerTree_, edgeTree_;
 };
 

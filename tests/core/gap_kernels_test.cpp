@@ -13,6 +13,7 @@
 #include "core/collision/near_features.h"
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_lanes.h"
+#include "core/geometry/distance_lanes.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
 #include "tests/support/draw.h"
@@ -411,20 +412,24 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
                                 exponentialMap(3.0 * signedUnits(run, 0)).toRotationMatrix(),
                                 0.9 * signedUnits(run, 3)};
         const double reach = 0.1, deepest = deepestEdges(pair);
+        const double rounding =
+            kSinglePrecision * (ring->boundingRadius + pair.translation.norm() + 1.3);
         for (std::int32_t i = 0; i < std::ssize(ring->features.edges()); ++i) {
             ConvexEdge placed = ring->features.edges()[i];
             placed.start = pair * placed.start;
             placed.direction = pair.rotation * placed.direction;
+            std::array<const EdgeLine*, kFloatLanes> first;
+            first.fill(&ring->features.lines()[i]);
+            LineLanes ofFirst(first);
+            ofFirst.place(RotationLanes(pair.rotation), FloatLanes3::all(pair.translation));
             const std::vector<ConvexEdge>& edges = other.features.edges();
             for (std::int32_t j = 0; j < std::ssize(edges); ++j) {
-                const int lane = j % kLanes;
-                std::array<const ConvexEdge*, kLanes> four = {&edges[0], &edges[0], &edges[0],
-                                                              &edges[0]};
-                four[static_cast<std::size_t>(lane)] = &edges[j];
-                const SegmentLanes first(
-                    std::array<const ConvexEdge*, kLanes>{&placed, &placed, &placed, &placed});
-                const EdgeLanes second(four);
-                const EdgeGaps gaps = edgeGaps(first, second, deepest, reach);
+                const int lane = j % kFloatLanes;
+                std::array<const EdgeLine*, kFloatLanes> second;
+                second.fill(&other.features.lines()[0]);
+                second[static_cast<std::size_t>(lane)] = &other.features.lines()[j];
+                const EdgeGaps gaps =
+                    edgeGaps(ofFirst, LineLanes(second), deepest, reach, rounding);
                 const bool mayTouch = bitsOf(gaps.mayTouch) >> lane & 1u;
                 const bool touches = faceEdges(pair, i, j, reach, 1e-3).has_value();
                 EXPECT_TRUE(mayTouch || !touches);
@@ -432,8 +437,8 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
                 spared += !mayTouch;
                 if ((i + j) % 17 != 0) continue;
                 const double distance = segmentDistance(placed, edges[j]);
-                EXPECT_LE(gaps.distance[lane], distance + 1e-9);
-                EXPECT_GE(gaps.distance[lane], distance - 1e-3);
+                EXPECT_LE(gaps.distance[lane], distance);
+                EXPECT_GE(gaps.distance[lane], distance - 2e-3);
             }
         }
     }
