@@ -120,9 +120,9 @@ void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
 ImpulseCounts countImpulses(const GapScratch& scratch)
 {
     std::atomic<std::int64_t> sliding = 0, sticking = 0;
-    forPairs(scratch, [&](std::size_t i) {
+    parallelFor(scratch.rows.size(), 1024, [&](std::size_t begin, std::size_t end) {
         std::int64_t slide = 0, stick = 0;
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
+        for (std::size_t r = begin; r < end; ++r) {
             const GapRow& row = scratch.rows[r];
             if (row.impulse.x() > 0.0) ++(sticks(row) ? stick : slide);
         }

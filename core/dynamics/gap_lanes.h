@@ -84,8 +84,9 @@ private:
         std::size_t begin = 0, end = 0;  // its rows here
     };
     struct Motion;
-    /// Batches that are visited one after the other.
-    struct Section {
+    /// Batches that are visited one after the other. Two lines of the cache apart: halves are
+    /// written to by two threads.
+    struct alignas(128) Section {
         std::vector<Batch> batches;
         std::array<std::vector<std::int32_t>, kRowsTogether + 1> open;  // those with idle lanes
         Lanes residual = kNoLanes, squaredSpeed = kNoLanes, energy = kNoLanes;

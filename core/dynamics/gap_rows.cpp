@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/disjoint_sets.h"
@@ -281,16 +282,15 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
 
     // Bottom to top: what carries is solved before what is carried.
     const Vec3 up = -settings.gravity;
-    std::vector<double> height;
-    scratch.order.clear();
+    std::vector<std::pair<double, std::size_t>> byHeight;
+    byHeight.reserve(scratch.pairs.size());
     for (const GapPair& pair : scratch.pairs) {
         const GapRow& row = scratch.rows[pair.begin];
-        scratch.order.push_back(height.size());
-        height.push_back(up.dot(world.motion[row.a].position + row.rA));
+        byHeight.emplace_back(up.dot(world.motion[row.a].position + row.rA), byHeight.size());
     }
-    std::sort(scratch.order.begin(), scratch.order.end(), [&](std::size_t p, std::size_t q) {
-        return height[p] < height[q] || (height[p] == height[q] && p < q);
-    });
+    std::sort(byHeight.begin(), byHeight.end());
+    scratch.order.clear();
+    for (const auto& [height, pair] : byHeight) scratch.order.push_back(pair);
     cutIntoIslands(scratch);
 }
 
