@@ -206,13 +206,12 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
     };
     place(batch.a, scratch.bodies[from->a], from->movesA);
     place(batch.b, scratch.bodies[from->b], from->movesB);
+    batch.aFromB.set(lane, from->rB - from->rA);
     for (std::size_t r = batch.begin; r < batch.end; ++r, ++from) {
         Row& row = rows_[r];
         row.rA.set(lane, from->rA);
-        row.rB.set(lane, from->rB);
         row.normal.set(lane, from->normal);
         row.tangent.set(lane, from->tangent);
-        row.second.set(lane, from->secondTangent());
         row.target[lane] = from->target;
         row.friction[lane] = from->friction;
         row.normalMass[lane] = 1.0 / from->inverseNormalMass;
@@ -243,11 +242,12 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
 inline void GapLanes::apply(const Row& row, const Batch& batch, const Lanes3& change,
                             Motion& motion)
 {
-    const Lanes3 j = fma(change.z, row.second, fma(change.y, row.tangent, change.x * row.normal));
+    const Lanes3 second = cross(row.normal, row.tangent);
+    const Lanes3 j = fma(change.z, second, fma(change.y, row.tangent, change.x * row.normal));
     motion.vA = fma(batch.a.inverseMass, j, motion.vA);
     motion.wA += batch.a.inverseInertia * cross(row.rA, j);
     motion.vB = fnma(batch.b.inverseMass, j, motion.vB);
-    motion.wB -= batch.b.inverseInertia * cross(row.rB, j);
+    motion.wB -= batch.b.inverseInertia * cross(row.rA + batch.aFromB, j);
 }
 
 inline void GapLanes::applyCouple(const Batch& batch, const Lanes3& couple, Motion& motion)
@@ -256,9 +256,10 @@ inline void GapLanes::applyCouple(const Batch& batch, const Lanes3& couple, Moti
     motion.wB -= batch.b.inverseInertia * couple;
 }
 
-inline Lanes3 GapLanes::velocityAt(const Row& row, const Motion& motion)
+inline Lanes3 GapLanes::velocityAt(const Row& row, const Batch& batch, const Motion& motion)
 {
-    return motion.vA + cross(motion.wA, row.rA) - motion.vB - cross(motion.wB, row.rB);
+    return motion.vA + cross(motion.wA, row.rA) - motion.vB -
+           cross(motion.wB, row.rA + batch.aFromB);
 }
 
 /// resistSpin of the plain twin without branches.
@@ -288,6 +289,7 @@ inline void GapLanes::visit(std::size_t place, const Batch& batch, const Lanes3&
 {
     Row& row = rows_[place];
     const Lanes3 old = row.impulse;
+    const Lanes3 second = cross(row.normal, row.tangent);
     const Lanes un = dot(u, row.normal);
     const Lanes normal = maxOf(kNoLanes, fnma(un - row.target, row.normalMass, old.x));
     const Lanes pushed = normal - old.x;
@@ -296,12 +298,12 @@ inline void GapLanes::visit(std::size_t place, const Batch& batch, const Lanes3&
         row.impulse.x = normal;
         apply(row, batch, {pushed, kNoLanes, kNoLanes}, motion);
         section.residual = maxOf(section.residual, resistSpin(place, batch, motion));
-        const Lanes3 turned = velocityAt(row, motion);
+        const Lanes3 turned = velocityAt(row, batch, motion);
         ut = dot(turned, row.tangent);
-        us = dot(turned, row.second);
+        us = dot(turned, second);
     } else {
         ut = fma(pushed, row.turnsIntoTangent, dot(u, row.tangent));
-        us = fma(pushed, row.turnsIntoSecond, dot(u, row.second));
+        us = fma(pushed, row.turnsIntoSecond, dot(u, second));
     }
     const Lanes stickT = fnma(row.massTt, ut, fnma(row.massTs, us, old.y));
     const Lanes stickS = fnma(row.massTs, ut, fnma(row.massSs, us, old.z));
@@ -339,7 +341,7 @@ void GapLanes::sweepUp(Section& section)
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
             Row& row = rows_[r];
             row.before = row.impulse;
-            const Lanes3 u = velocityAt(row, motion);
+            const Lanes3 u = velocityAt(row, batch, motion);
             section.squaredSpeed = maxOf(section.squaredSpeed, dot(u, u));
             visit<kRolls>(r, batch, u, motion, section);
         }
@@ -356,7 +358,7 @@ void GapLanes::sweepDown(Section& section)
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.end; r-- > batch.begin;) {
             Row& row = rows_[r];
-            visit<kRolls>(r, batch, velocityAt(row, motion), motion, section);
+            visit<kRolls>(r, batch, velocityAt(row, batch, motion), motion, section);
             const Lanes3 d = row.impulse - row.before;
             const Lanes sideways = fma(d.y, d.y, d.z * d.z);
             section.energy = fma(row.inverseNormalMass, d.x * d.x, section.energy);

@@ -54,7 +54,7 @@ private:
     static constexpr std::size_t kRowsTogether = 4;
 
     struct Row {
-        Lanes3 rA, rB, normal, tangent, second;
+        Lanes3 rA, normal, tangent;
         Lanes target = kNoLanes, friction = kNoLanes;
         Lanes normalMass = kNoLanes, inverseNormalMass = kNoLanes;
         Lanes turnsIntoTangent = kNoLanes,
@@ -79,6 +79,7 @@ private:
     /// Up to kRowsTogether rows each of up to kLanes pairs that share no movable body.
     struct Batch {
         Side a, b;
+        Lanes3 aFromB;              // centres: what turns rA into rB
         std::int32_t from[kLanes];  // the first row of each in GapScratch::rows
         int lanesUsed = 0;
         std::size_t begin = 0, end = 0;  // its rows here
@@ -114,7 +115,7 @@ private:
                Section& section);
     Lanes resistSpin(std::size_t place, const Batch& batch, Motion& motion);
     static void applyCouple(const Batch& batch, const Lanes3& couple, Motion& motion);
-    static Lanes3 velocityAt(const Row& row, const Motion& motion);
+    static Lanes3 velocityAt(const Row& row, const Batch& batch, const Motion& motion);
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
     std::vector<LaneBody>* bodies_ = nullptr;

@@ -469,12 +469,13 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling)
         if (a == b) continue;
         GapPair pair{{a, b}, 0, scratch.rows.size(), scratch.rows.size()};
         pair.end += 1 + randomIndex(14, seed, 3, p);
+        const Vec3 bFromA = signedUnits(seed, 9000 + 3 * p);
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             GapRow row{};
             row.a = a;
             row.b = b;
             row.rA = signedUnits(seed, 5000 + 20 * r);
-            row.rB = signedUnits(seed, 5003 + 20 * r);
+            row.rB = row.rA + bFromA;
             row.normal = signedUnits(seed, 5006 + 20 * r).normalized();
             row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
             row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
