@@ -45,8 +45,7 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
 
 /// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
 /// nearest to both of them past their ends, inside the body: it touches all the same. Past the end
-/// of an edge that goes on straight is no notch: there rounding took a cube for 36 mm deep in its
-/// neighbour, and pushed it away.
+/// of an edge that goes on straight is no notch: there the next piece speaks.
 bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
                     const Crossing& at, double gap)
 {
@@ -74,33 +73,62 @@ Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3&
     const Vec3 &face0 = edge.faceNormal[0], &face1 = edge.faceNormal[1];
     const double height0 = gap * n.dot(face0), height1 = gap * n.dot(face1);
     const double slope0 = direction.dot(face0), slope1 = direction.dot(face1);
-    const double height = std::max(height0, height1);
-    if (height <= -kNearlySquare * gap) return {0.0, height};
-    if (slope0 * slope1 >= 0.0) return {0.0, 0.0};
+    if (std::max(height0, height1) <= 0.0 || slope0 * slope1 >= 0.0)
+        return {0.0, std::min(0.0, std::max(height0, height1))};
     const double along = std::clamp((height1 - height0) / (slope0 - slope1), -length, length);
     return {along, std::min(0.0, std::max(height0 + along * slope0, height1 + along * slope1))};
 }
 
-/// Whether what lies `depth` inside the second shape along n, the way out where two edges cross,
-/// has a much shorter way out through a face beside the edge of the second: neither that end of the
+/// Of boxes flush with each other a face beside the edge leans out from the way by rounding, and
+/// where the edge of the first is deepest another face is as near. Whether it has come in under
+/// that face all the same.
+bool comesInFlush(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b, const Vec3& n,
+                  const Vec3& onFirst, double depth)
+{
+    const int leaning = n.dot(b.faceNormal[0]) < n.dot(b.faceNormal[1]) ? 0 : 1;
+    const double out = -depth * n.dot(b.faceNormal[leaning]);
+    if (out < 0.0 || out > kNearlySquare * depth) return false;
+    const Vec3 direction = pair.rotation * a.direction;
+    const double along = direction.dot(onFirst - pair * a.start);
+    const bool isBack = direction.dot(b.faceNormal[leaning]) > 0.0;
+    const double way = std::min(depth, isBack ? along : a.length - along);
+    const Vec3 under = onFirst + (isBack ? -way : way) * direction;
+    return pair.second.distance.value(under) <= kNearlySquare * depth;
+}
+
+/// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a face
+/// by half of `depth`: not beside the second, where everything is under the plane of that face. Of
+/// an edge that goes on straight the next piece counts too.
+bool comesInUnder(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
+                  const Vec3& onFirst, const Vec3& face, double depth)
+{
+    const Vec3 direction = pair.rotation * ofFirst.direction;
+    const double sinks = -direction.dot(face);
+    const double way = (0.5 * depth - face.dot(ofSecond.start - onFirst)) / sinks;
+    const double place = direction.dot(onFirst - pair * ofFirst.start) + way;
+    const double begin = ofFirst.goesOn[0] ? -ofFirst.length : 0.0;
+    const double end = ofFirst.goesOn[1] ? 2.0 * ofFirst.length : ofFirst.length;
+    if (!(place >= begin && place <= end)) return false;
+    return pair.second.distance.value(onFirst + way * direction) <= kNearlySquare * depth;
+}
+
+/// Whether what lies `depth` inside the second shape along n, the way out where two edges cross at
+/// `onFirst`, has a much shorter way out through a face beside the edge of the second: neither the
 /// edge of the first nor any corner in the second is nearly as deep under it. A cube that stands on
 /// another is deep below its rim only because it stands far from it; it leaves by what it stands
 /// on.
 bool leavesByFace(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
-                  const Vec3& n, double depth)
+                  const Vec3& onFirst, const Vec3& n, double depth)
 {
-    const Points& points = pair.first.features.points();
+    const std::vector<std::int32_t>& corners = pair.first.features.corners();
     for (const Vec3& face : ofSecond.faceNormal) {
         if (n.dot(face) > 0.5) continue;
-        const auto isDeep = [&](int corner, bool mustBeInside) {
-            const Vec3 p = pair * points.col(corner);
-            return face.dot(ofSecond.start - p) >= 0.5 * depth &&
-                   (!mustBeInside || pair.second.distance.value(p) < 0.0);
-        };
-        if (isDeep(ofFirst.ends[0], false) || isDeep(ofFirst.ends[1], false)) continue;
-        const std::vector<std::int32_t>& corners = pair.first.features.corners();
-        if (std::none_of(corners.begin(), corners.end(),
-                         [&](std::int32_t corner) { return isDeep(corner, true); })) {
+        if (comesInUnder(pair, ofFirst, ofSecond, onFirst, face, depth)) continue;
+        if (std::none_of(corners.begin(), corners.end(), [&](std::int32_t corner) {
+                const Vec3 p = pair * pair.first.features.points().col(corner);
+                return face.dot(ofSecond.start - p) >= 0.5 * depth &&
+                       pair.second.distance.value(p) < 0.0;
+            })) {
             return true;
         }
     }
@@ -212,10 +240,13 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     const Dip dip =
         deepestBeside(b, n, gap, pair.rotation * a.direction, std::max(-at->beyondFirst, 0.0));
     const Vec3 deepest = at->onFirst + dip.along * (pair.rotation * a.direction);
-    const double highest = std::max(dip.height, 0.5 * dip.height) + rounding;
-    if (pair.second.distance.value(deepest) > highest) return {};
-    if (leavesByFace(pair, a, b, n, -gap) ||
-        leavesByFace(pair.reversed(), b, a, pair.rotation.transpose() * -n, -gap)) {
+    if (pair.second.distance.value(deepest) > 0.5 * dip.height + rounding &&
+        !comesInFlush(pair, a, b, n, at->onFirst, -gap)) {
+        return {};
+    }
+    const RelativePair back = pair.reversed();
+    if (leavesByFace(pair, a, b, at->onFirst, n, -gap) ||
+        leavesByFace(back, b, a, back * at->onSecond, back.rotation * -n, -gap)) {
         return {};
     }
     return FeatureContact{at->onFirst, n, gap};

@@ -99,7 +99,7 @@ void inSpheres(const std::vector<FacingLanes>& eights, std::vector<SphereLanes>&
     }
 }
 
-/// Those eights with anything within `farthest` of an edge. Of two bones one in eight has.
+/// Those eights with anything within `farthest` of an edge: of two bones three in ten.
 void findEightsNear(const FacingLanes& edge, const std::vector<SphereLanes>& spheres,
                     double farthest, std::vector<std::size_t>& near)
 {
