@@ -162,8 +162,8 @@ EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double de
                                          ? -maxOf(apart, -apart)
                                      : out < none ? -apart
                                                   : apart;
-    const FloatLanes beyond = maxOf(maxOf(-lineS, lineS - a.length), none) +
-                              maxOf(maxOf(-lineT, lineT - b.length), none);
+    const FloatLanes beyond =
+        maxOf(maxOf(-lineS, lineS - a.length), none) + maxOf(maxOf(-lineT, lineT - b.length), none);
     const FloatLanes slack = 2.0f * lineWrong + 2.0f * wrong / sine;
     gaps.mayTouch = (sine >= floatLanesOf(0.99 * kParallel)) &
                     (towardsSecond < floatLanesOf(reach) + slack) &

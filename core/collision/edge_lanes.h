@@ -58,7 +58,7 @@ struct EdgeGaps {
 
 /// In the frame of the second, whose places are known to `rounding` [m]. Edges deeper in each other
 /// than `deepest` do not touch.
-EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double deepest,
-                  double reach, double rounding);
+EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double deepest, double reach,
+                  double rounding);
 
 }  // namespace scree

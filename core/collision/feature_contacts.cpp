@@ -96,9 +96,9 @@ bool comesInFlush(const RelativePair& pair, const ConvexEdge& a, const ConvexEdg
     return pair.second.distance.value(under) <= kNearlySquare * depth;
 }
 
-/// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a face
-/// by half of `depth`: not beside the second, where everything is under the plane of that face. Of
-/// an edge that goes on straight the next piece counts too.
+/// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a
+/// face by half of `depth`: not beside the second, where everything is under the plane of that
+/// face. Of an edge that goes on straight the next piece counts too.
 bool comesInUnder(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
                   const Vec3& onFirst, const Vec3& face, double depth)
 {

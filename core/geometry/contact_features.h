@@ -53,7 +53,7 @@ public:
     /// Those where at least three faces of different directions meet.
     const std::vector<std::int32_t>& corners() const { return corners_; }
     const std::vector<ConvexEdge>& edges() const { return edges_; }
-    const std::vector<EdgeLine>& lines() const { return lines_; }  ///< of edges()
+    const std::vector<EdgeLine>& lines() const { return lines_; }     ///< of edges()
     const SphereLaneTree& cornerTree() const { return cornerTree_; }  ///< over corners()
     const SphereLaneTree& edgeTree() const { return edgeTree_; }      ///< over edges()
 

@@ -376,12 +376,12 @@ TEST(NearFeatures, CubesThatOverlapAreAboutAsDeepAsTheirSeparatingAxesSayHowever
 TEST(NearFeatures, CubesAreSeenDeepInEachOtherPastTheEndOfAPieceOfAnEdge)
 {
     const auto cube = boxShape({0.5, 0.5, 0.5}, 2);
-    const Pose a{Vec3(-2.331654216221198, 1.748846780766361, -2.7518805596118616),
-                 Quat(-0.8724073446532972, 0.031149029324138763, 0.48777913698057296,
-                      0.002583891180898662)};
-    const Pose b{Vec3(-2.2727537168020056, 2.2607264221433248, -2.7715299801060205),
-                 Quat(-0.3809176896131415, 0.5637930083262791, 0.5260226719506466,
-                      -0.5102345598801525)};
+    const Pose a{
+        Vec3(-2.331654216221198, 1.748846780766361, -2.7518805596118616),
+        Quat(-0.8724073446532972, 0.031149029324138763, 0.48777913698057296, 0.002583891180898662)};
+    const Pose b{
+        Vec3(-2.2727537168020056, 2.2607264221433248, -2.7715299801060205),
+        Quat(-0.3809176896131415, 0.5637930083262791, 0.5260226719506466, -0.5102345598801525)};
     const double overlap = overlapOfCubes(a, b, 0.25);
     EXPECT_NEAR(overlap, 0.0356, 1e-4);
     EXPECT_NEAR(deepestContact(*cube, a, b), overlap, 1e-6);
