@@ -79,23 +79,6 @@ Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3&
     return {along, std::min(0.0, std::max(height0 + along * slope0, height1 + along * slope1))};
 }
 
-/// Of boxes flush with each other a face beside the edge leans out from the way by rounding, and
-/// where the edge of the first is deepest another face is as near. Whether it has come in under
-/// that face all the same.
-bool comesInFlush(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b, const Vec3& n,
-                  const Vec3& onFirst, double depth)
-{
-    const int leaning = n.dot(b.faceNormal[0]) < n.dot(b.faceNormal[1]) ? 0 : 1;
-    const double out = -depth * n.dot(b.faceNormal[leaning]);
-    if (out < 0.0 || out > kNearlySquare * depth) return false;
-    const Vec3 direction = pair.rotation * a.direction;
-    const double along = direction.dot(onFirst - pair * a.start);
-    const bool isBack = direction.dot(b.faceNormal[leaning]) > 0.0;
-    const double way = std::min(depth, isBack ? along : a.length - along);
-    const Vec3 under = onFirst + (isBack ? -way : way) * direction;
-    return pair.second.distance.value(under) <= kNearlySquare * depth;
-}
-
 /// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a
 /// face by half of `depth`: not beside the second, where everything is under the plane of that
 /// face. Of an edge that goes on straight the next piece counts too.
@@ -110,6 +93,18 @@ bool comesInUnder(const RelativePair& pair, const ConvexEdge& ofFirst, const Con
     const double end = ofFirst.goesOn[1] ? 2.0 * ofFirst.length : ofFirst.length;
     if (!(place >= begin && place <= end)) return false;
     return pair.second.distance.value(onFirst + way * direction) <= kNearlySquare * depth;
+}
+
+/// Of boxes flush with each other a face beside the edge of the second leans out from the way by
+/// rounding, and where the edge of the first is deepest another face is as near. Whether it has come
+/// in under that face all the same.
+bool comesInFlush(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
+                  const Vec3& onFirst, const Vec3& n, double depth)
+{
+    const std::array<Vec3, 2>& faces = ofSecond.faceNormal;
+    const Vec3& leaning = n.dot(faces[0]) < n.dot(faces[1]) ? faces[0] : faces[1];
+    return n.dot(leaning) >= -kNearlySquare &&
+           comesInUnder(pair, ofFirst, ofSecond, onFirst, leaning, depth);
 }
 
 /// Whether what lies `depth` inside the second shape along n, the way out where two edges cross at
@@ -241,7 +236,7 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
         deepestBeside(b, n, gap, pair.rotation * a.direction, std::max(-at->beyondFirst, 0.0));
     const Vec3 deepest = at->onFirst + dip.along * (pair.rotation * a.direction);
     if (pair.second.distance.value(deepest) > 0.5 * dip.height + rounding &&
-        !comesInFlush(pair, a, b, n, at->onFirst, -gap)) {
+        !comesInFlush(pair, a, b, at->onFirst, n, -gap)) {
         return {};
     }
     const RelativePair back = pair.reversed();
