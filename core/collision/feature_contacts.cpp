@@ -96,8 +96,8 @@ bool comesInUnder(const RelativePair& pair, const ConvexEdge& ofFirst, const Con
 }
 
 /// Of boxes flush with each other a face beside the edge of the second leans out from the way by
-/// rounding, and where the edge of the first is deepest another face is as near. Whether it has come
-/// in under that face all the same.
+/// rounding, and where the edge of the first is deepest another face is as near. Whether it has
+/// come in under that face all the same.
 bool comesInFlush(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
                   const Vec3& onFirst, const Vec3& n, double depth)
 {
