@@ -19,6 +19,15 @@ int threadCount();
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Calls work(i) for every i from 0 to count − 1, `grain` of them together.
+template <class Work>
+void forEach(std::size_t count, std::size_t grain, const Work& work)
+{
+    parallelFor(count, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) work(i);
+    });
+}
+
 /// Items of work in an order of which only part matters: some must follow others, and the bits are
 /// those of one after the other as long as they do.
 struct WorkOrder {

@@ -18,6 +18,8 @@ constexpr double kRoom = 0.1, kMostRoomy = 1.5;  // of the longest edge
 constexpr double kEdgesPerCell = 2.0, kMostMisfit = 2.0;
 constexpr double kSmallestCell = 1e-12;  // [m]
 
+constexpr std::size_t kEntriesTogether = 512;  // what a thread takes at once
+
 constexpr double kMostCells = 64.0;  // a body over more cells goes to the list of large ones
 
 struct CellRange {
@@ -165,15 +167,35 @@ void BroadPhase::enterMoved(const std::vector<Aabb>& boxes)
 /// Pairs of which one has moved at least, each once.
 void BroadPhase::pairMoved()
 {
+    // Parts of the entries begin where a cell does.
+    const auto firstOfCell = [&](std::size_t i) {
+        while (i > 0 && i < entries_.size() && entries_[i].cell == entries_[i - 1].cell) ++i;
+        return std::min(i, entries_.size());
+    };
+    found_.resize((entries_.size() + kEntriesTogether - 1) / kEntriesTogether);
+    forEach(found_.size(), 1, [&](std::size_t part) {
+        found_[part].clear();
+        pairInCells(firstOfCell(part * kEntriesTogether),
+                    firstOfCell((part + 1) * kEntriesTogether), found_[part]);
+    });
     const std::size_t stay = meetings_.size();
-    for (std::size_t begin = 0; begin < entries_.size();) {
-        std::size_t end = begin;
-        movedHere_.clear();
-        for (; end < entries_.size() && entries_[end].cell == entries_[begin].cell; ++end) {
-            if (isMoved_[entries_[end].body]) movedHere_.push_back(entries_[end].body);
+    for (const std::vector<BodyPair>& found : found_)
+        meetings_.insert(meetings_.end(), found.begin(), found.end());
+    pairLarge(meetings_);
+    mergeTail(meetings_, stay);
+}
+
+/// Pairs of those that share a cell, among the entries from `begin` to `end`.
+void BroadPhase::pairInCells(std::size_t begin, std::size_t end, std::vector<BodyPair>& found) const
+{
+    thread_local std::vector<BodyId> movedHere;
+    for (std::size_t next = begin; begin < end; begin = next) {
+        movedHere.clear();
+        for (; next < end && entries_[next].cell == entries_[begin].cell; ++next) {
+            if (isMoved_[entries_[next].body]) movedHere.push_back(entries_[next].body);
         }
-        for (const BodyId moved : movedHere_) {
-            for (std::size_t i = begin; i < end; ++i) {
+        for (const BodyId moved : movedHere) {
+            for (std::size_t i = begin; i < next; ++i) {
                 const BodyId other = entries_[i].body;
                 if (isMoved_[other] && other <= moved) continue;
                 if (!roomy_[moved].overlaps(roomy_[other])) continue;
@@ -181,26 +203,28 @@ void BroadPhase::pairMoved()
                 const auto &p = firstCells_[moved], &q = firstCells_[other];
                 const std::uint64_t first =
                     keyOf(std::max(p[0], q[0]), std::max(p[1], q[1]), std::max(p[2], q[2]));
-                if (first == entries_[i].cell) meet(moved, other);
+                if (first == entries_[i].cell) meet(moved, other, found);
             }
         }
-        begin = end;
     }
+}
+
+void BroadPhase::pairLarge(std::vector<BodyPair>& found) const
+{
     for (const BodyId large : large_) {
         for (BodyId body = 0; body < static_cast<BodyId>(roomy_.size()); ++body) {
             if (!isMoved_[large] && !isMoved_[body]) continue;
             // Two large bodies meet once, when the first of them is walked.
             if (body <= large && std::binary_search(large_.begin(), large_.end(), body)) continue;
-            if (roomy_[large].overlaps(roomy_[body])) meet(large, body);
+            if (roomy_[large].overlaps(roomy_[body])) meet(large, body, found);
         }
     }
-    mergeTail(meetings_, stay);
 }
 
-void BroadPhase::meet(BodyId a, BodyId b)
+void BroadPhase::meet(BodyId a, BodyId b, std::vector<BodyPair>& found) const
 {
     if (!isMovable_[a] && !isMovable_[b]) return;
-    meetings_.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
+    found.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
 }
 
 }  // namespace scree

@@ -46,7 +46,9 @@ private:
     void forgetMoved();
     void enterMoved(const std::vector<Aabb>& boxes);
     void pairMoved();
-    void meet(BodyId a, BodyId b);
+    void pairInCells(std::size_t begin, std::size_t end, std::vector<BodyPair>& found) const;
+    void pairLarge(std::vector<BodyPair>& found) const;
+    void meet(BodyId a, BodyId b, std::vector<BodyPair>& found) const;
 
     // Per body: its larger box and what else is known of it, and whether that is to be found anew.
     std::vector<Aabb> roomy_;
@@ -60,7 +62,7 @@ private:
     std::vector<BodyPair> pairs_;
     // While searching.
     std::vector<double> edges_;
-    std::vector<BodyId> movedHere_;
+    std::vector<std::vector<BodyPair>> found_;  // by several threads
 };
 
 }  // namespace scree

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.h"
+
 namespace scree {
 namespace {
+
+constexpr std::size_t kBodiesTogether = 256;  // what a thread takes at once
 
 constexpr double kAirDensity = 1.2;  // at 20 °C and sea level [kg/m³]
 
@@ -75,10 +79,11 @@ Vec3 fieldAcceleration(const ForceField& field, double time, const Vec3& x, cons
 void findForces(const World& world, const StepSettings& settings, double dt,
                 std::vector<AppliedForce>& forces)
 {
-    forces.assign(world.bodyCount(), {});
+    forces.resize(world.bodyCount());
     const double time = world.time();
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (!world.mass[b].isMovable()) continue;
+    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t b) {
+        forces[b] = {};
+        if (!world.mass[b].isMovable()) return;
         const BodyMotion& motion = world.motion[b];
         const double inverseMass = world.mass[b].inverseMass;
         const double area = 0.25 * world.shapeOf(static_cast<BodyId>(b)).unitMass.area;
@@ -89,7 +94,7 @@ void findForces(const World& world, const StepSettings& settings, double dt,
                 fieldAcceleration(field, time, motion.position, motion.velocity, airGrip, dt);
         }
         forces[b].torque = world.info[b].torque;
-    }
+    });
 }
 
 void addForces(World& world, const std::vector<AppliedForce>& forces, double dt)

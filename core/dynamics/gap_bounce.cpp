@@ -16,6 +16,7 @@
 #include "core/dynamics/gap_bounce.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -35,8 +36,11 @@ constexpr double kPairIsSolved = 1e-4;  // of the speed of the impact
 /// Places that are hit within this share of a step are hit together.
 constexpr double kTogether = 0.01;
 
+/// Where fewer pairs are hit at first, few are in all.
+constexpr std::size_t kHitsWorthACut = 32;
+
 /// What the impacts of this step have done to a body so far.
-struct Impacts {
+struct alignas(64) Impacts {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
     double earliest = std::numeric_limits<double>::infinity();
     std::int64_t changedAt = 0;  // the visit of a pair that changed it last
@@ -51,19 +55,35 @@ struct Held {
 /// that are remembered.
 std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
 {
-    std::vector<Held> held(scratch.bodies.size());
-    const auto hold = [&](BodyId body, const Vec3& r, const Vec3& force, const Vec3& couple) {
-        held[body].acceleration += scratch.bodies[body].inverseMass * force;
-        held[body].turning += scratch.bodies[body].inverseInertia * (r.cross(force) + couple);
+    struct OfPair {
+        Vec3 impulse = Vec3::Zero(), turnOfA = Vec3::Zero(), turnOfB = Vec3::Zero();  // on A, on B
     };
-    for (const std::size_t p : scratch.order) {
+    std::vector<OfPair> ofPairs(scratch.pairs.size());
+    forPairs(scratch, [&](std::size_t p) {
         for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
             const GapRow& row = scratch.rows[r];
             if (row.impulse.x() == 0.0) continue;
-            const Vec3 force = row.worldImpulse() / dt, couple = row.couple / dt;
-            if (row.movesA) hold(row.a, row.rA, force, couple);
-            if (row.movesB) hold(row.b, row.rB, -force, -couple);
+            const Vec3 impulse = row.worldImpulse();
+            ofPairs[p].impulse += impulse;
+            ofPairs[p].turnOfA += row.rA.cross(impulse) + row.couple;
+            ofPairs[p].turnOfB -= row.rB.cross(impulse) + row.couple;
         }
+    });
+    std::vector<Held> held(scratch.bodies.size());
+    for (const std::size_t p : scratch.order) {
+        const GapRow& any = scratch.rows[scratch.pairs[p].begin];
+        if (any.movesA) {
+            held[any.a].acceleration += ofPairs[p].impulse;
+            held[any.a].turning += ofPairs[p].turnOfA;
+        }
+        if (any.movesB) {
+            held[any.b].acceleration -= ofPairs[p].impulse;
+            held[any.b].turning += ofPairs[p].turnOfB;
+        }
+    }
+    for (std::size_t b = 0; b < held.size(); ++b) {
+        held[b].acceleration *= scratch.bodies[b].inverseMass / dt;
+        held[b].turning = scratch.bodies[b].inverseInertia * held[b].turning / dt;
     }
     return held;
 }
@@ -104,63 +124,88 @@ private:
     std::vector<std::size_t> begin_, pairs_;
 };
 
-class ImpactPass {
-public:
-    ImpactPass(const StepSettings& settings, double dt, GapScratch& scratch)
-        : settings_(settings),
-          dt_(dt),
-          slowest_(slowestApproach(settings, dt)),
-          scratch_(scratch),
-          held_(heldAsBefore(dt, scratch)),
-          impacts_(scratch.bodies.size()),
-          doneAt_(scratch.pairs.size(), 0),
-          gatheredAt_(scratch.pairs.size(), 0),
-          placeOf_(scratch.bodies.size(), -1)
+/// What is known of the impacts of a step, by body, row and pair. Visits of pairs that share no
+/// movable body read and write different parts of it.
+struct alignas(64) I64 { std::int64_t v; I64(std::int64_t x=0):v(x){} operator std::int64_t() const {return v;} };
+struct ImpactState {
+    ImpactState(const StepSettings& chosen, double step, GapScratch& rows)
+        : settings(chosen),
+          dt(step),
+          slowest(slowestApproach(chosen, step)),
+          scratch(rows),
+          held(heldAsBefore(step, rows)),
+          impacts(rows.bodies.size()),
+          doneAt(rows.pairs.size(), 0),
+          gatheredAt(rows.pairs.size(), 0)
     {
-        scratch.impacts.clear();
     }
 
-    ImpulseCounts run(std::int64_t& loopsAtTheirCap)
+    /// Not to be asked for the first time by two threads.
+    const PairsOfBodies& pairsOfBodies()
     {
-        ImpulseCounts counts;
-        for (const std::size_t i : inOrderOfTime()) visit(i, counts);
-        for (int sweep = 0; sweep < settings_.collisionIterations; ++sweep) {
-            const std::int64_t before = counts.total();
-            // There and back: a blow runs along a row of touching bodies whichever way it lies.
-            for (std::size_t i : scratch_.order) visit(i, counts);
-            for (std::size_t p = scratch_.order.size(); p-- > 0;) visit(scratch_.order[p], counts);
-            if (counts.total() == before) return counts;
+        if (!pairsOf) pairsOf.emplace(scratch);
+        return *pairsOf;
+    }
+
+    const StepSettings& settings;
+    double dt, slowest;
+    GapScratch& scratch;
+    std::vector<Held> held;
+    std::vector<Impacts> impacts;
+    // Of each pair, by the clock of who visits: the last visit that ended with nothing left to be
+    // hit, 0: none; and the last look at it.
+    std::vector<I64> doneAt, gatheredAt;
+
+private:
+    std::optional<PairsOfBodies> pairsOf;
+};
+
+/// Visits pairs one by one.
+class alignas(128) ImpactVisits {
+public:
+    /// `half`: of pairs of one half. Those whose blows may reach the other are left to somebody
+    /// else.
+    enum class Of { all, half };
+    ImpactVisits(ImpactState& state, Of pairs)
+        : state_(state),
+          scratch_(state.scratch),
+          isOfHalf_(pairs == Of::half),
+          placeOf_(state.scratch.bodies.size(), -1)
+    {
+    }
+
+    /// Those that were left since the last call.
+    std::vector<std::size_t> takeLeft() { return std::exchange(left_, {}); }
+
+    /// Pairs done since then are done again when one of their bodies has changed.
+    std::int64_t clock() const { return clock_; }
+    void setClock(std::int64_t clock) { clock_ = clock; }
+
+    const ImpulseCounts& counts() const { return counts_; }
+    const std::vector<GapImpact>& impacts() const { return noted_; }
+
+    /// When the first row of a pair will be hit; negative: none will.
+    double timeOf(const GapPair& pair) const
+    {
+        double time = -1.0;
+        Impact impact{};
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            if (!impactOf(scratch_.rows[r], impact)) continue;
+            time = time < 0.0 ? impact.time : std::min(time, impact.time);
         }
-        ++loopsAtTheirCap;
-        return counts;
+        return time;
+    }
+
+    void visit(std::size_t p)
+    {
+        const auto [a, b] = scratch_.pairs[p].bodies;
+        const std::int64_t changedAt =
+            std::max(state_.impacts[a].changedAt, state_.impacts[b].changedAt);
+        if (state_.doneAt[p] > changedAt) return;
+        if (resolvePair(p)) state_.doneAt[p] = ++clock_;
     }
 
 private:
-    /// The pairs that are going to be hit, the first first: a body that moves on as it did until
-    /// its blow would run through what it meets before. Most pairs are hit by nothing yet: they are
-    /// done until a blow comes to one of their bodies.
-    std::vector<std::size_t> inOrderOfTime()
-    {
-        ++visits_;
-        std::vector<double> times(scratch_.pairs.size(), -1.0);
-        forPairs(scratch_, [&](std::size_t p) {
-            const GapPair& pair = scratch_.pairs[p];
-            Impact impact{};
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                if (!impactOf(scratch_.rows[r], impact)) continue;
-                times[p] = times[p] < 0.0 ? impact.time : std::min(times[p], impact.time);
-            }
-            if (times[p] < 0.0) doneAt_[p] = visits_;
-        });
-        std::vector<std::size_t> hit;
-        for (const std::size_t p : scratch_.order) {
-            if (times[p] >= 0.0) hit.push_back(p);
-        }
-        std::stable_sort(hit.begin(), hit.end(),
-                         [&](std::size_t p, std::size_t q) { return times[p] < times[q]; });
-        return hit;
-    }
-
     /// What lies on something does not fall on what lies a hair below it: of gravity only that
     /// brings the two together which what held their bodies in the last step would let through now.
     /// A ring that hung on three corners of a pole fell on a fourth 0.4 mm away, through the three,
@@ -170,7 +215,7 @@ private:
         const Vec3 free = scratch_.bodies[row.a].pull - scratch_.bodies[row.b].pull;
         const double g = free.dot(row.normal);
         if (g >= 0.0) return free;
-        const Held &a = held_[row.a], &b = held_[row.b];
+        const Held &a = state_.held[row.a], &b = state_.held[row.b];
         const Vec3 held =
             a.acceleration + a.turning.cross(row.rA) - b.acceleration - b.turning.cross(row.rB);
         return free + std::clamp(held.dot(row.normal), 0.0, -g) * row.normal;
@@ -185,7 +230,7 @@ private:
         const double u = relative.dot(row.normal);
         const double s = std::max(row.gap, 0.0);
         const double atRest = s + shiftAt(row, a, b);
-        const auto end = [&](double g) { return atRest + dt_ * (u + 0.5 * g * dt_); };
+        const auto end = [&](double g) { return atRest + state_.dt * (u + 0.5 * g * state_.dt); };
         // Most rows are not even closed by all of gravity.
         if (end((a.pull - b.pull).dot(row.normal)) >= 0.0) return false;
         const Vec3 gravity = gravityAt(row);
@@ -197,45 +242,40 @@ private:
         // What all of gravity would bring back within the step bounces no more: in a heap each blow
         // makes many such, and they would go on for ever.
         if (row.wasHit) {
-            const double fall = dt_ * std::max(a.pull.norm(), b.pull.norm());
-            if (u >= -slowest_ || 2.0 * row.restitution * -u <= fall) return false;
+            const double fall = state_.dt * std::max(a.pull.norm(), b.pull.norm());
+            if (u >= -state_.slowest || 2.0 * row.restitution * -u <= fall) return false;
             impact = {&row, relative, 0.0, -row.restitution * u, Vec3::Zero()};
             return true;
         }
         const double closing = -u + std::sqrt(root);
         if (s > 0.0 && closing <= 0.0) return false;  // only the shifts bring them together
-        const double time = s > 0.0 ? std::min(2.0 * s / closing, dt_) : 0.0;
+        const double time = s > 0.0 ? std::min(2.0 * s / closing, state_.dt) : 0.0;
         const double speed = u + g * time;
-        if (speed >= -slowest_) return false;
+        if (speed >= -state_.slowest) return false;
         // What lies on something that lies on the ground falls back on it with all of gravity, even
         // if both are free to fall.
         const double pull = row.isCarried ? std::max(a.pull.norm(), b.pull.norm())
                                           : (b.pull - a.pull).dot(row.normal);
-        if (2.0 * row.restitution * -speed <= pull * (dt_ - time)) return false;
+        if (2.0 * row.restitution * -speed <= pull * (state_.dt - time)) return false;
         impact = {&row, relative + time * gravity, time, u - (1.0 + row.restitution) * speed,
                   Vec3::Zero()};
         return true;
     }
 
-    void visit(std::size_t p, ImpulseCounts& counts)
-    {
-        const auto [a, b] = scratch_.pairs[p].bodies;
-        const std::int64_t changedAt = std::max(impacts_[a].changedAt, impacts_[b].changedAt);
-        if (doneAt_[p] > changedAt) return;
-        if (resolvePair(p, counts)) doneAt_[p] = ++visits_;
-    }
-
     /// True when nothing is left to be hit.
-    bool resolvePair(std::size_t p, ImpulseCounts& counts)
+    bool resolvePair(std::size_t p)
     {
-        for (int n = 0; n < settings_.collisionPairImpulses; ++n) {
-            gather(p);
+        for (int n = 0; n < state_.settings.collisionPairImpulses; ++n) {
+            if (!gather(p)) {
+                left_.push_back(p);
+                return false;
+            }
             if (hits_.empty()) return true;
             for (const Impact& hit : hits_) hit.row->wasHit = true;
             if (hits_.size() == 1) {
-                applyOne(hits_[0], counts);
+                applyOne(hits_[0]);
             } else {
-                applyTogether(counts);
+                applyTogether();
             }
         }
         return false;
@@ -246,37 +286,34 @@ private:
     static bool arrives(const GapRow& row) { return !row.wasHit && !row.isCarried; }
 
     /// Fills hits_ with the first impacts of a pair, and those that come to its bodies, and on to
-    /// the others of these, at the same time.
-    void gather(std::size_t p)
+    /// the others of these, at the same time. False when some might come through what is left to
+    /// somebody else.
+    bool gather(std::size_t p)
     {
         hits_.clear();
         const double time = gatherFirst(p);
-        if (hits_.empty() || !arrives(*hits_[0].row)) return;
-        ++gathers_;
-        gatheredAt_[p] = gathers_;
+        if (hits_.empty() || !arrives(*hits_[0].row)) return true;
+        ++clock_;
+        state_.gatheredAt[p] = clock_;
         toSpread_ = {scratch_.pairs[p].bodies.a, scratch_.pairs[p].bodies.b};
         while (!toSpread_.empty()) {
             const BodyId body = toSpread_.back();
             toSpread_.pop_back();
-            for (const std::size_t q : pairsOf(body)) {
-                if (gatheredAt_[q] == gathers_ || scratch_.rows[scratch_.pairs[q].begin].isCarried)
-                    continue;
-                gatheredAt_[q] = gathers_;
+            for (const std::size_t q : state_.pairsOfBodies().of(body)) {
+                if (scratch_.rows[scratch_.pairs[q].begin].isCarried) continue;
+                if (isOfHalf_ && scratch_.pairs[q].part == 2) return false;
+                if (state_.gatheredAt[q] == clock_) continue;
+                state_.gatheredAt[q] = clock_;
                 const std::size_t before = hits_.size();
                 gatherFirst(q);
                 dropHits(before, [&](const Impact& hit) {
-                    return !arrives(*hit.row) || std::abs(hit.time - time) > kTogether * dt_;
+                    return !arrives(*hit.row) || std::abs(hit.time - time) > kTogether * state_.dt;
                 });
                 const auto [a, b] = scratch_.pairs[q].bodies;
                 if (hits_.size() > before) toSpread_.push_back(a == body ? b : a);
             }
         }
-    }
-
-    std::span<const std::size_t> pairsOf(BodyId body)
-    {
-        if (!pairsOf_) pairsOf_.emplace(scratch_);
-        return pairsOf_->of(body);
+        return true;
     }
 
     /// Of all places of a pair that would be hit, those that are hit first: what would follow may
@@ -285,14 +322,14 @@ private:
     {
         const GapPair& pair = scratch_.pairs[p];
         const std::size_t before = hits_.size();
-        double earliest = dt_;
+        double earliest = state_.dt;
         Impact impact{};
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             if (!impactOf(scratch_.rows[r], impact)) continue;
             hits_.push_back(impact);
             earliest = std::min(earliest, impact.time);
         }
-        dropHits(before, [&](const Impact& hit) { return hit.time > earliest + kTogether * dt_; });
+        dropHits(before, [&](const Impact& hit) { return hit.time > earliest + kTogether * state_.dt; });
         return earliest;
     }
 
@@ -328,7 +365,7 @@ private:
         row.rB += 0.5 * slid;
         const Vec3 velocity = velocityAt(row, a, b) + impact.time * gravityAt(row);
         const double speed = velocity.dot(row.normal);
-        if (speed >= -slowest_) {
+        if (speed >= -state_.slowest) {
             row.rA = impact.row->rA;
             row.rB = impact.row->rB;
             return row;
@@ -340,7 +377,7 @@ private:
         return row;
     }
 
-    void applyOne(Impact& impact, ImpulseCounts& counts)
+    void applyOne(Impact& impact)
     {
         const GapRow row = rowAt(impact);
         const GapBody& a = scratch_.bodies[row.a];
@@ -354,21 +391,21 @@ private:
             contactImpulse(k, impact.velocity, row.normal, row.restitution, row.friction);
         applyImpulses(row, j.impulse, impact.time);
         note(impact, j.impulse);
-        countImpulse(counts, j.kind);
+        countImpulse(counts_, j.kind);
     }
 
     /// A face that lands flat is hit at all its corners at once. One by one they would make it
     /// spin. With friction, Newton's rule at several places can add energy, again and again;
     /// without it cannot, and that is what is left then.
-    void applyTogether(ImpulseCounts& counts)
+    void applyTogether()
     {
-        double earliest = dt_;
+        double earliest = state_.dt;
         for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
         if (solveTogether(true) > 0.0) solveTogether(false);
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             applyImpulses(rows_[i], rows_[i].worldImpulse(), earliest);
             note(hits_[i], rows_[i].worldImpulse());
-            ++counts.sticking;
+            ++counts_.sticking;
         }
     }
 
@@ -409,14 +446,14 @@ private:
 
     void note(const Impact& impact, const Vec3& impulse)
     {
-        scratch_.impacts.push_back(
+        noted_.push_back(
             {static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse, impact.slid});
     }
 
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time)
     {
-        if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, impacts_[row.a], time);
-        if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, impacts_[row.b], time);
+        if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, state_.impacts[row.a], time);
+        if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, state_.impacts[row.b], time);
     }
 
     void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts, double time)
@@ -429,28 +466,135 @@ private:
         impacts.velocity += dv;
         impacts.spin += dw;
         impacts.earliest = std::min(impacts.earliest, time);
-        impacts.changedAt = visits_;
+        impacts.changedAt = clock_;
         body.hitAt = impacts.earliest;
         body.shift = -impacts.earliest * impacts.velocity;
         body.turn = -impacts.earliest * impacts.spin;
     }
 
-    const StepSettings& settings_;
-    double dt_, slowest_;
+    ImpactState& state_;
     GapScratch& scratch_;
-    std::optional<PairsOfBodies> pairsOf_;  // once asked for
-    std::vector<Held> held_;
-    std::vector<Impacts> impacts_;
-    std::int64_t visits_ = 0;           // that ended with nothing left to be hit
-    std::vector<std::int64_t> doneAt_;  // the last of them, of each pair; 0: none
-    std::int64_t gathers_ = 0;
-    std::vector<std::int64_t> gatheredAt_;  // the last look at each pair
+    std::int64_t clock_ = 0;
+    bool isOfHalf_;
+    std::vector<std::size_t> left_;
+    ImpulseCounts counts_;
+    std::vector<GapImpact> noted_;
     std::vector<BodyId> toSpread_;
     std::vector<Impact> hits_;
     std::vector<GapRow> rows_;           // of hits_
     std::vector<BodyId> hitBodies_;      // of hits_
     std::vector<GapBody> after_;         // these
     std::vector<std::int32_t> placeOf_;  // of a body in after_; −1: not hit
+};
+
+class ImpactPass {
+public:
+    ImpactPass(const StepSettings& settings, double dt, GapScratch& scratch)
+        : state_(settings, dt, scratch), scratch_(scratch)
+    {
+    }
+
+    ImpulseCounts run(std::int64_t& loopsAtTheirCap)
+    {
+        const std::vector<std::size_t> first = inOrderOfTime();
+        shareOut(first.size());
+        for (const std::size_t i : first) whole_.visit(i);
+        bool isOver = false;
+        for (int sweep = 0; sweep < state_.settings.collisionIterations && !isOver; ++sweep) {
+            const std::int64_t before = counts().total();
+            sweepThereAndBack();
+            isOver = counts().total() == before;
+        }
+        if (!isOver) ++loopsAtTheirCap;
+        scratch_.impacts.clear();
+        for (const ImpactVisits* visits : {&whole_, &halves_[0], &halves_[1]}) {
+            const std::vector<GapImpact>& noted = visits->impacts();
+            scratch_.impacts.insert(scratch_.impacts.end(), noted.begin(), noted.end());
+        }
+        return counts();
+    }
+
+private:
+    /// The pairs that are going to be hit, the first first: a body that moves on as it did until
+    /// its blow would run through what it meets before. Most pairs are hit by nothing yet: they are
+    /// done until a blow comes to one of their bodies.
+    std::vector<std::size_t> inOrderOfTime()
+    {
+        whole_.setClock(1);
+        std::vector<double> times(scratch_.pairs.size());
+        forPairs(scratch_, [&](std::size_t p) {
+            times[p] = whole_.timeOf(scratch_.pairs[p]);
+            if (times[p] < 0.0) state_.doneAt[p] = 1;
+        });
+        std::vector<std::size_t> hit;
+        for (const std::size_t p : scratch_.order) {
+            if (times[p] >= 0.0) hit.push_back(p);
+        }
+        std::stable_sort(hit.begin(), hit.end(),
+                         [&](std::size_t p, std::size_t q) { return times[p] < times[q]; });
+        return hit;
+    }
+
+    /// Visits share the pairs out from now on, if there are enough to be done.
+    void shareOut(std::size_t hitPairs)
+    {
+        if (hitPairs < kHitsWorthACut || scratch_.rows.size() < kRowsWorthACut) {
+            parts_[0] = scratch_.order;
+            return;
+        }
+        parts_ = partsOf(scratch_, scratch_.order);
+        isShared_ = true;
+        state_.pairsOfBodies();
+    }
+
+    /// A blow runs along a row of touching bodies whichever way it lies.
+    void sweepThereAndBack()
+    {
+        inHalves([](ImpactVisits& visits, const std::vector<std::size_t>& pairs) {
+            for (const std::size_t i : pairs) visits.visit(i);
+        });
+        const std::vector<std::size_t>& across = parts_[2];
+        for (const std::size_t i : across) whole_.visit(i);
+        for (std::size_t p = across.size(); p-- > 0;) whole_.visit(across[p]);
+        inHalves([](ImpactVisits& visits, const std::vector<std::size_t>& pairs) {
+            for (std::size_t p = pairs.size(); p-- > 0;) visits.visit(pairs[p]);
+        });
+    }
+
+    template <class Work>
+    void inHalves(const Work& work)
+    {
+        if (!isShared_) {
+            work(whole_, parts_[0]);
+            return;
+        }
+        const std::int64_t now = whole_.clock();
+        parallelFor(2, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t half = begin; half < end; ++half) {
+                halves_[half].setClock(now);
+                work(halves_[half], parts_[half]);
+            }
+        });
+        whole_.setClock(std::max(halves_[0].clock(), halves_[1].clock()));
+        for (int half = 0; half < 2; ++half) {
+            for (const std::size_t i : halves_[half].takeLeft()) whole_.visit(i);
+        }
+    }
+
+    ImpulseCounts counts() const
+    {
+        ImpulseCounts sum = whole_.counts();
+        for (const ImpactVisits& half : halves_) sum += half.counts();
+        return sum;
+    }
+
+    ImpactState state_;
+    GapScratch& scratch_;
+    ImpactVisits whole_{state_, ImpactVisits::Of::all};
+    std::array<ImpactVisits, 2> halves_{{{state_, ImpactVisits::Of::half},
+                                         {state_, ImpactVisits::Of::half}}};
+    PairParts parts_;
+    bool isShared_ = false;
 };
 
 }  // namespace

@@ -35,41 +35,6 @@ struct GapLanes::Motion {
 
 namespace {
 
-/// Pairs in their order: of either half of the island's bodies, and those that join the halves. Cut
-/// where the bodies spread most, across gravity or not.
-std::array<std::vector<std::size_t>, 3> cutInTwo(const GapScratch& scratch, const GapIsland& island)
-{
-    std::array<std::vector<std::size_t>, 3> parts;
-    if (island.rowCount < kRowsWorthACut) {
-        parts[0] = island.pairs;
-        return parts;
-    }
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
-    const auto place = [&](BodyId body) -> const Vec3& { return scratch.seenAt[body].position; };
-    std::vector<BodyId> bodies;
-    Aabb box;
-    for (const std::size_t i : island.pairs) {
-        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (!isMovable(body)) continue;
-            bodies.push_back(body);
-            box.include(place(body));
-        }
-    }
-    Eigen::Index axis;
-    (box.max - box.min).maxCoeff(&axis);
-    const auto middle = bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size() / 2);
-    std::nth_element(bodies.begin(), middle, bodies.end(),
-                     [&](BodyId p, BodyId q) { return place(p)[axis] < place(q)[axis]; });
-    const double cut = place(*middle)[axis];
-    for (const std::size_t i : island.pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        const auto half = [&](BodyId body) { return place(body)[axis] < cut ? 0 : 1; };
-        const int ofA = half(isMovable(a) ? a : b), ofB = half(isMovable(b) ? b : a);
-        parts[ofA == ofB ? ofA : 2].push_back(i);
-    }
-    return parts;
-}
-
 bool anyResistsSpin(const GapScratch& scratch, const GapIsland& island)
 {
     return std::any_of(island.pairs.begin(), island.pairs.end(), [&](std::size_t i) {
@@ -109,7 +74,11 @@ void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
 {
     bodies_ = &bodies;
     firstFree_.resize(bodies_->size(), 0);
-    const std::array<std::vector<std::size_t>, 3> parts = cutInTwo(scratch, island);
+    PairParts parts;
+    if (island.rowCount < kRowsWorthACut)
+        parts[0] = island.pairs;
+    else
+        parts = partsOf(scratch, island.pairs);
     const std::size_t halves = parts[1].empty() ? 1 : 2;
     parallelFor(halves, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) schedule(scratch, parts[s], sections_[s]);

@@ -26,9 +26,6 @@ struct GapSweep {
     double fastest = 0.0;   ///< of two surfaces against each other, on the way up [m/s]
 };
 
-/// Below this many rows a cut costs more than a second thread gains.
-constexpr std::size_t kRowsWorthACut = 1000;
-
 class GapLanes {
 public:
     /// Lays the rows of an island out. `bodies` are those of the world, and one more that no row

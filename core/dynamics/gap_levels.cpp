@@ -160,8 +160,8 @@ std::vector<char> closingIslands(const World& world, const StepSettings& setting
 {
     std::vector<char> pairCloses(scratch.pairs.size());
     forPairs(scratch, [&](std::size_t i) {
-        const auto [bodies, near, begin, end] = scratch.pairs[i];
-        const auto rows = std::span(scratch.rows).subspan(begin, end - begin);
+        const GapPair& pair = scratch.pairs[i];
+        const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
         pairCloses[i] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
             return closesVisibly(world, settings, dt, scratch, row);
         });

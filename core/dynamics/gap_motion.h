@@ -7,7 +7,7 @@
 namespace scree {
 
 /// Velocities and angular momenta of the world from the solved rows; remembers the impulses.
-void writeVelocities(World& world, double dt, const GapScratch& scratch);
+void writeVelocities(World& world, double dt, GapScratch& scratch);
 
 /// Moves every body with its new velocity and its shift; where all contacts last, with the mean of
 /// the velocities before and after the step.

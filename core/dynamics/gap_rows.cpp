@@ -143,6 +143,50 @@ void cutIntoIslands(GapScratch& scratch)
     }
 }
 
+/// Cuts an island where its bodies spread most, across gravity or not.
+void cutInTwo(const GapIsland& island, GapScratch& scratch)
+{
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    const auto place = [&](BodyId body) -> const Vec3& { return scratch.seenAt[body].position; };
+    std::vector<BodyId> bodies;
+    Aabb box;
+    for (const std::size_t i : island.pairs) {
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (!isMovable(body)) continue;
+            bodies.push_back(body);
+            box.include(place(body));
+        }
+    }
+    Eigen::Index axis;
+    (box.max - box.min).maxCoeff(&axis);
+    const auto middle = bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size() / 2);
+    std::nth_element(bodies.begin(), middle, bodies.end(),
+                     [&](BodyId p, BodyId q) { return place(p)[axis] < place(q)[axis]; });
+    const double cut = place(*middle)[axis];
+    for (const std::size_t i : island.pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        const auto half = [&](BodyId body) { return place(body)[axis] < cut ? 0 : 1; };
+        const int ofA = half(isMovable(a) ? a : b), ofB = half(isMovable(b) ? b : a);
+        scratch.pairs[i].part = ofA == ofB ? ofA : 2;
+    }
+}
+
+/// Large islands are cut, small ones belong to one half as a whole.
+void shareOut(GapScratch& scratch)
+{
+    if (scratch.rows.size() < kRowsWorthACut) return;
+    std::array<std::size_t, 2> rows{};
+    for (const GapIsland& island : scratch.islands) {
+        if (island.rowCount >= kRowsWorthACut) {
+            cutInTwo(island, scratch);
+            continue;
+        }
+        const int lighter = rows[1] < rows[0] ? 1 : 0;
+        rows[lighter] += island.rowCount;
+        for (const std::size_t i : island.pairs) scratch.pairs[i].part = lighter;
+    }
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
@@ -168,6 +212,13 @@ std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
         together[place].push_back(i);
     }
     return together;
+}
+
+PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs)
+{
+    PairParts parts;
+    for (const std::size_t i : pairs) parts[scratch.pairs[i].part].push_back(i);
+    return parts;
 }
 
 bool isHeldBy(const World& world, BodyId body, BodyId other)
@@ -292,6 +343,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
     scratch.order.clear();
     for (const auto& [height, pair] : byHeight) scratch.order.push_back(pair);
     cutIntoIslands(scratch);
+    shareOut(scratch);
 }
 
 }  // namespace scree

@@ -6,6 +6,7 @@
 // stay in the second-level cache.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -80,7 +81,12 @@ struct GapPair {
     BodyPair bodies;
     std::size_t near;        ///< index into GapScratch::nearPairs
     std::size_t begin, end;  ///< its rows
+    int part = 0;            ///< of the step, see PairParts
 };
+
+/// Pairs of one half of the bodies, of the other, and those that join the halves. Two threads may
+/// work on the halves at once, and one on the rest before or after them.
+using PairParts = std::array<std::vector<std::size_t>, 3>;
 
 /// A blow.
 struct GapImpact {
@@ -96,6 +102,9 @@ struct GapIsland {
     std::size_t rowCount = 0;
     bool isRemembered = false;  ///< some of its pairs carried in the last step
 };
+
+/// Below this many rows a cut costs more than a second thread gains.
+constexpr std::size_t kRowsWorthACut = 1000;
 
 /// What of a body's motion may close gaps within a step.
 struct GapPace {
@@ -127,7 +136,8 @@ struct GapScratch {
     std::vector<GapRow> rows;        ///< pair by pair
     std::vector<std::size_t> order;  ///< of the pairs: bottom to top
     std::vector<GapIsland> islands;
-    std::vector<GapImpact> impacts;  ///< of this step, as they came
+    std::vector<GapImpact> impacts;  ///< of this step
+    std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember
 };
 
 /// Lays the contacts that findGaps has found out as rows, with the impulses that the world
@@ -139,15 +149,16 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
 template <class Work>
 void forPairs(const GapScratch& scratch, const Work& work)
 {
-    parallelFor(scratch.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) work(i);
-    });
+    forEach(scratch.pairs.size(), 64, work);
 }
 
 /// Those of the pairs together that share movable bodies, directly or through others; pairs without
 /// any are left out. In the order of the first of each.
 std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
                                                     const std::vector<std::size_t>& pairs);
+
+/// The pairs by their parts, in their order.
+PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs);
 
 /// Cannot be moved by impulses, and moves.
 inline bool isDriven(const GapBody& body)

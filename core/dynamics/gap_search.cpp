@@ -20,27 +20,23 @@ constexpr double kLeastReach = 2e-4;
 /// An overlap that the eye may see, as a share of the smaller body.
 constexpr double kVisible = 5e-3;
 
-void readBodies(const World& world, GapScratch& scratch)
+constexpr std::size_t kBodiesTogether = 64;  // what a thread takes at once
+
+GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
 {
-    scratch.bodies.resize(world.bodyCount());
-    scratch.gain.resize(world.bodyCount(), 0.0);
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        const PassInertia inertia = passInertia(world.mass[i], world.motion[i].orientation);
-        GapBody& body = scratch.bodies[i];
-        body.velocity = world.motion[i].velocity;
-        body.spin = inertia.inverseInertia * world.motion[i].angularMomentum;
-        body.inverseMass = inertia.inverseMass;
-        body.inverseInertia = inertia.turningByImpulse();
-        body.pull = scratch.forces[i].acceleration;
-        body.torque = scratch.forces[i].torque;
-        body.angularImpulse = body.shift = body.turn = Vec3::Zero();
-        body.hitAt = 0.0;
-        if (!world.contactMemory.isAsleep(static_cast<BodyId>(i))) continue;
-        // Who sleeps is a fixed body to all others.
-        body.inverseMass = 0.0;
-        body.inverseInertia.setZero();
-        body.pull = body.torque = Vec3::Zero();
-    }
+    const BodyMotion& motion = world.motion[id];
+    const PassInertia inertia = passInertia(world.mass[id], motion.orientation);
+    GapBody body{};
+    body.velocity = motion.velocity;
+    body.spin = inertia.inverseInertia * motion.angularMomentum;
+    body.angularImpulse = body.shift = body.turn = Vec3::Zero();
+    // Who sleeps is a fixed body to all others.
+    const bool isAsleep = world.contactMemory.isAsleep(id);
+    body.inverseMass = isAsleep ? 0.0 : inertia.inverseMass;
+    body.inverseInertia = isAsleep ? Mat3(Mat3::Zero()) : inertia.turningByImpulse();
+    body.pull = isAsleep ? Vec3(Vec3::Zero()) : scratch.forces[id].acceleration;
+    body.torque = isAsleep ? Vec3(Vec3::Zero()) : scratch.forces[id].torque;
+    return body;
 }
 
 GapPace paceOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
@@ -61,7 +57,7 @@ void readOdometers(const World& world, GapScratch& scratch)
     scratch.seenAt.resize(world.bodyCount());
     scratch.hasMoved.assign(world.bodyCount(), true);
     scratch.odometer.resize(world.bodyCount(), 0.0);
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t i) {
         const Pose pose = world.motion[i].worldFromBody();
         const Pose& then = scratch.seenAt[i];
         if (i < known) {
@@ -77,7 +73,7 @@ void readOdometers(const World& world, GapScratch& scratch)
                                   pose.orientation.coeffs() != then.orientation.coeffs();
         }
         scratch.seenAt[i] = pose;
-    }
+    });
 }
 
 /// Gaps that may close within the step. The speed that both have in common and what pulls both
@@ -113,17 +109,22 @@ bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
     return isMoved && mayCollide(world, pair);
 }
 
-void findGapPairs(const World& world, double dt, GapScratch& scratch)
+void readBodies(const World& world, double dt, GapScratch& scratch)
 {
+    scratch.bodies.resize(world.bodyCount());
+    scratch.gain.resize(world.bodyCount(), 0.0);
     scratch.boxes.resize(world.bodyCount());
     scratch.paces.resize(world.bodyCount());
-    parallelFor(world.bodyCount(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto body = static_cast<BodyId>(i);
-            scratch.paces[i] = paceOf(world, scratch, body, dt);
-            scratch.boxes[i] = boxWithin(world, scratch, body, dt);
-        }
+    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t i) {
+        const auto body = static_cast<BodyId>(i);
+        scratch.bodies[i] = bodyOf(world, scratch, body);
+        scratch.paces[i] = paceOf(world, scratch, body, dt);
+        scratch.boxes[i] = boxWithin(world, scratch, body, dt);
     });
+}
+
+void findGapPairs(const World& world, GapScratch& scratch)
+{
     const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(
         scratch.boxes, world.mass,
         [&](BodyPair pair) { return isMovedPair(world, scratch, pair); });
@@ -224,8 +225,8 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
     readOdometers(world, scratch);
     bool isAgain = false;
     do {
-        readBodies(world, scratch);
-        findGapPairs(world, dt, scratch);
+        readBodies(world, dt, scratch);
+        findGapPairs(world, scratch);
         parallelFor(scratch.nearPairs.size(), 16, [&](std::size_t begin, std::size_t end) {
             thread_local std::vector<Question> questions;
             questions.clear();

@@ -2,11 +2,14 @@
 // (world).
 #include "core/dynamics/integrator.h"
 
+#include "core/base/parallel.h"
 #include "core/math/rotation.h"
 
 namespace scree {
 
 namespace {
+
+constexpr std::size_t kBodiesTogether = 64;  // what a thread takes at once
 
 /// L = I ω.
 Vec3 momentumOfSpin(const BodyMotion& motion, const BodyMass& mass, const Vec3& w)
@@ -65,18 +68,19 @@ void addGravity(World& world, const StepSettings& settings, double dt)
 
 void advancePositions(World& world, const StepSettings& settings, double dt)
 {
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t b) {
         const auto body = static_cast<BodyId>(b);
-        if (world.contactMemory.isAsleep(body)) continue;
-        BodyMotion& motion = world.motion[b];
+        if (world.contactMemory.isAsleep(body)) return;
+        BodyMotion& motion = world.motion[body];
         const Pose next = poseAfter(world, settings, body, dt);
-        const bool isKeyed = world.info[b].kind == BodyKind::keyed;
-        const Vec3 w = isKeyed ? angularVelocity(motion, world.mass[b]) : Vec3(Vec3::Zero());
+        const BodyMass& mass = world.mass[body];
+        const bool isKeyed = world.info[body].kind == BodyKind::keyed;
+        const Vec3 w = isKeyed ? angularVelocity(motion, mass) : Vec3(Vec3::Zero());
         motion.position = next.position;
         motion.orientation = next.orientation;
         // What a script keeps while it turns a body is the spin, not the angular momentum.
-        if (isKeyed) motion.angularMomentum = momentumOfSpin(motion, world.mass[b], w);
-    }
+        if (isKeyed) motion.angularMomentum = momentumOfSpin(motion, mass, w);
+    });
 }
 
 Vec3 angularVelocity(const BodyMotion& motion, const BodyMass& mass)
