@@ -18,7 +18,7 @@ constexpr double kRoom = 0.1, kMostRoomy = 1.5;  // of the longest edge
 constexpr double kEdgesPerCell = 2.0, kMostMisfit = 2.0;
 constexpr double kSmallestCell = 1e-12;  // [m]
 
-constexpr std::size_t kEntriesTogether = 512;  // what a thread takes at once
+constexpr std::size_t kEntriesTogether = 512, kMeetingsTogether = 1024;  // by one thread
 
 constexpr double kMostCells = 64.0;  // a body over more cells goes to the list of large ones
 
@@ -78,22 +78,27 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
         enterMoved(boxes);
         pairMoved();
     }
-    isPair_.resize(meetings_.size());
-    parallelFor(meetings_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    found_.resize((meetings_.size() + kMeetingsTogether - 1) / kMeetingsTogether);
+    forEach(found_.size(), 1, [&](std::size_t part) {
+        const std::size_t begin = part * kMeetingsTogether;
+        const std::size_t end = std::min(begin + kMeetingsTogether, meetings_.size());
+        // Which of them overlap cannot be guessed: no branch.
+        std::vector<BodyPair>& found = found_[part];
+        found.resize(kMeetingsTogether);
+        std::size_t count = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            const auto [a, b] = meetings_[i];
-            isPair_[i] = (isAsked.empty() || isAsked[a] || isAsked[b]) &&
-                         boxes[a].overlaps(boxes[b]) && counts(meetings_[i]);
+            found[count] = meetings_[i];
+            count += boxes[meetings_[i].a].overlaps(boxes[meetings_[i].b]);
         }
+        found.resize(count);
+        std::erase_if(found, [&](const BodyPair& pair) {
+            const bool isOne = isAsked.empty() || isAsked[pair.a] || isAsked[pair.b];
+            return !isOne || !counts(pair);
+        });
     });
-    // Which of them do cannot be guessed: no branch.
-    pairs_.resize(meetings_.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < meetings_.size(); ++i) {
-        pairs_[count] = meetings_[i];
-        count += static_cast<std::size_t>(isPair_[i]);
-    }
-    pairs_.resize(count);
+    pairs_.clear();
+    for (const std::vector<BodyPair>& found : found_)
+        pairs_.insert(pairs_.end(), found.begin(), found.end());
     return pairs_;
 }
 

@@ -58,7 +58,6 @@ private:
     std::vector<Entry> entries_;      // sorted
     std::vector<BodyId> large_;       // sorted; in no cell
     std::vector<BodyPair> meetings_;  // of the larger boxes, sorted
-    std::vector<char> isPair_;        // of each of these: whether it is what was asked for
     std::vector<BodyPair> pairs_;
     // While searching.
     std::vector<double> edges_;
