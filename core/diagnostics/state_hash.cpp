@@ -1,11 +1,34 @@
 #include "core/diagnostics/state_hash.h"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "core/base/hash.h"
+#include "core/base/parallel.h"
 #include "core/scene/world.h"
 
 namespace scree {
+
+namespace {
+
+/// Part by part: they are by far the most there is.
+std::uint64_t hashOfContacts(const std::vector<RememberedContact>& contacts, std::uint64_t seed)
+{
+    constexpr std::size_t kTogether = 512;
+    std::vector<std::uint64_t> hashes((contacts.size() + kTogether - 1) / kTogether);
+    forEach(hashes.size(), 1, [&](std::size_t part) {
+        const std::size_t end = std::min((part + 1) * kTogether, contacts.size());
+        for (std::size_t i = part * kTogether; i < end; ++i) {
+            const Vec3 &f = contacts[i].force, &c = contacts[i].couple;
+            const std::array<double, 6> load = {f.x(), f.y(), f.z(), c.x(), c.y(), c.z()};
+            hashes[part] = hashBytes(load.data(), sizeof load, hashes[part]);
+        }
+    });
+    return hashBytes(hashes.data(), hashes.size() * sizeof(std::uint64_t), seed);
+}
+
+}  // namespace
 
 std::uint64_t stateHash(const World& world)
 {
@@ -23,10 +46,7 @@ std::uint64_t stateHash(const World& world)
     if (!world.births.empty()) {
         hash = hashBytes(world.bornAt.data(), world.bornAt.size() * sizeof(std::int32_t), hash);
     }
-    for (const RememberedContact& contact : world.contactMemory.contacts) {
-        hash = hashBytes(contact.force.data(), sizeof(Vec3), hash);
-        hash = hashBytes(contact.couple.data(), sizeof(Vec3), hash);
-    }
+    hash = hashOfContacts(world.contactMemory.contacts, hash);
     for (const BodyRest& rest : world.contactMemory.rest) {
         const std::array<std::int32_t, 3> still = {rest.still.frames, rest.nearby.frames,
                                                    rest.isAsleep};

@@ -90,6 +90,7 @@ std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
 
 struct Impact {
     GapRow* row;
+    bool isCarried;            // as its pair
     Vec3 velocity;             // relative, at the moment of impact
     double time;               // within the step
     double velocityAfter;      // normal velocity that makes it leave as it must
@@ -190,7 +191,7 @@ public:
         double time = -1.0;
         Impact impact{};
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            if (!impactOf(scratch_.rows[r], impact)) continue;
+            if (!impactOf(pair, scratch_.rows[r], impact)) continue;
             time = time < 0.0 ? impact.time : std::min(time, impact.time);
         }
         return time;
@@ -222,7 +223,7 @@ private:
     }
 
     /// False when the row is not going to be hit within the step.
-    bool impactOf(GapRow& row, Impact& impact) const
+    bool impactOf(const GapPair& pair, GapRow& row, Impact& impact) const
     {
         const GapBody& a = scratch_.bodies[row.a];
         const GapBody& b = scratch_.bodies[row.b];
@@ -244,7 +245,7 @@ private:
         if (row.wasHit) {
             const double fall = state_.dt * std::max(a.pull.norm(), b.pull.norm());
             if (u >= -state_.slowest || 2.0 * row.restitution * -u <= fall) return false;
-            impact = {&row, relative, 0.0, -row.restitution * u, Vec3::Zero()};
+            impact = {&row, pair.isCarried, relative, 0.0, -row.restitution * u, Vec3::Zero()};
             return true;
         }
         const double closing = -u + std::sqrt(root);
@@ -254,11 +255,11 @@ private:
         if (speed >= -state_.slowest) return false;
         // What lies on something that lies on the ground falls back on it with all of gravity, even
         // if both are free to fall.
-        const double pull = row.isCarried ? std::max(a.pull.norm(), b.pull.norm())
+        const double pull = pair.isCarried ? std::max(a.pull.norm(), b.pull.norm())
                                           : (b.pull - a.pull).dot(row.normal);
         if (2.0 * row.restitution * -speed <= pull * (state_.dt - time)) return false;
-        impact = {&row, relative + time * gravity, time, u - (1.0 + row.restitution) * speed,
-                  Vec3::Zero()};
+        impact = {&row, pair.isCarried, relative + time * gravity, time,
+                  u - (1.0 + row.restitution) * speed, Vec3::Zero()};
         return true;
     }
 
@@ -283,7 +284,7 @@ private:
 
     /// Whether what hits there has come from afar in this step: it was neither hit already nor did
     /// its bodies lie on each other.
-    static bool arrives(const GapRow& row) { return !row.wasHit && !row.isCarried; }
+    static bool arrives(const Impact& hit) { return !hit.row->wasHit && !hit.isCarried; }
 
     /// Fills hits_ with the first impacts of a pair, and those that come to its bodies, and on to
     /// the others of these, at the same time. False when some might come through what is left to
@@ -292,7 +293,7 @@ private:
     {
         hits_.clear();
         const double time = gatherFirst(p);
-        if (hits_.empty() || !arrives(*hits_[0].row)) return true;
+        if (hits_.empty() || !arrives(hits_[0])) return true;
         ++clock_;
         state_.gatheredAt[p] = clock_;
         toSpread_ = {scratch_.pairs[p].bodies.a, scratch_.pairs[p].bodies.b};
@@ -300,14 +301,14 @@ private:
             const BodyId body = toSpread_.back();
             toSpread_.pop_back();
             for (const std::size_t q : state_.pairsOfBodies().of(body)) {
-                if (scratch_.rows[scratch_.pairs[q].begin].isCarried) continue;
+                if (scratch_.pairs[q].isCarried) continue;
                 if (isOfHalf_ && scratch_.pairs[q].part == 2) return false;
                 if (state_.gatheredAt[q] == clock_) continue;
                 state_.gatheredAt[q] = clock_;
                 const std::size_t before = hits_.size();
                 gatherFirst(q);
                 dropHits(before, [&](const Impact& hit) {
-                    return !arrives(*hit.row) || std::abs(hit.time - time) > kTogether * state_.dt;
+                    return !arrives(hit) || std::abs(hit.time - time) > kTogether * state_.dt;
                 });
                 const auto [a, b] = scratch_.pairs[q].bodies;
                 if (hits_.size() > before) toSpread_.push_back(a == body ? b : a);
@@ -325,7 +326,7 @@ private:
         double earliest = state_.dt;
         Impact impact{};
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            if (!impactOf(scratch_.rows[r], impact)) continue;
+            if (!impactOf(pair, scratch_.rows[r], impact)) continue;
             hits_.push_back(impact);
             earliest = std::min(earliest, impact.time);
         }

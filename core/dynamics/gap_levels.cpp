@@ -140,18 +140,18 @@ double solvedEnough(const StepSettings& settings, double dt)
 
 /// Speed at which a row closes visibly within a step, beyond its target [m/s].
 double visibleSpeed(const World& world, const StepSettings& settings, double dt,
-                    const GapScratch& scratch, const GapRow& row)
+                    const GapIsland& island, const GapRow& row)
 {
-    const bool isHeap = mostSweeps(settings, scratch.islands[row.island]) == settings.gapSweeps;
+    const bool isHeap = mostSweeps(settings, island) == settings.gapSweeps;
     const double visible = isHeap ? kVisibleInHeaps : kVisibleWhenSolved;
     return visible * smallerRadius(world, row.a, row.b) / dt;
 }
 
 bool closesVisibly(const World& world, const StepSettings& settings, double dt,
-                   const GapScratch& scratch, const GapRow& row)
+                   const GapScratch& scratch, const GapIsland& island, const GapRow& row)
 {
     const double u = velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
-    return row.target - u > visibleSpeed(world, settings, dt, scratch, row);
+    return row.target - u > visibleSpeed(world, settings, dt, island, row);
 }
 
 /// Per island: whether a row of it still closes visibly.
@@ -163,12 +163,12 @@ std::vector<char> closingIslands(const World& world, const StepSettings& setting
         const GapPair& pair = scratch.pairs[i];
         const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
         pairCloses[i] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
-            return closesVisibly(world, settings, dt, scratch, row);
+            return closesVisibly(world, settings, dt, scratch, scratch.islands[pair.island], row);
         });
     });
     std::vector<char> closes(scratch.islands.size(), 0);
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i)
-        closes[scratch.rows[scratch.pairs[i].begin].island] |= pairCloses[i];
+        closes[scratch.pairs[i].island] |= pairCloses[i];
     return closes;
 }
 
@@ -188,18 +188,25 @@ std::vector<std::size_t> pairsOf(const GapScratch& scratch, const std::vector<st
 {
     std::vector<std::size_t> pairs;
     for (const std::size_t i : level) {
-        if (isChosen[scratch.rows[scratch.pairs[i].begin].island]) pairs.push_back(i);
+        if (isChosen[scratch.pairs[i].island]) pairs.push_back(i);
     }
     return pairs;
 }
 
+/// Rows of a level that share bodies.
+struct Cluster {
+    const GapIsland* island;
+    std::vector<std::size_t> rows;
+};
+
 /// Solves the rows of a cluster beside bodies that are held, if one closes visibly. The rows keep
 /// their impulses. False when nothing was to be done.
-bool shake(const World& world, const StepSettings& settings, double dt,
-           const std::vector<std::size_t>& rows, GapScratch& scratch)
+bool shake(const World& world, const StepSettings& settings, double dt, const Cluster& cluster,
+           GapScratch& scratch)
 {
+    const auto& [island, rows] = cluster;
     const bool closes = std::any_of(rows.begin(), rows.end(), [&](std::size_t r) {
-        return closesVisibly(world, settings, dt, scratch, scratch.rows[r]);
+        return closesVisibly(world, settings, dt, scratch, *island, scratch.rows[r]);
     });
     if (!closes) return false;
     std::vector<GapRow> remembered;
@@ -208,7 +215,7 @@ bool shake(const World& world, const StepSettings& settings, double dt,
         GapRow& row = scratch.rows[r];
         remembered.push_back(row);
         prepareRow(scratch, row);
-        enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, scratch, row));
+        enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, *island, row));
     }
     const LevelMotion before(scratch, rows);
     solveRows(scratch, rows, enough);
@@ -331,18 +338,18 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
                     held.hold(body);
             }
         }
-        std::vector<std::vector<std::size_t>> clusters;  // of rows
+        std::vector<Cluster> clusters;
         for (const std::vector<std::size_t>& cluster : pairsByBodies(scratch, pairs))
-            clusters.push_back(rowsOf(scratch, cluster));
+            clusters.push_back({&scratch.islands[scratch.pairs[cluster.front()].island],
+                                rowsOf(scratch, cluster)});
         std::vector<char> isShaken(clusters.size());
-        parallelFor(clusters.size(), 4, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c)
-                isShaken[c] = shake(world, settings, dt, clusters[c], scratch);
+        forEach(clusters.size(), 4, [&](std::size_t c) {
+            isShaken[c] = shake(world, settings, dt, clusters[c], scratch);
         });
         held.release();
         for (std::size_t c = 0; c < clusters.size(); ++c) {
             if (!isShaken[c]) continue;
-            for (const std::size_t r : clusters[c]) prepareRow(scratch, scratch.rows[r]);
+            for (const std::size_t r : clusters[c].rows) prepareRow(scratch, scratch.rows[r]);
         }
     }
 }

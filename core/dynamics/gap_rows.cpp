@@ -18,6 +18,11 @@ namespace {
 /// over an impulse although its features have changed.
 constexpr double kSamePlace = 0.05;
 
+bool isBefore(const RememberedContact& contact, const BodyPair& bodies)
+{
+    return BodyPair{contact.a, contact.b} < bodies;
+}
+
 Vec3 anyTangent(const Vec3& normal)
 {
     const Vec3 aside = std::abs(normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
@@ -129,16 +134,14 @@ void cutIntoIslands(GapScratch& scratch)
 {
     scratch.islands.clear();
     for (std::vector<std::size_t>& pairs : pairsByBodies(scratch, scratch.order)) {
-        const auto index = static_cast<std::int32_t>(scratch.islands.size());
+        const std::size_t index = scratch.islands.size();
         GapIsland& island = scratch.islands.emplace_back();
         island.pairs = std::move(pairs);
         for (const std::size_t i : island.pairs) {
-            const GapPair& pair = scratch.pairs[i];
+            GapPair& pair = scratch.pairs[i];
+            pair.island = index;
             island.rowCount += pair.end - pair.begin;
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                scratch.rows[r].island = index;
-                island.isRemembered = island.isRemembered || scratch.rows[r].isCarried;
-            }
+            island.isRemembered = island.isRemembered || pair.isCarried;
         }
     }
 }
@@ -286,24 +289,28 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
         }
         const std::size_t begin = count;
         count += near.contacts.size();
-        scratch.pairs.push_back({near.bodies, i, begin, count});
+        scratch.pairs.push_back({.bodies = near.bodies, .near = i, .begin = begin, .end = count});
     }
     scratch.rows.resize(count);
 
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
-    parallelFor(scratch.pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+    const Vec3 up = -settings.gravity;
+    std::vector<std::pair<double, std::size_t>> byHeight(scratch.pairs.size());
+    parallelFor(scratch.pairs.size(), 32, [&](std::size_t begin, std::size_t end) {
+        // Both lists are sorted.
+        auto known = std::lower_bound(memory.begin(), memory.end(), scratch.pairs[begin].bodies,
+                                      isBefore);
         for (std::size_t i = begin; i < end; ++i) {
-            const GapPair& pair = scratch.pairs[i];
+            GapPair& pair = scratch.pairs[i];
             const std::vector<GapContact>& contacts = scratch.nearPairs[pair.near].contacts;
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
             const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
             const bool isHeldA = isHeldBy(world, a, b), isHeldB = isHeldBy(world, b, a);
-            const auto known =
-                std::equal_range(memory.begin(), memory.end(), RememberedContact{a, b},
-                                 [](const RememberedContact& p, const RememberedContact& q) {
-                                     return p.a < q.a || (p.a == q.a && p.b < q.b);
-                                 });
+            while (known != memory.end() && isBefore(*known, pair.bodies)) ++known;
+            const auto firstKnown = known;
+            while (known != memory.end() && BodyPair{known->a, known->b} == pair.bodies) ++known;
+            pair.isCarried = firstKnown != known;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapContact& contact = contacts[r - pair.begin];
                 GapRow& row = scratch.rows[r];
@@ -318,27 +325,20 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                 row.target = 0.0;
                 row.wasHit = false;
                 row.impulse = Vec3::Zero();
-                row.isCarried = known.first != known.second;
                 row.isHeldA = isHeldA;
                 row.isHeldB = isHeldB;
                 prepareRow(scratch, row);
                 resistRolling(world, scratch, surface.rolling, row);
             }
-            if (known.first == known.second) continue;
-            warmStart(world, dt, &*known.first, &*known.first + (known.second - known.first),
-                      &scratch.rows[pair.begin],
-                      &scratch.rows[pair.begin] + (pair.end - pair.begin), contacts);
+            GapRow* rows = &scratch.rows[pair.begin];
+            byHeight[i] = {up.dot(world.motion[a].position + rows->rA), i};
+            if (!pair.isCarried) continue;
+            warmStart(world, dt, &*firstKnown, &*firstKnown + (known - firstKnown), rows,
+                      rows + (pair.end - pair.begin), contacts);
         }
     });
 
     // Bottom to top: what carries is solved before what is carried.
-    const Vec3 up = -settings.gravity;
-    std::vector<std::pair<double, std::size_t>> byHeight;
-    byHeight.reserve(scratch.pairs.size());
-    for (const GapPair& pair : scratch.pairs) {
-        const GapRow& row = scratch.rows[pair.begin];
-        byHeight.emplace_back(up.dot(world.motion[row.a].position + row.rA), byHeight.size());
-    }
     std::sort(byHeight.begin(), byHeight.end());
     scratch.order.clear();
     for (const auto& [height, pair] : byHeight) scratch.order.push_back(pair);

@@ -35,12 +35,10 @@ struct alignas(64) GapBody {
 
 struct GapRow {
     BodyId a, b;
-    std::int32_t island;    ///< index into GapScratch::islands
     bool movesA, movesB;    ///< whether its impulses act on the body: not on what cannot be moved,
                             ///< nor on one that the other's group does not move
     bool isHeldA, isHeldB;  ///< by its group
     bool wasHit;            ///< by an impact of this step
-    bool isCarried;         ///< its pair had an impulse in the last step
     Vec3 rA, rB;            ///< contact point from either centre, world [m]
     Vec3 normal;            ///< from B to A
     double gap;             ///< [m]
@@ -81,7 +79,9 @@ struct GapPair {
     BodyPair bodies;
     std::size_t near;        ///< index into GapScratch::nearPairs
     std::size_t begin, end;  ///< its rows
-    int part = 0;            ///< of the step, see PairParts
+    bool isCarried = false;  ///< it had an impulse in the last step
+    std::size_t island = 0;  ///< index into GapScratch::islands
+    int part = 0;            ///< see PairParts
 };
 
 /// Pairs of one half of the bodies, of the other, and those that join the halves. Two threads may
