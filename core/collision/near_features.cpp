@@ -19,8 +19,8 @@ namespace {
 
 /// How much farther than asked a look reaches, so that it need not be repeated at once. Only time
 /// depends on it.
-constexpr double kLookAhead = 0.6;        // times the reach
-constexpr double kLeastLookAhead = 0.05;  // times the bounding radius of the smaller body
+constexpr double kLookAhead = 0.3;        // times the reach
+constexpr double kLeastLookAhead = 0.03;  // times the bounding radius of the smaller body
 
 constexpr double kFarAway = 1e15;  // [m]; its square is a float
 
