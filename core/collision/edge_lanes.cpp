@@ -1,8 +1,6 @@
 // Symbols: s and t places along the edges of the first and of the second.
 #include "core/collision/edge_lanes.h"
 
-#include <cstddef>
-
 #include "core/collision/feature_contacts.h"
 
 namespace scree {
@@ -16,12 +14,11 @@ FloatLanes clamped(FloatLanes x, FloatLanes most)
     return minOf(maxOf(x, FloatLanes{}), most);
 }
 
-/// Eight rows of four as four columns of eight.
-std::array<FloatLanes, 4> transposed(const std::array<const float*, kFloatLanes>& rows)
+/// Four of the numbers of eight edges, from `first` on, as four columns of eight.
+std::array<FloatLanes, 4> columns(const EightEdges& edges, std::size_t first)
 {
-    const auto both = [&](std::size_t i) {
-        return _mm256_set_m128(_mm_load_ps(rows[i + 4]), _mm_load_ps(rows[i]));
-    };
+    const auto row = [&](std::size_t i) { return _mm_load_ps(&edges[i]->numbers[first]); };
+    const auto both = [&](std::size_t i) { return _mm256_set_m128(row(i + 4), row(i)); };
     const __m256 r0 = both(0), r1 = both(1), r2 = both(2), r3 = both(3);
     const __m256 low01 = _mm256_unpacklo_ps(r0, r1), high01 = _mm256_unpackhi_ps(r0, r1);
     const __m256 low23 = _mm256_unpacklo_ps(r2, r3), high23 = _mm256_unpackhi_ps(r2, r3);
@@ -45,13 +42,27 @@ FloatLanes3 allOf(const FloatLanes3& v, int lane)
 
 }  // namespace
 
+FacingLanes::FacingLanes(const EightEdges& edges)
+{
+    const auto c0 = columns(edges, 0), c4 = columns(edges, 4), c8 = columns(edges, 8),
+               c12 = columns(edges, 12);
+    half = 0.5f * c0[3];
+    direction = {c4[0], c4[1], c4[2]};
+    middle = fma(half, direction, FloatLanes3{c0[0], c0[1], c0[2]});
+    outward = {c4[3], c8[0], c8[1]};
+    intoFace[0] = {c8[2], c8[3], c12[0]};
+    intoFace[1] = {c12[1], c12[2], c12[3]};
+}
+
 FacingLanes FacingLanes::all(int lane) const
 {
-    return {allOf(middle, lane),
-            allOf(direction, lane),
-            allOf(outward, lane),
-            {allOf(intoFace[0], lane), allOf(intoFace[1], lane)},
-            FloatLanes{} + half[lane]};
+    FacingLanes one;
+    one.middle = allOf(middle, lane);
+    one.direction = allOf(direction, lane);
+    one.outward = allOf(outward, lane);
+    for (int k : {0, 1}) one.intoFace[k] = allOf(intoFace[k], lane);
+    one.half = FloatLanes{} + half[lane];
+    return one;
 }
 
 Sphere FacingLanes::around() const
@@ -64,11 +75,13 @@ Sphere FacingLanes::around() const
 FacingLanes FacingLanes::placed(const Mat3& rotation, const Vec3& translation) const
 {
     const RotationLanes turned(rotation);
-    return {turned * middle + FloatLanes3::all(translation),
-            turned * direction,
-            turned * outward,
-            {turned * intoFace[0], turned * intoFace[1]},
-            half};
+    FacingLanes there;
+    there.middle = turned * middle + FloatLanes3::all(translation);
+    there.direction = turned * direction;
+    there.outward = turned * outward;
+    for (int k : {0, 1}) there.intoFace[k] = turned * intoFace[k];
+    there.half = half;
+    return there;
 }
 
 unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double farthest,
@@ -96,20 +109,13 @@ unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double
     return bitsOf(isNear & (isOut | isOutReversed));
 }
 
-LineLanes::LineLanes(const std::array<const EdgeLine*, kFloatLanes>& lines)
+LineLanes::LineLanes(const EightEdges& edges)
 {
-    const auto columns = [&](std::array<float, 3> EdgeLine::*part) {
-        std::array<const float*, kFloatLanes> rows;
-        for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = (lines[i]->*part).data();
-        return transposed(rows);
-    };
-    static_assert(offsetof(EdgeLine, length) == 3 * sizeof(float));
-    const auto s = columns(&EdgeLine::start), d = columns(&EdgeLine::direction),
-               o = columns(&EdgeLine::outward);
-    start = {s[0], s[1], s[2]};
-    length = s[3];
-    direction = {d[0], d[1], d[2]};
-    outward = {o[0], o[1], o[2]};
+    const auto c0 = columns(edges, 0), c4 = columns(edges, 4), c8 = columns(edges, 8);
+    start = {c0[0], c0[1], c0[2]};
+    length = c0[3];
+    direction = {c4[0], c4[1], c4[2]};
+    outward = {c4[3], c8[0], c8[1]};
 }
 
 void LineLanes::place(const RotationLanes& rotation, const FloatLanes3& translation)

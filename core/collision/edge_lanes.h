@@ -9,12 +9,14 @@
 
 namespace scree {
 
+using EightEdges = std::array<const EdgeLine*, kFloatLanes>;
+
 /// Eight edges in one frame.
 struct LineLanes {
     FloatLanes3 start, direction, outward;
     FloatLanes length;  ///< [m]
 
-    explicit LineLanes(const std::array<const EdgeLine*, kFloatLanes>& lines);
+    explicit LineLanes(const EightEdges& edges);
     /// Moves them into the frame of another body, where outward is not asked for.
     void place(const RotationLanes& rotation, const FloatLanes3& translation);
 };
@@ -25,14 +27,8 @@ struct FacingLanes {
     FloatLanes3 intoFace[2];
     FloatLanes half;  ///< of their lengths [m]
 
-    void set(int lane, const ConvexEdge& edge)
-    {
-        middle.set(lane, edge.start + 0.5 * edge.length * edge.direction);
-        direction.set(lane, edge.direction);
-        outward.set(lane, edge.outward);
-        for (int k : {0, 1}) intoFace[k].set(lane, edge.intoFace[k]);
-        half[lane] = static_cast<float>(0.5 * edge.length);
-    }
+    FacingLanes() = default;
+    explicit FacingLanes(const EightEdges& edges);
     /// One of them in all lanes.
     FacingLanes all(int lane) const;
     /// A sphere that holds all eight.

@@ -76,13 +76,15 @@ void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::
 }
 
 /// Lanes that are left over repeat the last edge.
-void inEights(const std::vector<ConvexEdge>& edges, const std::vector<std::int32_t>& chosen,
+void inEights(const std::vector<EdgeLine>& lines, const std::vector<std::int32_t>& chosen,
               std::vector<FacingLanes>& eights)
 {
-    eights.resize((chosen.size() + kFloatLanes - 1) / kFloatLanes);
-    for (std::size_t i = 0; i < kFloatLanes * eights.size(); ++i) {
-        const std::int32_t edge = chosen[std::min(i, chosen.size() - 1)];
-        eights[i / kFloatLanes].set(static_cast<int>(i % kFloatLanes), edges[edge]);
+    eights.clear();
+    for (std::size_t first = 0; first < chosen.size(); first += kFloatLanes) {
+        EightEdges edges;
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            edges[i] = &lines[chosen[std::min(first + i, chosen.size() - 1)]];
+        eights.emplace_back(edges);
     }
 }
 
@@ -225,8 +227,8 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     findEdgesNear(pair, clearance_, nearA);
     if (nearA.empty()) return;
     findEdgesNear(back, clearance_, nearB);
-    inEights(first.edges(), nearA, eightsOfA);
-    inEights(second.edges(), nearB, eightsOfB);
+    inEights(first.lines(), nearA, eightsOfA);
+    inEights(second.lines(), nearB, eightsOfB);
 
     const double farthest = std::max(reach, deepestEdges(pair)) + window_ + roundingOf(pair);
     const double turn = window_ / leverOf(pair) + kSinglePrecision;
@@ -310,7 +312,7 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
     const RotationLanes rotation(pair.rotation);
     const FloatLanes3 translation = FloatLanes3::all(pair.translation);
     const FloatLanes moved = floatLanesOf(roundedDown(moved_));
-    std::array<const EdgeLine*, kFloatLanes> ofFirst, ofSecond;
+    EightEdges ofFirst, ofSecond;
     std::array<std::pair<NearEdges*, int>, kFloatLanes> asked;
     std::size_t filled = 0;
     const auto flush = [&] {

@@ -42,14 +42,12 @@ Vec3 oppositeCorner(const TriMesh& mesh, int face, const std::pair<int, int>& en
 
 EdgeLine lineOf(const ConvexEdge& edge)
 {
-    const auto single = [](const Vec3& v) {
-        return std::array{static_cast<float>(v.x()), static_cast<float>(v.y()),
-                          static_cast<float>(v.z())};
-    };
-    return {.start = single(edge.start),
-            .length = static_cast<float>(edge.length),
-            .direction = single(edge.direction),
-            .outward = single(edge.outward)};
+    Eigen::Matrix<double, 16, 1> numbers;
+    numbers << edge.start, edge.length, edge.direction, edge.outward, edge.intoFace[0],
+        edge.intoFace[1];
+    EdgeLine line;
+    Eigen::Map<Eigen::Matrix<float, 16, 1>>(line.numbers.data()) = numbers.cast<float>();
+    return line;
 }
 
 }  // namespace

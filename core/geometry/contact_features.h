@@ -28,14 +28,11 @@ struct ConvexEdge {
     std::array<bool, 2> goesOn;      ///< past either end, straight, as another edge
 };
 
-/// What tells how far apart edges are, in single precision and within a line of the cache.
-struct alignas(16) EdgeLine {
-    std::array<float, 3> start;
-    float length;
-    std::array<float, 3> direction;
-    float unused = 0.0f;
-    std::array<float, 3> outward;
-    float unusedToo = 0.0f;
+/// What tells how far apart edges are and from where they can be touched, in single precision: one
+/// line of the cache.
+struct alignas(64) EdgeLine {
+    /// As of ConvexEdge: start, length, direction, outward, and into either face.
+    std::array<float, 16> numbers;
 };
 
 /// Sine of the angle by which surroundings may stand in front of a feature that still counts: the

@@ -474,14 +474,14 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
             ConvexEdge placed = ring->features.edges()[i];
             placed.start = pair * placed.start;
             placed.direction = pair.rotation * placed.direction;
-            std::array<const EdgeLine*, kFloatLanes> first;
+            EightEdges first;
             first.fill(&ring->features.lines()[i]);
             LineLanes ofFirst(first);
             ofFirst.place(RotationLanes(pair.rotation), FloatLanes3::all(pair.translation));
             const std::vector<ConvexEdge>& edges = other.features.edges();
             for (std::int32_t j = 0; j < std::ssize(edges); ++j) {
                 const int lane = j % kFloatLanes;
-                std::array<const EdgeLine*, kFloatLanes> second;
+                EightEdges second;
                 second.fill(&other.features.lines()[0]);
                 second[static_cast<std::size_t>(lane)] = &other.features.lines()[j];
                 const EdgeGaps gaps =

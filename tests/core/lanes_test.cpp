@@ -140,16 +140,21 @@ TEST(EdgeLanes, ThatComeToTouchMayFaceEachOtherBeforehand)
         before.translation = then.translation + moved;
         const double reach = 0.1;
         const double farthest = reach + moved.norm() + turned.norm() * ring->boundingRadius + 1e-5;
-        const std::vector<ConvexEdge>&first = ring->features.edges(),
-              &second = other.features.edges();
-        FacingLanes a{}, b{};
+        const std::vector<EdgeLine>&first = ring->features.lines(),
+              &second = other.features.lines();
+        EightEdges ofSecond;
+        ofSecond.fill(&second.front());
         for (std::int32_t i = 0; i < std::ssize(first); ++i) {
-            a.set(0, first[i]);
-            const FacingLanes edge = a.placed(before.rotation, before.translation).all(0);
+            EightEdges ofFirst;
+            ofFirst.fill(&first[i]);
+            const FacingLanes edge =
+                FacingLanes(ofFirst).placed(before.rotation, before.translation).all(0);
             for (std::int32_t j = 0; j < std::ssize(second); ++j) {
                 const int lane = j % kFloatLanes;
-                b.set(lane, second[j]);
-                const bool mayTouch = mayFace(edge, b, farthest, turned.norm() + 1e-5) >> lane & 1u;
+                ofSecond[static_cast<std::size_t>(lane)] = &second[j];
+                const unsigned bits =
+                    mayFace(edge, FacingLanes(ofSecond), farthest, turned.norm() + 1e-5);
+                const bool mayTouch = bits >> lane & 1u;
                 const bool touches = faceEdges(then, i, j, reach, 1e-3).has_value();
                 EXPECT_TRUE(mayTouch || !touches) << run << ' ' << i << ' ' << j;
                 touching += touches;
