@@ -137,10 +137,15 @@ bool BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<Bod
 
 void BroadPhase::forgetMoved()
 {
-    std::erase_if(entries_, [&](const Entry& entry) { return isMoved_[entry.body] != 0; });
-    std::erase_if(large_, [&](BodyId body) { return isMoved_[body] != 0; });
-    std::erase_if(meetings_,
-                  [&](const BodyPair& pair) { return isMoved_[pair.a] || isMoved_[pair.b]; });
+    forEach(2, 1, [&](std::size_t list) {
+        if (list == 0) {
+            std::erase_if(entries_, [&](const Entry& entry) { return isMoved_[entry.body] != 0; });
+            std::erase_if(large_, [&](BodyId body) { return isMoved_[body] != 0; });
+            return;
+        }
+        std::erase_if(meetings_,
+                      [&](const BodyPair& pair) { return isMoved_[pair.a] || isMoved_[pair.b]; });
+    });
 }
 
 void BroadPhase::enterMoved(const std::vector<Aabb>& boxes)

@@ -382,6 +382,7 @@ void wakeByForces(World& world, const std::vector<AppliedForce>& forces)
 
 bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
 {
+    if (!anyAsleep(world)) return false;
     std::vector<char> bears(world.bodyCount(), 0);
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         if (!contact.force.isZero(0.0)) bears[contact.a] = bears[contact.b] = 1;
