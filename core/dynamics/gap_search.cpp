@@ -227,7 +227,7 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
     do {
         readBodies(world, dt, scratch);
         findGapPairs(world, scratch);
-        parallelFor(scratch.nearPairs.size(), 16, [&](std::size_t begin, std::size_t end) {
+        parallelFor(scratch.nearPairs.size(), 32, [&](std::size_t begin, std::size_t end) {
             thread_local std::vector<Question> questions;
             questions.clear();
             askPairs(world, dt, isAgain, scratch,
