@@ -39,7 +39,8 @@ constexpr double kTogether = 0.01;
 /// Where fewer pairs are hit at first, few are in all.
 constexpr std::size_t kHitsWorthACut = 32;
 
-/// What the impacts of this step have done to a body so far.
+/// What the impacts of this step have done to a body so far. One cache line: two threads write to
+/// neighbours.
 struct alignas(64) Impacts {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
     double earliest = std::numeric_limits<double>::infinity();
@@ -127,7 +128,6 @@ private:
 
 /// What is known of the impacts of a step, by body, row and pair. Visits of pairs that share no
 /// movable body read and write different parts of it.
-struct alignas(64) I64 { std::int64_t v; I64(std::int64_t x=0):v(x){} operator std::int64_t() const {return v;} };
 struct ImpactState {
     ImpactState(const StepSettings& chosen, double step, GapScratch& rows)
         : settings(chosen),
@@ -155,13 +155,14 @@ struct ImpactState {
     std::vector<Impacts> impacts;
     // Of each pair, by the clock of who visits: the last visit that ended with nothing left to be
     // hit, 0: none; and the last look at it.
-    std::vector<I64> doneAt, gatheredAt;
+    std::vector<std::int64_t> doneAt, gatheredAt;
 
 private:
     std::optional<PairsOfBodies> pairsOf;
 };
 
-/// Visits pairs one by one.
+/// Visits pairs one by one. Two lines of the cache apart: the visits of halves are written to by
+/// two threads.
 class alignas(128) ImpactVisits {
 public:
     /// `half`: of pairs of one half. Those whose blows may reach the other are left to somebody
@@ -178,7 +179,8 @@ public:
     /// Those that were left since the last call.
     std::vector<std::size_t> takeLeft() { return std::exchange(left_, {}); }
 
-    /// Pairs done since then are done again when one of their bodies has changed.
+    /// Ticks with what is found and done: a pair is done with until one of its bodies has changed
+    /// since. Who goes on with the pairs of others goes on with the latest of their clocks.
     std::int64_t clock() const { return clock_; }
     void setClock(std::int64_t clock) { clock_ = clock; }
 
@@ -256,10 +258,14 @@ private:
         // What lies on something that lies on the ground falls back on it with all of gravity, even
         // if both are free to fall.
         const double pull = pair.isCarried ? std::max(a.pull.norm(), b.pull.norm())
-                                          : (b.pull - a.pull).dot(row.normal);
+                                           : (b.pull - a.pull).dot(row.normal);
         if (2.0 * row.restitution * -speed <= pull * (state_.dt - time)) return false;
-        impact = {&row, pair.isCarried, relative + time * gravity, time,
-                  u - (1.0 + row.restitution) * speed, Vec3::Zero()};
+        impact = {&row,
+                  pair.isCarried,
+                  relative + time * gravity,
+                  time,
+                  u - (1.0 + row.restitution) * speed,
+                  Vec3::Zero()};
         return true;
     }
 
@@ -330,7 +336,8 @@ private:
             hits_.push_back(impact);
             earliest = std::min(earliest, impact.time);
         }
-        dropHits(before, [&](const Impact& hit) { return hit.time > earliest + kTogether * state_.dt; });
+        dropHits(before,
+                 [&](const Impact& hit) { return hit.time > earliest + kTogether * state_.dt; });
         return earliest;
     }
 
@@ -453,8 +460,10 @@ private:
 
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time)
     {
-        if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, state_.impacts[row.a], time);
-        if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, state_.impacts[row.b], time);
+        if (row.movesA)
+            applyTo(scratch_.bodies[row.a], row.rA, impulse, state_.impacts[row.a], time);
+        if (row.movesB)
+            applyTo(scratch_.bodies[row.b], row.rB, -impulse, state_.impacts[row.b], time);
     }
 
     void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts, double time)
@@ -570,11 +579,9 @@ private:
             return;
         }
         const std::int64_t now = whole_.clock();
-        parallelFor(2, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t half = begin; half < end; ++half) {
-                halves_[half].setClock(now);
-                work(halves_[half], parts_[half]);
-            }
+        forEach(2, 1, [&](std::size_t half) {
+            halves_[half].setClock(now);
+            work(halves_[half], parts_[half]);
         });
         whole_.setClock(std::max(halves_[0].clock(), halves_[1].clock()));
         for (int half = 0; half < 2; ++half) {
@@ -592,8 +599,8 @@ private:
     ImpactState state_;
     GapScratch& scratch_;
     ImpactVisits whole_{state_, ImpactVisits::Of::all};
-    std::array<ImpactVisits, 2> halves_{{{state_, ImpactVisits::Of::half},
-                                         {state_, ImpactVisits::Of::half}}};
+    std::array<ImpactVisits, 2> halves_{
+        {{state_, ImpactVisits::Of::half}, {state_, ImpactVisits::Of::half}}};
     PairParts parts_;
     bool isShared_ = false;
 };

@@ -294,9 +294,8 @@ PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratc
     if (count == 0) return {};
     std::vector<Displacement> displacements(scratch.bodies.size());
     for (int n = 0; n < kSweeps; ++n) {
-        forEach(pushes[1].empty() ? 1 : 2, 1, [&](std::size_t half) {
-            sweep(scratch, 0.0, pushes[half], displacements);
-        });
+        forEach(pushes[1].empty() ? 1 : 2, 1,
+                [&](std::size_t half) { sweep(scratch, 0.0, pushes[half], displacements); });
         sweep(scratch, 0.0, pushes[2], displacements);
     }
     return {static_cast<std::int64_t>(count), displace(world, displacements)};

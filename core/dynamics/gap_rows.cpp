@@ -298,8 +298,8 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
     std::vector<std::pair<double, std::size_t>> byHeight(scratch.pairs.size());
     parallelFor(scratch.pairs.size(), 32, [&](std::size_t begin, std::size_t end) {
         // Both lists are sorted.
-        auto known = std::lower_bound(memory.begin(), memory.end(), scratch.pairs[begin].bodies,
-                                      isBefore);
+        auto known =
+            std::lower_bound(memory.begin(), memory.end(), scratch.pairs[begin].bodies, isBefore);
         for (std::size_t i = begin; i < end; ++i) {
             GapPair& pair = scratch.pairs[i];
             const std::vector<GapContact>& contacts = scratch.nearPairs[pair.near].contacts;

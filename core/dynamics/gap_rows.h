@@ -136,7 +136,7 @@ struct GapScratch {
     std::vector<GapRow> rows;        ///< pair by pair
     std::vector<std::size_t> order;  ///< of the pairs: bottom to top
     std::vector<GapIsland> islands;
-    std::vector<GapImpact> impacts;  ///< of this step
+    std::vector<GapImpact> impacts;                 ///< of this step
     std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember
 };
 

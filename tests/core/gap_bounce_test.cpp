@@ -73,6 +73,65 @@ TEST(GapBounce, BlowsThatFollowFromEachOtherRunAlongARowWithinAStep)
     for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(after[k], expected[k], 1e-9) << k;
 }
 
+struct TableBall {
+    double x;       // [m]
+    Vec3 velocity;  // [m/s]
+};
+
+/// Velocities after one step of elastic balls of 0.2 m on a table of a thousand rows, which two
+/// threads share; the cut between their halves goes through x = 0. Far away there is enough to do
+/// to make sharing worth while.
+std::vector<Vec3> velocitiesOnASharedTable(const std::vector<TableBall>& balls)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 1.0);
+    for (int i = 0; i < 16 * 10; ++i)
+        addBody(world, boxShape(Vec3::Ones(), 2), material,
+                {Vec3(i % 16 - 7.5, -0.5, i / 16 - 4.5), Quat::Identity()}, 1000.0);
+    const auto first = static_cast<BodyId>(world.bodyCount());
+    const auto addBall = [&](const Vec3& place, const Vec3& velocity) {
+        addBody(world, exactSphere(0.2), material, {place, Quat::Identity()}, 1.0, velocity);
+    };
+    for (const TableBall& ball : balls) addBall(Vec3(ball.x, 0.2, 0.5), ball.velocity);
+    for (int i = 0; i < 40; ++i) {
+        addBall(Vec3(-0.21, 10.0 + i, 0.0), 10.0 * Vec3::UnitX());
+        addBall(Vec3(0.21, 10.0 + i, 0.0), -10.0 * Vec3::UnitX());
+    }
+    Stepper stepper(weightless());
+    EXPECT_GT(stepper.step(world, kStep).contactPairs, 1000);
+    std::vector<Vec3> velocities;
+    for (std::size_t k = 0; k < balls.size(); ++k)
+        velocities.push_back(world.motion[first + static_cast<BodyId>(k)].velocity);
+    return velocities;
+}
+
+TEST(GapBounce, WhatIsHitFromTwoSidesFavoursNeitherWhereThreadsShareTheWork)
+{
+    // Not hit at first: each through another ball.
+    const Vec3 fast = 10.0 * Vec3::UnitX(), still = Vec3::Zero();
+    const std::vector<Vec3> after = velocitiesOnASharedTable(
+        {{-0.806, fast}, {-0.403, still}, {0.0, still}, {0.403, still}, {0.806, -fast}});
+    const std::array<Vec3, 5> expected = {-fast, still, still, still, fast};
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR((after[k] - expected[k]).norm(), 0.0, 1e-3);
+}
+
+TEST(GapBounce, ABlowIsPassedOnWhereThreadsShareTheWork)
+{
+    const Vec3 fast = 10.0 * Vec3::UnitX(), still = Vec3::Zero();
+    // In one half, beside a ball of the other that is not reached.
+    const std::vector<Vec3> within =
+        velocitiesOnASharedTable({{-0.44, still}, {0.0, still}, {0.403, still}, {0.806, -fast}});
+    const std::array<Vec3, 4> passedOn = {still, -fast, still, still};
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR((within[k] - passedOn[k]).norm(), 0.0, 1e-3);
+    // From one half to the other, where the pair that is hit last had been done with.
+    const Vec3 away = 0.2 * Vec3::UnitX();
+    const std::vector<Vec3> across = velocitiesOnASharedTable(
+        {{-0.806, fast}, {-0.403, still}, {0.0, still}, {0.403, still}, {0.8035, -away}});
+    const std::array<Vec3, 5> handed = {still, still, -away, still, fast};
+    for (std::size_t k = 0; k < 5; ++k)
+        EXPECT_NEAR((across[k] - handed[k]).norm(), 0.0, 1e-3) << across[k].transpose();
+}
+
 TEST(GapBounce, ABodyThatIsStruckLateInAStepDoesNotRunThroughWhatItMeetsBefore)
 {
     // The first ball meets the heavy third after a sixth of the step and leaves it again. If the
