@@ -19,6 +19,9 @@ int threadCount();
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// A grain for work of a tenth of a microsecond or so.
+inline constexpr std::size_t kShortWork = 64;
+
 /// Calls work(i) for every i from 0 to count − 1, `grain` of them together.
 template <class Work>
 void forEach(std::size_t count, std::size_t grain, const Work& work)

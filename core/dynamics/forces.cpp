@@ -9,8 +9,6 @@
 namespace scree {
 namespace {
 
-constexpr std::size_t kBodiesTogether = 256;  // what a thread takes at once
-
 constexpr double kAirDensity = 1.2;  // at 20 °C and sea level [kg/m³]
 
 double strengthAt(const ForceField& field, double time)
@@ -81,7 +79,7 @@ void findForces(const World& world, const StepSettings& settings, double dt,
 {
     forces.resize(world.bodyCount());
     const double time = world.time();
-    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t b) {
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
         forces[b] = {};
         if (!world.mass[b].isMovable()) return;
         const BodyMotion& motion = world.motion[b];

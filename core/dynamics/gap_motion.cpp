@@ -15,8 +15,6 @@ namespace {
 /// leaves.
 constexpr double kLasting = 1e-6;
 
-constexpr std::size_t kBodiesTogether = 64;  // what a thread takes at once
-
 /// What a body moves less than with its final velocity when what accelerated it did so for the
 /// whole step.
 struct MeanMotion {
@@ -201,7 +199,7 @@ void moveBodies(World& world, const StepSettings& settings, double dt, GapScratc
     addCouplesOfImpacts(world, scratch);
     moveByTheMean(world, dt, scratch);
     advancePositions(world, settings, dt);
-    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t i) {
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         BodyMotion& motion = world.motion[i];
         GapBody& body = scratch.bodies[i];
         if (body.inverseMass > 0.0) {

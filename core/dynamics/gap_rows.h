@@ -149,7 +149,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
 template <class Work>
 void forPairs(const GapScratch& scratch, const Work& work)
 {
-    forEach(scratch.pairs.size(), 64, work);
+    forEach(scratch.pairs.size(), kShortWork, work);
 }
 
 /// Those of the pairs together that share movable bodies, directly or through others; pairs without

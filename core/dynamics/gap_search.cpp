@@ -20,8 +20,6 @@ constexpr double kLeastReach = 2e-4;
 /// An overlap that the eye may see, as a share of the smaller body.
 constexpr double kVisible = 5e-3;
 
-constexpr std::size_t kBodiesTogether = 64;  // what a thread takes at once
-
 GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
 {
     const BodyMotion& motion = world.motion[id];
@@ -57,7 +55,7 @@ void readOdometers(const World& world, GapScratch& scratch)
     scratch.seenAt.resize(world.bodyCount());
     scratch.hasMoved.assign(world.bodyCount(), true);
     scratch.odometer.resize(world.bodyCount(), 0.0);
-    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t i) {
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const Pose pose = world.motion[i].worldFromBody();
         const Pose& then = scratch.seenAt[i];
         if (i < known) {
@@ -115,7 +113,7 @@ void readBodies(const World& world, double dt, GapScratch& scratch)
     scratch.gain.resize(world.bodyCount(), 0.0);
     scratch.boxes.resize(world.bodyCount());
     scratch.paces.resize(world.bodyCount());
-    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t i) {
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         scratch.bodies[i] = bodyOf(world, scratch, body);
         scratch.paces[i] = paceOf(world, scratch, body, dt);

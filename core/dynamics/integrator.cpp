@@ -9,8 +9,6 @@ namespace scree {
 
 namespace {
 
-constexpr std::size_t kBodiesTogether = 64;  // what a thread takes at once
-
 /// L = I ω.
 Vec3 momentumOfSpin(const BodyMotion& motion, const BodyMass& mass, const Vec3& w)
 {
@@ -68,7 +66,7 @@ void addGravity(World& world, const StepSettings& settings, double dt)
 
 void advancePositions(World& world, const StepSettings& settings, double dt)
 {
-    forEach(world.bodyCount(), kBodiesTogether, [&](std::size_t b) {
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
         const auto body = static_cast<BodyId>(b);
         if (world.contactMemory.isAsleep(body)) return;
         BodyMotion& motion = world.motion[body];

@@ -178,11 +178,9 @@ void findCandidates(const World& world, const StepSettings& settings, double rem
     const std::size_t bodies = world.bodyCount();
     findForces(world, settings, remaining, scratch.forces);
     scratch.sweptBoxes.resize(bodies);
-    parallelFor(bodies, 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b) {
-            scratch.sweptBoxes[b] =
-                sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
-        }
+    forEach(bodies, kShortWork, [&](std::size_t b) {
+        scratch.sweptBoxes[b] =
+            sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
     });
     meetingBoxes(world, scratch);
 }

@@ -155,9 +155,8 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
                       double remaining, const StepScratch& scratch)
 {
     std::vector<Outlook> outlooks(world.bodyCount());
-    parallelFor(world.bodyCount(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b)
-            outlooks[b] = outlookOf(world, static_cast<BodyId>(b), remaining);
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
+        outlooks[b] = outlookOf(world, static_cast<BodyId>(b), remaining);
     });
     // What is left of the frame is no wish of the motion: steps that had to fit into it would
     // halve, and halve again.
