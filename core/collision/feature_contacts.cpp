@@ -107,11 +107,39 @@ bool comesInFlush(const RelativePair& pair, const ConvexEdge& ofFirst, const Con
            comesInUnder(pair, ofFirst, ofSecond, onFirst, leaning, depth);
 }
 
+/// Whether an edge of the second goes on inside the first, deeper than `depth` under one of its own
+/// faces: then the first covers more than what pokes through that face.
+bool isCoveredUnder(const RelativePair& pair, const Vec3& onFace, const Vec3& face, double depth)
+{
+    constexpr double kLeastStep = 0.1;  // of the depth
+    constexpr int kMostSteps = 200;
+    const RelativePair back = pair.reversed();
+    for (const ConvexEdge& edge : pair.second.features.edges()) {
+        const double sinks = -edge.direction.dot(face);
+        double from = 0.0, to = edge.length;  // of the edge, where it is deep enough
+        if (sinks != 0.0) {
+            const double at = (depth - face.dot(onFace - edge.start)) / sinks;
+            (sinks > 0.0 ? from : to) = std::clamp(at, 0.0, edge.length);
+        } else if (face.dot(onFace - edge.start) < depth) {
+            continue;
+        }
+        // As far as the first is away it cannot be met.
+        for (int step = 0; step < kMostSteps && from < to; ++step) {
+            const double apart =
+                pair.first.distance.value(back * Vec3(edge.start + from * edge.direction));
+            if (apart < 0.0) return true;
+            from += std::max(apart, kLeastStep * depth);
+        }
+    }
+    return false;
+}
+
 /// Whether what lies `depth` inside the second shape along n, the way out where two edges cross at
 /// `onFirst`, has a much shorter way out through a face beside the edge of the second: neither the
-/// edge of the first nor any corner in the second is nearly as deep under it. A cube that stands on
-/// another is deep below its rim only because it stands far from it; it leaves by what it stands
-/// on.
+/// edge of the first nor any corner in the second is nearly as deep under it, nor is any edge of
+/// the second that the first covers. A cube that stands on another is deep below its rim only
+/// because it stands far from it; it leaves by what it stands on. But the rim of a tilted cube that
+/// cuts the corner off another is near to both faces there, and leaves by neither.
 bool leavesByFace(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
                   const Vec3& onFirst, const Vec3& n, double depth)
 {
@@ -119,11 +147,13 @@ bool leavesByFace(const RelativePair& pair, const ConvexEdge& ofFirst, const Con
     for (const Vec3& face : ofSecond.faceNormal) {
         if (n.dot(face) > 0.5) continue;
         if (comesInUnder(pair, ofFirst, ofSecond, onFirst, face, depth)) continue;
-        if (std::none_of(corners.begin(), corners.end(), [&](std::int32_t corner) {
-                const Vec3 p = pair * pair.first.features.points().col(corner);
-                return face.dot(ofSecond.start - p) >= 0.5 * depth &&
-                       pair.second.distance.value(p) < 0.0;
-            })) {
+        if (std::none_of(corners.begin(), corners.end(),
+                         [&](std::int32_t corner) {
+                             const Vec3 p = pair * pair.first.features.points().col(corner);
+                             return face.dot(ofSecond.start - p) >= 0.5 * depth &&
+                                    pair.second.distance.value(p) < 0.0;
+                         }) &&
+            !isCoveredUnder(pair, ofSecond.start, face, 0.5 * depth)) {
             return true;
         }
     }

@@ -387,6 +387,23 @@ TEST(NearFeatures, CubesAreSeenDeepInEachOtherPastTheEndOfAPieceOfAnEdge)
     EXPECT_NEAR(deepestContact(*cube, a, b), overlap, 1e-6);
 }
 
+// Seen in another such heap: the rim of a tilted cube cuts the corner off the one below, a
+// centimetre from two of its sides, and was taken to leave by them.
+TEST(NearFeatures, ACubeThatCutsTheCornerOffAnotherIsDeepInIt)
+{
+    const auto cube = boxShape({0.5, 0.5, 0.5}, 2);
+    const Pose a{Vec3(-2.4754527354084161, 0.24994970820465134, -1.2406661547106448),
+                 Quat(-0.70680297479531451, 0.70681458299846278, -0.020518498158679836,
+                      -0.020535123922580258)};
+    const Pose b{Vec3(-2.4346518228282363, 0.74998545780095704, -1.3625533548498445),
+                 Quat(-0.23176823758973458, 0.21616799860951461, -0.70515126908462356,
+                      -0.63428429598252722)};
+    const double overlap = overlapOfCubes(a, b, 0.25);
+    EXPECT_NEAR(overlap, 0.0235, 1e-4);
+    EXPECT_NEAR(deepestContact(*cube, a, b), overlap, 1e-5);
+    EXPECT_NEAR(deepestContact(*cube, b, a), overlap, 1e-5);
+}
+
 // Bricks of a wall that begins inside itself. Three corners of four had been seen in a third of all
 // draws, two or fewer in another: what rose there rose askew. One in fifty still lacks its fourth,
 // where two edges as good as meet and tilt by more than they are apart.
