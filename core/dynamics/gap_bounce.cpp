@@ -26,6 +26,7 @@
 #include "core/dynamics/contact_point.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_held.h"
 
 namespace scree {
 namespace {
@@ -46,48 +47,6 @@ struct alignas(64) Impacts {
     double earliest = std::numeric_limits<double>::infinity();
     std::int64_t changedAt = 0;  // the visit of a pair that changed it last
 };
-
-/// What accelerates a body beside what pulls it.
-struct Held {
-    Vec3 acceleration = Vec3::Zero(), turning = Vec3::Zero();  // [m/s²], [rad/s²]
-};
-
-/// Per body, if all that carried it in the last step does so again: rows begin with the impulses
-/// that are remembered.
-std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
-{
-    struct OfPair {
-        Vec3 impulse = Vec3::Zero(), turnOfA = Vec3::Zero(), turnOfB = Vec3::Zero();  // on A, on B
-    };
-    std::vector<OfPair> ofPairs(scratch.pairs.size());
-    forPairs(scratch, [&](std::size_t p) {
-        for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
-            const GapRow& row = scratch.rows[r];
-            if (row.impulse.x() == 0.0) continue;
-            const Vec3 impulse = row.worldImpulse();
-            ofPairs[p].impulse += impulse;
-            ofPairs[p].turnOfA += row.rA.cross(impulse) + row.couple;
-            ofPairs[p].turnOfB -= row.rB.cross(impulse) + row.couple;
-        }
-    });
-    std::vector<Held> held(scratch.bodies.size());
-    for (const std::size_t p : scratch.order) {
-        const GapRow& any = scratch.rows[scratch.pairs[p].begin];
-        if (any.movesA) {
-            held[any.a].acceleration += ofPairs[p].impulse;
-            held[any.a].turning += ofPairs[p].turnOfA;
-        }
-        if (any.movesB) {
-            held[any.b].acceleration -= ofPairs[p].impulse;
-            held[any.b].turning += ofPairs[p].turnOfB;
-        }
-    }
-    for (std::size_t b = 0; b < held.size(); ++b) {
-        held[b].acceleration *= scratch.bodies[b].inverseMass / dt;
-        held[b].turning = scratch.bodies[b].inverseInertia * held[b].turning / dt;
-    }
-    return held;
-}
 
 struct Impact {
     GapRow* row;
