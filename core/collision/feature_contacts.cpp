@@ -20,6 +20,7 @@ constexpr double kNearlySquare = 5e-3;
 /// Where the lines of two edges are closest.
 struct Crossing {
     Vec3 onFirst, onSecond, normal;    // normal not oriented
+    double alongFirst, alongSecond;    // from the starts of the edges
     double beyondFirst, beyondSecond;  // how far past the ends of either edge, ≤ 0 within [m]
     int endOfFirst, endOfSecond;       // which end that is
 };
@@ -37,6 +38,8 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
     return Crossing{startA + s * dA,
                     startB + t * dB,
                     dA.cross(dB).normalized(),
+                    s,
+                    t,
                     std::max(-s, s - lengthA),
                     std::max(-t, t - lengthB),
                     s < 0.0 ? 0 : 1,
@@ -53,9 +56,13 @@ bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexE
     if (at.beyondSecond > 0.0 && b.goesOn[at.endOfSecond]) return false;
     const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
     if (beyond > -gap || std::hypot(beyond, gap) > deepestEdges(pair)) return false;
+    // There an edge goes on in the face beside it, neither inside nor outside.
+    const auto isHollow = [](const Shape& shape, const Vec3& place, double past) {
+        return past <= 0.0 || shape.distance.value(place) <= kNearlySquare * past;
+    };
     const Vec3 inFirst = pair.rotation.transpose() * (at.onFirst - pair.translation);
-    return (at.beyondFirst <= 0.0 || pair.first.distance.value(inFirst) < 0.0) &&
-           (at.beyondSecond <= 0.0 || pair.second.distance.value(at.onSecond) < 0.0);
+    return isHollow(pair.first, inFirst, at.beyondFirst) &&
+           isHollow(pair.second, at.onSecond, at.beyondSecond);
 }
 
 /// Where an edge is deepest that crosses another `-gap` inside along n: how far from the crossing,
@@ -66,17 +73,30 @@ struct Dip {
 
 /// Mostly that is at the crossing. Beside an edge sharper than square it is not: there the line
 /// that crosses is still outside, and enters some way off, where it goes down under one face no
-/// faster than it comes up from the other. `length` is what the edge goes on to either side.
+/// faster than it comes up from the other. The line begins `before` the crossing and ends `after`.
 Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3& direction,
-                  double length)
+                  double before, double after)
 {
     const Vec3 &face0 = edge.faceNormal[0], &face1 = edge.faceNormal[1];
     const double height0 = gap * n.dot(face0), height1 = gap * n.dot(face1);
     const double slope0 = direction.dot(face0), slope1 = direction.dot(face1);
     if (std::max(height0, height1) <= 0.0 || slope0 * slope1 >= 0.0)
         return {0.0, std::min(0.0, std::max(height0, height1))};
-    const double along = std::clamp((height1 - height0) / (slope0 - slope1), -length, length);
+    const double along = std::clamp((height1 - height0) / (slope0 - slope1), -std::max(before, 0.0),
+                                    std::max(after, 0.0));
     return {along, std::min(0.0, std::max(height0 + along * slope0, height1 + along * slope1))};
+}
+
+/// Whether the edge of the first, which crosses one of the second `-gap` inside along n, is about as
+/// deep in the second as under the nearer of the faces beside that edge.
+bool isAsDeep(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
+              const Vec3& onFirst, const Vec3& n, double gap, double along)
+{
+    const Vec3 direction = pair.rotation * ofFirst.direction;
+    const Dip dip = deepestBeside(ofSecond, n, gap, direction, along, ofFirst.length - along);
+    const double rounding = kRounding * (ofFirst.length + ofSecond.length);
+    return pair.second.distance.value(onFirst + dip.along * direction) <=
+           0.5 * dip.height + rounding;
 }
 
 /// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a
@@ -160,6 +180,17 @@ bool leavesByFace(const RelativePair& pair, const ConvexEdge& ofFirst, const Con
     return false;
 }
 
+/// Whether a corner of the first at p has come in through a face of the second `depth` above it:
+/// then so has what it is a corner of, and halfway to that face it is still inside. A tooth that
+/// cuts an edge of another by its tip lies deep under the flank as well, and leaves at once.
+bool hasComeInBy(const RelativePair& pair, std::int32_t corner, const Vec3& p, const Vec3& face,
+                 double depth)
+{
+    const Vec3 inward = pair.rotation * pair.first.features.inwardOf(corner);
+    const double rises = inward.dot(face);
+    return rises > 0.0 && pair.second.distance.value(p + 0.5 * depth / rises * inward) < 0.0;
+}
+
 }  // namespace
 
 double smallerRadius(const Shape& a, const Shape& b)
@@ -235,7 +266,10 @@ FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double rea
         if (best && face.height <= best->gap) continue;
         const bool isUnder = face.distance <= std::abs(face.height) + sharpness;
         if (!isUnder && face.distance > about) continue;
-        if (supports(face.normal)) best = FeatureContact{p, face.normal, face.height};
+        if (!supports(face.normal)) continue;
+        if (face.distance > about && !hasComeInBy(pair, corner, p, face.normal, -face.height))
+            continue;
+        best = FeatureContact{p, face.normal, face.height};
     }
     if (!best) return refuse(nearest.normal, nearest.value);
     return FacedCorner{best, {}, 0.0};
@@ -262,16 +296,15 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     // what overlaps, the first edge is about as deep as the nearer of the faces beside the second,
     // and neither leaves much sooner by a face.
     if (gap < -deepestEdges(pair)) return {};
-    const Dip dip =
-        deepestBeside(b, n, gap, pair.rotation * a.direction, std::max(-at->beyondFirst, 0.0));
-    const Vec3 deepest = at->onFirst + dip.along * (pair.rotation * a.direction);
-    if (pair.second.distance.value(deepest) > 0.5 * dip.height + rounding &&
+    const RelativePair back = pair.reversed();
+    const Vec3 onSecond = back * at->onSecond, nBack = back.rotation * -n;
+    if (!isAsDeep(pair, a, b, at->onFirst, n, gap, at->alongFirst) &&
+        !isAsDeep(back, b, a, onSecond, nBack, gap, at->alongSecond) &&
         !comesInFlush(pair, a, b, at->onFirst, n, -gap)) {
         return {};
     }
-    const RelativePair back = pair.reversed();
     if (leavesByFace(pair, a, b, at->onFirst, n, -gap) ||
-        leavesByFace(back, b, a, back * at->onSecond, back.rotation * -n, -gap)) {
+        leavesByFace(back, b, a, onSecond, nBack, -gap)) {
         return {};
     }
     return FeatureContact{at->onFirst, n, gap};

@@ -116,6 +116,14 @@ bool ContactFeatures::cornerSupports(std::int32_t corner, const Vec3& normal, do
     return true;
 }
 
+Vec3 ContactFeatures::inwardOf(std::int32_t corner) const
+{
+    Vec3 inward = Vec3::Zero();
+    for (std::uint32_t i = neighbourStart_[corner]; i < neighbourStart_[corner + 1]; ++i)
+        inward += neighbours_[i];
+    return inward;
+}
+
 bool edgeSupports(const ConvexEdge& edge, const Vec3& normal, double slack)
 {
     return edge.intoFace[0].dot(normal) >= -slack && edge.intoFace[1].dot(normal) >= -slack;

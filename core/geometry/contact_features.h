@@ -60,6 +60,9 @@ public:
     bool cornerSupports(std::int32_t corner, const Vec3& normal,
                         double slack = kSupportSlack) const;
 
+    /// Into the solid from a corner, halfway between the edges that meet there; not of unit length.
+    Vec3 inwardOf(std::int32_t corner) const;
+
 private:
     Points points_;
     std::vector<std::int32_t> corners_;
