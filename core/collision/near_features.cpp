@@ -11,6 +11,7 @@
 #include "core/collision/ball_contacts.h"
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
+#include "core/collision/crease_contacts.h"
 #include "core/collision/edge_lanes.h"
 #include "core/geometry/distance_lanes.h"
 
@@ -284,15 +285,27 @@ void NearFeatures::faceCorners(const RelativePair& pair, FeatureKind kind, const
 {
     const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
     const FloatLanes needed = floatLanesOf(roundedUp(reach + moved_));
+    thread_local std::vector<CreaseContact> creased;
     for (NearCorners& eight : near) {
         for (unsigned bits = bitsOf(eight.farUntil < needed); bits; bits &= bits - 1) {
             const int lane = std::countr_zero(bits);
             const std::int32_t corner = eight.corner[lane];
             const FacedCorner faced = faceCorner(pair, corner, reach, sharpness);
             eight.farUntil[lane] = roundedDown(moved_ + faced.apart);
-            if (faced.contact) {
+            const auto add = [&](const FeatureContact& contact, std::int32_t side) {
                 list.add(pair, {Part::corner, corner}, {Part::face}, toWorld,
-                         featureId(kind, corner), *faced.contact);
+                         featureId(kind, corner, side), contact);
+            };
+            creased.clear();
+            if (faced.apart < reach)
+                findCreaseContacts(pair, corner, reach, faced.contact, creased);
+            bool isTold = false;
+            for (const auto& [contact, side] : creased) {
+                add(contact, 1 + side);
+                isTold = isTold || (faced.contact && contact.normal == faced.contact->normal);
+            }
+            if (faced.contact) {
+                if (!isTold) add(*faced.contact, 0);
             } else if (faced.unsupported) {
                 list.addUnsupported(toWorld(featureId(kind, corner), *faced.unsupported));
             }

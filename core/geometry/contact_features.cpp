@@ -64,7 +64,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
     }
 
     std::vector<std::vector<Vec3>> around(points_.cols()), normals(points_.cols());
-    std::vector<Sphere> edgeSpheres;
+    std::vector<Sphere> edgeSpheres, creaseSpheres;
     for (const auto& [ends, both] : faces) {
         const Vec3 start = points_.col(ends.first), end = points_.col(ends.second);
         const double length = (end - start).norm();
@@ -81,7 +81,12 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
             addDirection(normals[ends.second], edge.faceNormal[side]);
         }
         // Convex: each face falls away behind the plane of the other.
-        if (edge.intoFace[1].dot(edge.faceNormal[0]) > -kFlat) continue;
+        const double rises = edge.intoFace[1].dot(edge.faceNormal[0]);
+        if (rises > kFlat && edge.faceNormal[0].dot(edge.faceNormal[1]) < kCrease) {
+            creases_.push_back({start, direction, length, edge.faceNormal, edge.intoFace});
+            creaseSpheres.push_back({0.5 * (start + end), 0.5 * length});
+        }
+        if (rises > -kFlat) continue;
         edge.outward = (edge.faceNormal[0] + edge.faceNormal[1]).normalized();
         edges_.push_back(edge);
         lines_.push_back(lineOf(edge));
@@ -106,6 +111,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
     }
     cornerTree_ = SphereLaneTree(cornerSpheres);
     edgeTree_ = SphereLaneTree(edgeSpheres);
+    creaseTree_ = SphereLaneTree(creaseSpheres);
 }
 
 bool ContactFeatures::cornerSupports(std::int32_t corner, const Vec3& normal, double slack) const

@@ -1,5 +1,6 @@
 // What of a mesh can support another body: its corners and its convex edges, each with what tells
-// from which directions it can be touched. Method `scree` makes its contacts of these.  [A7, A8]
+// from which directions it can be touched; and the creases in which a corner touches twice. Method
+// `scree` makes its contacts of these.  [A7, A8]
 //
 // Two solids that do not overlap are nearest to each other at a corner and a face, or at two edges;
 // so corners of each against the other and pairs of convex edges say all there is to say about
@@ -28,6 +29,18 @@ struct ConvexEdge {
     std::array<bool, 2> goesOn;      ///< past either end, straight, as another edge
 };
 
+/// An edge where the surface bends inward, by enough that what slides along one side must be told
+/// of the other. Object frame.
+struct Crease {
+    Vec3 start, direction;           ///< unit direction from start [m], [-]
+    double length;                   ///< [m]
+    std::array<Vec3, 2> faceNormal;  ///< of its two faces
+    std::array<Vec3, 2> intoFace;    ///< unit, in each face, away from the edge
+};
+
+/// Cosine of the bend from which an inward edge is a crease. The facets of a ring bend by less.
+inline constexpr double kCrease = 0.9;
+
 /// What tells how far apart edges are and from where they can be touched, in single precision: one
 /// line of the cache.
 struct alignas(64) EdgeLine {
@@ -50,9 +63,11 @@ public:
     /// Those where at least three faces of different directions meet.
     const std::vector<std::int32_t>& corners() const { return corners_; }
     const std::vector<ConvexEdge>& edges() const { return edges_; }
-    const std::vector<EdgeLine>& lines() const { return lines_; }     ///< of edges()
+    const std::vector<EdgeLine>& lines() const { return lines_; }  ///< of edges()
+    const std::vector<Crease>& creases() const { return creases_; }
     const SphereLaneTree& cornerTree() const { return cornerTree_; }  ///< over corners()
     const SphereLaneTree& edgeTree() const { return edgeTree_; }      ///< over edges()
+    const SphereLaneTree& creaseTree() const { return creaseTree_; }  ///< over creases()
 
     /// Whether the mesh around a corner lies on the positive side of the plane through it with this
     /// normal, give or take the slack: whether something that comes along −normal … +normal can
@@ -70,7 +85,8 @@ private:
     std::vector<Vec3> neighbours_;               // unit directions from the corner along its edges
     std::vector<ConvexEdge> edges_;
     std::vector<EdgeLine> lines_;
-    SphereLaneTree cornerTree_, edgeTree_;
+    std::vector<Crease> creases_;
+    SphereLaneTree cornerTree_, edgeTree_, creaseTree_;
 };
 
 /// The same for an edge; `normal` points into its solid.
