@@ -162,7 +162,7 @@ EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double de
     gaps.outside = gaps.distance - floatLanesOf(deepest);
     gaps.outside = isOutside ? maxOf(gaps.outside, mayCross) : gaps.outside;
 
-    // Where their lines are closest, beyond the ends no farther than they overlap.
+    // Where their lines are closest, not far beyond the ends for what they overlap.
     const FloatLanes out = dot(normal, b.outward), apart = dot(normal, between) / sine;
     const FloatLanes towardsSecond = maxOf(out, -out) < floatLanesOf(kDirection)
                                          ? -maxOf(apart, -apart)
@@ -171,9 +171,9 @@ EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double de
     const FloatLanes beyond =
         maxOf(maxOf(-lineS, lineS - a.length), none) + maxOf(maxOf(-lineT, lineT - b.length), none);
     const FloatLanes slack = 2.0f * lineWrong + 2.0f * wrong / sine;
-    gaps.mayTouch = (sine >= floatLanesOf(0.99 * kParallel)) &
-                    (towardsSecond < floatLanesOf(reach) + slack) &
-                    (beyond <= maxOf(-towardsSecond, none) + slack);
+    gaps.mayTouch =
+        (sine >= floatLanesOf(0.99 * kParallel)) & (towardsSecond < floatLanesOf(reach) + slack) &
+        (beyond <= static_cast<float>(kPastEnds) * (maxOf(-towardsSecond, none) + slack));
     return gaps;
 }
 

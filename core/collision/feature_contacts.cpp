@@ -46,23 +46,40 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
                     t < 0.0 ? 0 : 1};
 }
 
+/// Whether the shape comes within `reach` of a place [m].
+bool isNear(const Shape& shape, const Vec3& place, double reach)
+{
+    return shape.distance.value(place) < reach;
+}
+
 /// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
 /// nearest to both of them past their ends, inside the body: it touches all the same. Past the end
-/// of an edge that goes on straight is no notch: there the next piece speaks.
+/// of an edge that goes on straight is no notch: there the next piece speaks. The edges themselves
+/// must be where edges that touch are looked for: near the other body, and not outside each other.
 bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
-                    const Crossing& at, double gap)
+                    const Crossing& at, double gap, double reach)
 {
     if (at.beyondFirst > 0.0 && a.goesOn[at.endOfFirst]) return false;
     if (at.beyondSecond > 0.0 && b.goesOn[at.endOfSecond]) return false;
     const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
-    if (beyond > -gap || std::hypot(beyond, gap) > deepestEdges(pair)) return false;
+    if (beyond > -kPastEnds * gap || std::hypot(beyond, gap) > deepestEdges(pair)) return false;
+    const RelativePair back = pair.reversed();
     // There an edge goes on in the face beside it, neither inside nor outside.
     const auto isHollow = [](const Shape& shape, const Vec3& place, double past) {
         return past <= 0.0 || shape.distance.value(place) <= kNearlySquare * past;
     };
-    const Vec3 inFirst = pair.rotation.transpose() * (at.onFirst - pair.translation);
-    return isHollow(pair.first, inFirst, at.beyondFirst) &&
-           isHollow(pair.second, at.onSecond, at.beyondSecond);
+    if (!isHollow(pair.first, back * at.onFirst, at.beyondFirst) ||
+        !isHollow(pair.second, at.onSecond, at.beyondSecond)) {
+        return false;
+    }
+    const Vec3 start = pair * a.start, direction = pair.rotation * a.direction;
+    const Vec3 nearFirst = start + std::clamp(at.alongFirst, 0.0, a.length) * direction;
+    const double along = std::clamp(b.direction.dot(nearFirst - b.start), 0.0, b.length);
+    const Vec3 onSecond = b.start + along * b.direction;
+    const double alongFirst = std::clamp(direction.dot(onSecond - start), 0.0, a.length);
+    const Vec3 onFirst = start + alongFirst * direction;
+    return (onFirst - onSecond).dot(b.outward) <= 0.0 && isNear(pair.second, onFirst, reach) &&
+           isNear(pair.first, back * onSecond, reach);
 }
 
 /// Where an edge is deepest that crosses another `-gap` inside along n: how far from the crossing,
@@ -87,16 +104,20 @@ Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3&
     return {along, std::min(0.0, std::max(height0 + along * slope0, height1 + along * slope1))};
 }
 
-/// Whether the edge of the first, which crosses one of the second `-gap` inside along n, is about as
-/// deep in the second as under the nearer of the faces beside that edge.
-bool isAsDeep(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
-              const Vec3& onFirst, const Vec3& n, double gap, double along)
+/// How the edge of the first, which crosses one of the second `-gap` inside along n, lies there.
+struct Sunk {
+    bool isAsDeep;  // in the second as under the nearer of the faces beside that edge, about
+    bool isNear;    // to the second, by `reach`
+};
+
+Sunk sunkBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
+                const Vec3& onFirst, const Vec3& n, double gap, double along, double reach)
 {
     const Vec3 direction = pair.rotation * ofFirst.direction;
     const Dip dip = deepestBeside(ofSecond, n, gap, direction, along, ofFirst.length - along);
     const double rounding = kRounding * (ofFirst.length + ofSecond.length);
-    return pair.second.distance.value(onFirst + dip.along * direction) <=
-           0.5 * dip.height + rounding;
+    const double value = pair.second.distance.value(onFirst + dip.along * direction);
+    return {value <= 0.5 * dip.height + rounding, value < reach};
 }
 
 /// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a
@@ -123,7 +144,7 @@ bool comesInFlush(const RelativePair& pair, const ConvexEdge& ofFirst, const Con
 {
     const std::array<Vec3, 2>& faces = ofSecond.faceNormal;
     const Vec3& leaning = n.dot(faces[0]) < n.dot(faces[1]) ? faces[0] : faces[1];
-    return n.dot(leaning) >= -kNearlySquare &&
+    return std::abs(n.dot(leaning)) <= kNearlySquare &&
            comesInUnder(pair, ofFirst, ofSecond, onFirst, leaning, depth);
 }
 
@@ -288,7 +309,7 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     if (gap >= reach) return {};
     const double rounding = kRounding * (a.length + b.length);
     const bool isWithin = at->beyondFirst <= rounding && at->beyondSecond <= rounding;
-    if (!isWithin && !crossesInNotch(pair, a, b, *at, gap)) return {};
+    if (!isWithin && !crossesInNotch(pair, a, b, *at, gap, reach)) return {};
     if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
     if (gap >= -sharpness) return FeatureContact{at->onFirst, n, gap};
 
@@ -298,8 +319,9 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     if (gap < -deepestEdges(pair)) return {};
     const RelativePair back = pair.reversed();
     const Vec3 onSecond = back * at->onSecond, nBack = back.rotation * -n;
-    if (!isAsDeep(pair, a, b, at->onFirst, n, gap, at->alongFirst) &&
-        !isAsDeep(back, b, a, onSecond, nBack, gap, at->alongSecond) &&
+    const Sunk first = sunkBeside(pair, a, b, at->onFirst, n, gap, at->alongFirst, reach);
+    const Sunk second = sunkBeside(back, b, a, onSecond, nBack, gap, at->alongSecond, reach);
+    if (!(first.isAsDeep && second.isNear) && !(second.isAsDeep && first.isNear) &&
         !comesInFlush(pair, a, b, at->onFirst, n, -gap)) {
         return {};
     }

@@ -39,6 +39,10 @@ inline double deepestEdges(const RelativePair& pair)
     return 0.25 * std::min(pair.first.innerThickness, pair.second.innerThickness);
 }
 
+/// Lines of edges that are closest past the ends of these by no more than so many times their
+/// overlap may still be what touches, in the notch of a hollow outline.
+inline constexpr double kPastEnds = 5.0;
+
 /// In the frame of the second shape.
 struct FeatureContact {
     Vec3 point;   ///< on the first [m]

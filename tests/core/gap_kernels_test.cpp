@@ -107,6 +107,68 @@ TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
     EXPECT_GT(skipped, 20u);
 }
 
+/// A solid of a flat outline, all of which is seen from `centre`, thick along z.
+std::shared_ptr<const Shape> extruded(const std::vector<Eigen::Vector2d>& outline, double thick,
+                                      const Eigen::Vector2d& centre = Eigen::Vector2d::Zero())
+{
+    const int corners = static_cast<int>(outline.size());
+    TriMesh mesh{Points(3, 2 * corners + 2), Triangles(3, 4 * corners)};
+    const auto place = [&](int column, const Eigen::Vector2d& point) {
+        mesh.points.col(column) << point, -0.5 * thick;
+        mesh.points.col(column + 1) << point, 0.5 * thick;
+    };
+    place(2 * corners, centre);
+    for (int i = 0; i < corners; ++i) {
+        place(2 * i, outline[i]);
+        const int low = 2 * i, high = low + 1, nextLow = 2 * ((i + 1) % corners);
+        const int nextHigh = nextLow + 1;
+        mesh.triangles.col(4 * i) << low, nextLow, nextHigh;
+        mesh.triangles.col(4 * i + 1) << low, nextHigh, high;
+        mesh.triangles.col(4 * i + 2) << 2 * corners, nextLow, low;
+        mesh.triangles.col(4 * i + 3) << 2 * corners + 1, high, nextHigh;
+    }
+    return buildMeshShape("extruded", mesh);
+}
+
+/// A star with five points: an outline like that of a gear.
+std::shared_ptr<const Shape> starShape()
+{
+    std::vector<Eigen::Vector2d> outline;
+    for (int i = 0; i < 10; ++i) {
+        const double radius = i % 2 ? 0.18 : 0.3, angle = kPi * i / 5.0;
+        outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return extruded(outline, 0.12);
+}
+
+/// Deep in each other, edges cross past their ends and far from where they are.
+TEST(NearFeatures, WhatStarsInEachOtherRememberChangesNoContact)
+{
+    const auto star = starShape();
+    std::size_t deep = 0, skipped = 0;
+    for (std::uint64_t run = 0; run < 12000; ++run) {
+        const double apart = 0.15 + 0.4 * randomUnit(7, run, 18);
+        Pose a{apart * signedUnits(run, 0).normalized(), exponentialMap(3.0 * signedUnits(run, 3))};
+        Pose b{Vec3::Zero(), exponentialMap(3.0 * signedUnits(run, 6))};
+        const Vec3 step = 5e-4 * signedUnits(run, 9), turnA = 1e-3 * signedUnits(run, 12),
+                   turnB = 5e-4 * signedUnits(run, 15);
+        Asked asked;
+        for (std::uint64_t i = 0; i < 40; ++i) {
+            a.position += step;
+            a.orientation = rotated(a.orientation, turnA);
+            b.orientation = rotated(b.orientation, turnB);
+            asked.odometer += step.norm() + (turnA.norm() + turnB.norm()) * star->boundingRadius;
+            const double reach = 0.001 + 0.006 * std::abs(signedUnit(run, 20 + i));
+            ASSERT_TRUE(asked.answersAsFresh({star.get(), star.get(), a, b}, reach))
+                << run << ' ' << i;
+        }
+        deep += asked.contacts;
+        skipped += asked.skipped;
+    }
+    EXPECT_GT(deep, 10000u);
+    EXPECT_GT(skipped, 1000u);
+}
+
 /// The smallest gap of all corners and all pairs of edges, asked one after the other [m].
 double smallestGap(const RelativePair& pair, double reach, double sharpness)
 {
@@ -457,29 +519,6 @@ TEST(NearFeatures, ACornerThatSlidIntoARingOverItsRimIsFoundAsDeepAsItIs)
     EXPECT_NEAR(deepest, -0.0110, 2e-4);
 }
 
-/// A star with five points, as thick as its hollows are wide: an outline like that of a gear.
-std::shared_ptr<const Shape> starShape()
-{
-    constexpr int kCorners = 10;
-    constexpr double kHalfThick = 0.06;
-    TriMesh mesh{Points(3, 2 * kCorners + 2), Triangles(3, 4 * kCorners)};
-    for (int i = 0; i < kCorners; ++i) {
-        const double radius = i % 2 ? 0.18 : 0.3, angle = 2.0 * std::numbers::pi * i / kCorners;
-        const Vec3 corner(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-        mesh.points.col(2 * i) = corner - kHalfThick * Vec3::UnitZ();
-        mesh.points.col(2 * i + 1) = corner + kHalfThick * Vec3::UnitZ();
-        const int low = 2 * i, high = low + 1, nextLow = 2 * ((i + 1) % kCorners);
-        const int nextHigh = nextLow + 1;
-        mesh.triangles.col(4 * i) << low, nextLow, nextHigh;
-        mesh.triangles.col(4 * i + 1) << low, nextHigh, high;
-        mesh.triangles.col(4 * i + 2) << 2 * kCorners, nextLow, low;
-        mesh.triangles.col(4 * i + 3) << 2 * kCorners + 1, high, nextHigh;
-    }
-    mesh.points.col(2 * kCorners) = -kHalfThick * Vec3::UnitZ();
-    mesh.points.col(2 * kCorners + 1) = kHalfThick * Vec3::UnitZ();
-    return buildMeshShape("star", mesh);
-}
-
 /// The plain twin: how deep the edges of either body lie in the other, seen in many places [m].
 double deepestOnEdges(const PlacedPair& pair)
 {
@@ -559,6 +598,34 @@ TEST(NearFeatures, SharpBodiesAreAboutAsDeepInEachOtherAsTheirEdges)
         EXPECT_LT(deepest, 0.5 * edges) << fromA.transpose();
         EXPECT_GT(deepest, 2.5 * edges) << fromA.transpose();
     }
+}
+
+/// The deepest contact of two bodies, B placed in the frame of A, both as they were made [m].
+double deepestContact(const Shape& a, const Shape& b, const Pose& aFromB)
+{
+    std::vector<GapContact> contacts;
+    NearFeatures().findContacts(
+        {&a, &b, inverse(a.bodyFromAsset), aFromB * inverse(b.bodyFromAsset)}, 0.003, contacts);
+    double deepest = 0.0;
+    for (const GapContact& contact : contacts) deepest = std::min(deepest, contact.gap);
+    return deepest;
+}
+
+// Seen in a heap of angles and prisms, which locked 13 % of their size in each other.
+TEST(NearFeatures, AnEdgeInANotchIsAsDeepAsItIs)
+{
+    const auto angle =
+        extruded({{-0.1, -0.1}, {0.3, -0.1}, {0.3, 0.0}, {0.0, 0.0}, {0.0, 0.3}, {-0.1, 0.3}}, 0.1,
+                 {-0.05, -0.05});
+    const auto prism =
+        extruded({{0.25, 0.0}, {-0.125, 0.216506350946}, {-0.125, -0.216506350946}}, 0.5);
+    const Pose crossing{{0.133726550982, 0.206453677722, 0.237698790755},
+                        Quat(-0.736929469201, -0.675260824006, -0.005881356099, 0.030383986506)};
+    EXPECT_LT(deepestContact(*angle, *prism, crossing), -0.004);  // an edge is 7.3 mm inside
+    // They only just touch; edges that pass each other 22 mm inside are no contact.
+    const Pose touching{{-0.010177469007, 0.266499578819, 0.231900166171},
+                        Quat(-0.588992348126, 0.713577519359, -0.276463517326, 0.259736522850)};
+    EXPECT_GT(deepestContact(*prism, *angle, touching), -1e-4);
 }
 
 /// The plain twin: distance of two segments as the least of a convex function.
