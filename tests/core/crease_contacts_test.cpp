@@ -16,41 +16,6 @@
 namespace scree::test {
 namespace {
 
-constexpr double kFloorHalf = 0.5;  // [m]
-
-/// A bin, open above, with as many walls as asked for and its floor at y = 0, half as wide to its
-/// walls, of which the first stands in +x. They lean out by `flare` up to `height`.
-std::shared_ptr<const Shape> binShape(double flare, double height, int walls = 4)
-{
-    constexpr double kOuterHalf = 1.2, kUnderside = -0.2;
-    const std::array<std::pair<double, double>, 4> rims = {{{kOuterHalf, kUnderside},
-                                                            {kOuterHalf + flare, height},
-                                                            {kFloorHalf + flare, height},
-                                                            {kFloorHalf, 0.0}}};
-    TriMesh mesh{Points(3, 4 * walls + 2), Triangles(3, 8 * walls)};
-    const int under = 4 * walls, floor = under + 1;
-    mesh.points.col(under) = kUnderside * Vec3::UnitY();
-    mesh.points.col(floor) = Vec3::Zero();
-    int face = 0;
-    for (int wall = 0; wall < walls; ++wall) {
-        const int next = (wall + 1) % walls;
-        const double angle = kPi * (2 * wall - 1) / walls;
-        for (int rim = 0; rim < 4; ++rim) {
-            const double radius = rims[rim].first / std::cos(kPi / walls);
-            mesh.points.col(rim * walls + wall) =
-                Vec3(radius * std::cos(angle), rims[rim].second, -radius * std::sin(angle));
-        }
-        for (int rim = 0; rim < 3; ++rim) {
-            const int low = rim * walls, high = low + walls;
-            mesh.triangles.col(face++) << low + wall, low + next, high + next;
-            mesh.triangles.col(face++) << low + wall, high + next, high + wall;
-        }
-        mesh.triangles.col(face++) << under, next, wall;
-        mesh.triangles.col(face++) << floor, 3 * walls + wall, 3 * walls + next;
-    }
-    return buildMeshShape("bin", mesh);
-}
-
 /// Contacts of a box, A, that stands at `place` in a bin.
 std::vector<GapContact> contactsInBin(const Shape& box, const Shape& bin, const Vec3& place)
 {
@@ -79,7 +44,7 @@ TEST(CreaseContacts, ACornerBetweenFloorAndWallTouchesBoth)
         for (const auto& [overFloor, fromCrease] :
              {std::pair(0.001, 0.004), {0.003, 0.003}, {-2e-4, 0.004}, {-5e-4, -1e-4}}) {
             if (flare < 0.0 && fromCrease < 0.0) continue;  // its upper corners would be inside
-            const Vec3 corner(kFloorHalf - fromCrease, overFloor, 0.0);
+            const Vec3 corner(kBinHalf - fromCrease, overFloor, 0.0);
             const auto contacts =
                 contactsInBin(*box, *bin, corner + Vec3(-0.5 * kSize, 0.5 * kThick, 0.0));
             int onFloor = 0, onWall = 0;
@@ -89,7 +54,7 @@ TEST(CreaseContacts, ACornerBetweenFloorAndWallTouchesBoth)
                     EXPECT_NEAR(contact.gap, overFloor, 1e-6);
                     ++onFloor;
                 } else if (contact.normal.dot(wall) > 0.999) {
-                    EXPECT_NEAR(contact.gap, wall.dot(corner - Vec3(kFloorHalf, 0.0, 0.0)), 1e-6);
+                    EXPECT_NEAR(contact.gap, wall.dot(corner - Vec3(kBinHalf, 0.0, 0.0)), 1e-6);
                     ++onWall;
                 }
             }
@@ -108,7 +73,7 @@ TEST(CreaseContacts, ALedgeIsNoWallForWhatIsAboveIt)
     for (const auto& [fromLedge, overFloor] :
          {std::pair(0.002, 0.001), {0.002, 0.008}, {-0.01, 0.006}}) {
         const auto contacts =
-            contactsInBin(*box, *bin, {kFloorHalf - fromLedge - 0.1, 0.1 + overFloor, 0.0});
+            contactsInBin(*box, *bin, {kBinHalf - fromLedge - 0.1, 0.1 + overFloor, 0.0});
         EXPECT_EQ(anyAlong(contacts, -Vec3::UnitX()), overFloor < kLedge) << overFloor;
     }
 }
@@ -119,10 +84,10 @@ TEST(CreaseContacts, WallsThatMeetEndWithTheirCrease)
     const auto bin = binShape(0.0, kHeight, 6);
     const auto box = boxShape(Vec3::Constant(0.1), 1);
     // A corner a millimetre from the first wall, five from where the second meets it.
-    const double halfWall = kFloorHalf * std::tan(kPi / 6.0);
+    const double halfWall = kBinHalf * std::tan(kPi / 6.0);
     const Vec3 second = Vec3(-std::cos(kPi / 3.0), 0.0, std::sin(kPi / 3.0));
     for (const double overRim : {-0.05, 0.002}) {
-        const Vec3 corner(kFloorHalf - 0.001, kHeight + overRim, -(halfWall - 0.005));
+        const Vec3 corner(kBinHalf - 0.001, kHeight + overRim, -(halfWall - 0.005));
         const auto contacts = contactsInBin(*box, *bin, corner + Vec3(-0.05, 0.05, 0.05));
         EXPECT_EQ(anyAlong(contacts, second), overRim < 0.0) << overRim;
     }

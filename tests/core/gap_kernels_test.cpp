@@ -107,45 +107,11 @@ TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
     EXPECT_GT(skipped, 20u);
 }
 
-/// A solid of a flat outline, all of which is seen from `centre`, thick along z.
-std::shared_ptr<const Shape> extruded(const std::vector<Eigen::Vector2d>& outline, double thick,
-                                      const Eigen::Vector2d& centre = Eigen::Vector2d::Zero())
-{
-    const int corners = static_cast<int>(outline.size());
-    TriMesh mesh{Points(3, 2 * corners + 2), Triangles(3, 4 * corners)};
-    const auto place = [&](int column, const Eigen::Vector2d& point) {
-        mesh.points.col(column) << point, -0.5 * thick;
-        mesh.points.col(column + 1) << point, 0.5 * thick;
-    };
-    place(2 * corners, centre);
-    for (int i = 0; i < corners; ++i) {
-        place(2 * i, outline[i]);
-        const int low = 2 * i, high = low + 1, nextLow = 2 * ((i + 1) % corners);
-        const int nextHigh = nextLow + 1;
-        mesh.triangles.col(4 * i) << low, nextLow, nextHigh;
-        mesh.triangles.col(4 * i + 1) << low, nextHigh, high;
-        mesh.triangles.col(4 * i + 2) << 2 * corners, nextLow, low;
-        mesh.triangles.col(4 * i + 3) << 2 * corners + 1, high, nextHigh;
-    }
-    return buildMeshShape("extruded", mesh);
-}
-
-/// A star with five points: an outline like that of a gear.
-std::shared_ptr<const Shape> starShape()
-{
-    std::vector<Eigen::Vector2d> outline;
-    for (int i = 0; i < 10; ++i) {
-        const double radius = i % 2 ? 0.18 : 0.3, angle = kPi * i / 5.0;
-        outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-    }
-    return extruded(outline, 0.12);
-}
-
 /// Deep in each other, edges cross past their ends and far from where they are.
 TEST(NearFeatures, WhatStarsInEachOtherRememberChangesNoContact)
 {
     const auto star = starShape();
-    std::size_t deep = 0, skipped = 0;
+    std::size_t contacts = 0, skipped = 0;
     for (std::uint64_t run = 0; run < 12000; ++run) {
         const double apart = 0.15 + 0.4 * randomUnit(7, run, 18);
         Pose a{apart * signedUnits(run, 0).normalized(), exponentialMap(3.0 * signedUnits(run, 3))};
@@ -162,10 +128,10 @@ TEST(NearFeatures, WhatStarsInEachOtherRememberChangesNoContact)
             ASSERT_TRUE(asked.answersAsFresh({star.get(), star.get(), a, b}, reach))
                 << run << ' ' << i;
         }
-        deep += asked.contacts;
+        contacts += asked.contacts;
         skipped += asked.skipped;
     }
-    EXPECT_GT(deep, 10000u);
+    EXPECT_GT(contacts, 10000u);
     EXPECT_GT(skipped, 1000u);
 }
 
@@ -614,11 +580,7 @@ double deepestContact(const Shape& a, const Shape& b, const Pose& aFromB)
 // Seen in a heap of angles and prisms, which locked 13 % of their size in each other.
 TEST(NearFeatures, AnEdgeInANotchIsAsDeepAsItIs)
 {
-    const auto angle =
-        extruded({{-0.1, -0.1}, {0.3, -0.1}, {0.3, 0.0}, {0.0, 0.0}, {0.0, 0.3}, {-0.1, 0.3}}, 0.1,
-                 {-0.05, -0.05});
-    const auto prism =
-        extruded({{0.25, 0.0}, {-0.125, 0.216506350946}, {-0.125, -0.216506350946}}, 0.5);
+    const auto angle = angleShape(), prism = prismShape();
     const Pose crossing{{0.133726550982, 0.206453677722, 0.237698790755},
                         Quat(-0.736929469201, -0.675260824006, -0.005881356099, 0.030383986506)};
     EXPECT_LT(deepestContact(*angle, *prism, crossing), -0.004);  // an edge is 7.3 mm inside

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "core/dynamics/integrator.h"
 #include "core/geometry/primitives.h"
@@ -63,6 +66,90 @@ std::shared_ptr<const Shape> exactCylinder(double radius, double height)
 {
     return buildExactShape("cylinder", ExactSolid::cylinder(radius, height),
                            makeCylinder(radius, height, 20, 1));
+}
+
+namespace {
+
+/// A solid of a flat outline, all of which is seen from `centre`, thick along z.
+std::shared_ptr<const Shape> extruded(const std::vector<Eigen::Vector2d>& outline, double thick,
+                                      const Eigen::Vector2d& centre = Eigen::Vector2d::Zero())
+{
+    const int corners = static_cast<int>(outline.size());
+    TriMesh mesh{Points(3, 2 * corners + 2), Triangles(3, 4 * corners)};
+    const auto place = [&](int column, const Eigen::Vector2d& point) {
+        mesh.points.col(column) << point, -0.5 * thick;
+        mesh.points.col(column + 1) << point, 0.5 * thick;
+    };
+    place(2 * corners, centre);
+    for (int i = 0; i < corners; ++i) {
+        place(2 * i, outline[i]);
+        const int low = 2 * i, high = low + 1, nextLow = 2 * ((i + 1) % corners);
+        const int nextHigh = nextLow + 1;
+        mesh.triangles.col(4 * i) << low, nextLow, nextHigh;
+        mesh.triangles.col(4 * i + 1) << low, nextHigh, high;
+        mesh.triangles.col(4 * i + 2) << 2 * corners, nextLow, low;
+        mesh.triangles.col(4 * i + 3) << 2 * corners + 1, high, nextHigh;
+    }
+    return buildMeshShape("extruded", mesh);
+}
+
+}  // namespace
+
+std::shared_ptr<const Shape> starShape()
+{
+    std::vector<Eigen::Vector2d> outline;
+    for (int i = 0; i < 10; ++i) {
+        const double radius = i % 2 ? 0.18 : 0.3, angle = kPi * i / 5.0;
+        outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return extruded(outline, 0.12);
+}
+
+std::shared_ptr<const Shape> angleShape()
+{
+    return extruded({{-0.1, -0.1}, {0.3, -0.1}, {0.3, 0.0}, {0.0, 0.0}, {0.0, 0.3}, {-0.1, 0.3}},
+                    0.1, {-0.05, -0.05});
+}
+
+std::shared_ptr<const Shape> prismShape()
+{
+    return extruded({{0.25, 0.0}, {-0.125, 0.216506350946}, {-0.125, -0.216506350946}}, 0.5);
+}
+
+std::shared_ptr<const Shape> splinterShape()
+{
+    return extruded({{0.35, 0.0}, {-0.1, 0.12}, {-0.15, -0.1}}, 0.08);
+}
+
+std::shared_ptr<const Shape> binShape(double flare, double height, int walls)
+{
+    constexpr double kOuterHalf = 1.2, kUnderside = -0.2;
+    const std::array<std::pair<double, double>, 4> rims = {{{kOuterHalf, kUnderside},
+                                                            {kOuterHalf + flare, height},
+                                                            {kBinHalf + flare, height},
+                                                            {kBinHalf, 0.0}}};
+    TriMesh mesh{Points(3, 4 * walls + 2), Triangles(3, 8 * walls)};
+    const int under = 4 * walls, floor = under + 1;
+    mesh.points.col(under) = kUnderside * Vec3::UnitY();
+    mesh.points.col(floor) = Vec3::Zero();
+    int face = 0;
+    for (int wall = 0; wall < walls; ++wall) {
+        const int next = (wall + 1) % walls;
+        const double angle = kPi * (2 * wall - 1) / walls;
+        for (int rim = 0; rim < 4; ++rim) {
+            const double radius = rims[rim].first / std::cos(kPi / walls);
+            mesh.points.col(rim * walls + wall) =
+                Vec3(radius * std::cos(angle), rims[rim].second, -radius * std::sin(angle));
+        }
+        for (int rim = 0; rim < 3; ++rim) {
+            const int low = rim * walls, high = low + walls;
+            mesh.triangles.col(face++) << low + wall, low + next, high + next;
+            mesh.triangles.col(face++) << low + wall, high + next, high + wall;
+        }
+        mesh.triangles.col(face++) << under, next, wall;
+        mesh.triangles.col(face++) << floor, 3 * walls + wall, 3 * walls + next;
+    }
+    return buildMeshShape("bin", mesh);
 }
 
 BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,

@@ -33,6 +33,20 @@ std::shared_ptr<const Shape> exactSphere(double radius);
 std::shared_ptr<const Shape> exactBox(const Vec3& size, int segments);
 std::shared_ptr<const Shape> exactCylinder(double radius, double height);
 
+/// Solids with points, hollows and edges sharper than square, half a metre or so in size: a star
+/// with five points, an outline like that of a gear; an angle of two bars; a three-sided prism; a
+/// thin splinter.
+std::shared_ptr<const Shape> starShape();
+std::shared_ptr<const Shape> angleShape();
+std::shared_ptr<const Shape> prismShape();
+std::shared_ptr<const Shape> splinterShape();
+
+/// A bin in one mesh, open above, with as many walls as asked for and its floor at y = 0, all of
+/// them kBinHalf from its middle there; the first wall stands in +x. They lean out by `flare` up to
+/// `height` [m].
+inline constexpr double kBinHalf = 0.5;
+std::shared_ptr<const Shape> binShape(double flare, double height, int walls = 4);
+
 BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
                const Pose& worldFromAsset, double mass = 1.0, const Vec3& velocity = Vec3::Zero(),
                const Vec3& angularVelocity = Vec3::Zero());
