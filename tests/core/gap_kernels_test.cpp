@@ -485,25 +485,6 @@ TEST(NearFeatures, ACornerThatSlidIntoARingOverItsRimIsFoundAsDeepAsItIs)
     EXPECT_NEAR(deepest, -0.0110, 2e-4);
 }
 
-/// The plain twin: how deep the edges of either body lie in the other, seen in many places [m].
-double deepestOnEdges(const PlacedPair& pair)
-{
-    const auto inOther = [](const Shape& shape, const Shape& other, const Pose& otherFromShape) {
-        constexpr int kPlaces = 400;
-        double deepest = 0.0;
-        for (const ConvexEdge& edge : shape.features.edges()) {
-            for (int i = 0; i <= kPlaces; ++i) {
-                const Vec3 place = edge.start + i * edge.length / kPlaces * edge.direction;
-                deepest = std::min(deepest, other.distance.value(otherFromShape * place));
-            }
-        }
-        return deepest;
-    };
-    return std::min(
-        inOther(*pair.shapeA, *pair.shapeB, inverse(pair.worldFromB) * pair.worldFromA),
-        inOther(*pair.shapeB, *pair.shapeA, inverse(pair.worldFromA) * pair.worldFromB));
-}
-
 // Poses that told of no overlap, or of another: rims that cross beside a hollow corner, a point
 // that cuts off an edge of the other or has just gone through its point.
 TEST(NearFeatures, SharpBodiesAreAboutAsDeepInEachOtherAsTheirEdges)
@@ -560,7 +541,9 @@ TEST(NearFeatures, SharpBodiesAreAboutAsDeepInEachOtherAsTheirEdges)
         NearFeatures().findContacts(pair, 0.003, contacts);
         double deepest = 0.0;
         for (const GapContact& contact : contacts) deepest = std::min(deepest, contact.gap);
-        const double edges = deepestOnEdges(pair);
+        const Pose bFromA = inverse(pair.worldFromB) * pair.worldFromA;
+        const double edges = std::min(deepestOfEdges(shape, shape, bFromA, 400),
+                                      deepestOfEdges(shape, shape, inverse(bFromA), 400));
         EXPECT_LT(deepest, 0.5 * edges) << fromA.transpose();
         EXPECT_GT(deepest, 2.5 * edges) << fromA.transpose();
     }

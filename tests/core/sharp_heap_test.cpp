@@ -15,20 +15,6 @@
 namespace scree::test {
 namespace {
 
-/// How deep the edges of A lie in B, seen in many places [m].
-double deepestOfEdges(const Shape& a, const Shape& b, const Pose& bFromA)
-{
-    constexpr int kPlaces = 24;
-    double deepest = 0.0;
-    for (const ConvexEdge& edge : a.features.edges()) {
-        for (int i = 0; i <= kPlaces; ++i) {
-            const Vec3 place = edge.start + i * edge.length / kPlaces * edge.direction;
-            deepest = std::min(deepest, b.distance.value(bFromA * place));
-        }
-    }
-    return deepest;
-}
-
 Pose poseOf(const World& world, BodyId body)
 {
     return {world.motion[body].position, world.motion[body].orientation};
@@ -46,7 +32,7 @@ double deepestInHeap(const World& world)
             const double reach = shapeA.boundingRadius + shapeB.boundingRadius;
             if (a == b || bFromA.position.norm() > reach) continue;
             const double smaller = std::min(shapeA.boundingRadius, shapeB.boundingRadius);
-            deepest = std::min(deepest, deepestOfEdges(shapeA, shapeB, bFromA) / smaller);
+            deepest = std::min(deepest, deepestOfEdges(shapeA, shapeB, bFromA, 24) / smaller);
         }
     }
     return deepest;

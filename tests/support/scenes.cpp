@@ -185,6 +185,18 @@ double largestVertexShift(const World& before, const World& after, BodyId body)
     return largest;
 }
 
+double deepestOfEdges(const Shape& a, const Shape& b, const Pose& bFromA, int places)
+{
+    double deepest = 0.0;
+    for (const ConvexEdge& edge : a.features.edges()) {
+        for (int i = 0; i <= places; ++i) {
+            const Vec3 place = edge.start + i * edge.length / places * edge.direction;
+            deepest = std::min(deepest, b.distance.value(bFromA * place));
+        }
+    }
+    return deepest;
+}
+
 double totalEnergy(const World& world, const StepSettings& settings)
 {
     double energy = 0.0;

@@ -56,6 +56,10 @@ Vec3 angularVelocityOf(const World& world, BodyId body);
 /// Largest displacement of any vertex of the body between two worlds [m].
 double largestVertexShift(const World& before, const World& after, BodyId body);
 
+/// How deep the edges of A lie in B, seen in so many places of each: what contacts tell of an
+/// overlap should be about as much [m].
+double deepestOfEdges(const Shape& a, const Shape& b, const Pose& bFromA, int places);
+
 /// Kinetic plus potential energy of all movable bodies [J].
 double totalEnergy(const World& world, const StepSettings& settings);
 
