@@ -46,6 +46,15 @@ bool anyResistsSpin(const GapScratch& scratch, const GapIsland& island)
     });
 }
 
+/// `now` goes a share of its last way again, which then ends there.
+template <class Number, class Vector>
+void goFurther(Number share, const Vector& before, Vector& way, Vector& now)
+{
+    const Vector step = share * way;
+    way = step + (now - before);
+    now += step;
+}
+
 /// Where friction holds the place.
 LaneMask sticks(Lanes friction, const Lanes3& impulse)
 {
@@ -92,9 +101,26 @@ void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
             rowCount = batch.end;
         }
     }
+    collectBodies(scratch, island);
+    beginsAnew_ = true;
     rows_.resize(rowCount);
     rolls_.resize(anyResistsSpin(scratch, island) ? rowCount : 0);
     forBatches([&](Batch& batch) { fill(scratch, batch); });
+}
+
+void GapLanes::collectBodies(const GapScratch& scratch, const GapIsland& island)
+{
+    ways_.clear();
+    const auto collect = [&](BodyId body) {
+        if (firstFree_[body] != 0 || scratch.bodies[body].inverseMass == 0.0) return;
+        firstFree_[body] = 1;
+        ways_.push_back({body, {}, {}});
+    };
+    for (const std::size_t i : island.pairs) {
+        collect(scratch.pairs[i].bodies.a);
+        collect(scratch.pairs[i].bodies.b);
+    }
+    for (const BodyWay& way : ways_) firstFree_[way.body] = 0;
 }
 
 /// The first batch with an idle lane for so many rows, not before `earliest`; a new one if none is.
@@ -301,6 +327,25 @@ void GapLanes::begin(const Section& section)
     }
 }
 
+/// A row's part of the last goOn.
+template <bool kRolls>
+inline void GapLanes::goOn(std::size_t place)
+{
+    Row& row = rows_[place];
+    if (beginsAnew_)
+        row.way = Lanes3{};
+    else
+        goFurther(lanesOf(share_), row.before, row.way, row.impulse);
+    row.before = row.impulse;
+    if constexpr (!kRolls) return;
+    Roll& roll = rolls_[place];
+    if (beginsAnew_)
+        roll.way = Lanes3{};
+    else
+        goFurther(lanesOf(share_), roll.before, roll.way, roll.couple);
+    roll.before = roll.couple;
+}
+
 template <bool kRolls>
 void GapLanes::sweepUp(Section& section)
 {
@@ -308,9 +353,8 @@ void GapLanes::sweepUp(Section& section)
     for (const Batch& batch : section.batches) {
         Motion motion(batch, *bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
-            Row& row = rows_[r];
-            row.before = row.impulse;
-            const Lanes3 u = velocityAt(row, batch, motion);
+            goOn<kRolls>(r);
+            const Lanes3 u = velocityAt(rows_[r], batch, motion);
             section.squaredSpeed = maxOf(section.squaredSpeed, dot(u, u));
             visit<kRolls>(r, batch, u, motion, section);
         }
@@ -337,26 +381,6 @@ void GapLanes::sweepDown(Section& section)
     }
 }
 
-void GapLanes::goOn(const Section& section, double beta)
-{
-    const bool beginsAnew = beta > 1.0;  // the active set has changed
-    for (const Batch& batch : section.batches) {
-        Motion motion(batch, *bodies_);
-        for (std::size_t r = batch.begin; r < batch.end; ++r) {
-            Row& row = rows_[r];
-            if (beginsAnew) {
-                row.way = Lanes3{};
-                continue;
-            }
-            const Lanes3 step = lanesOf(beta) * row.way;
-            row.way = step + (row.impulse - row.before);
-            row.impulse += step;
-            apply(row, batch, step, motion);
-        }
-        motion.store(batch, *bodies_);
-    }
-}
-
 /// Calls work(section) for both halves, at once where the island is cut.
 template <class Work>
 void GapLanes::inHalves(const Work& work)
@@ -376,6 +400,7 @@ GapSweep GapLanes::sweep()
 {
     const auto up = resistsRolling() ? &GapLanes::sweepUp<true> : &GapLanes::sweepUp<false>;
     const auto down = resistsRolling() ? &GapLanes::sweepDown<true> : &GapLanes::sweepDown<false>;
+    for (BodyWay& way : ways_) way.before = (*bodies_)[way.body];
     inHalves([&](Section& section) { (this->*up)(section); });
     (this->*up)(sections_[2]);
     (this->*down)(sections_[2]);
@@ -393,8 +418,17 @@ double GapLanes::goOn(double energyBefore)
     double energy = 0.0;
     for (const Section& section : sections_) energy += sumOf(section.energy);
     const double beta = shareOfLastWay(energy, energyBefore);
-    inHalves([&](const Section& section) { goOn(section, beta); });
-    goOn(sections_[2], beta);
+    beginsAnew_ = beta > 1.0;  // the active set has changed
+    share_ = beta;
+    for (BodyWay& way : ways_) {
+        LaneBody& body = (*bodies_)[way.body];
+        if (beginsAnew_) {
+            way.way = LaneBody{};
+        } else {
+            goFurther(share_, way.before.velocity, way.way.velocity, body.velocity);
+            goFurther(share_, way.before.spin, way.way.spin, body.spin);
+        }
+    }
     return energy;
 }
 

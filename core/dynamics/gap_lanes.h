@@ -39,7 +39,8 @@ public:
     GapSweep sweep();
 
     /// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].
-    /// Answers the energy of that change, to be handed in next time; 0 begins anew.
+    /// Answers the energy of that change, to be handed in next time; 0 begins anew. Bodies go at
+    /// once, impulses when the next sweep comes by, which must follow.
     double goOn(double energyBefore);
 
     /// Hands impulses and velocities back to rows and bodies.
@@ -65,7 +66,12 @@ private:
         Lanes rollingArm = kNoLanes, spinningArm = kNoLanes, lever = kNoLanes;
         Lanes rollMass = kNoLanes, slipMass = kNoLanes;  // of what rolls, and of what slips besides
         Lanes spinMass = kNoLanes;                       // about the normal
-        Lanes3 couple;
+        Lanes3 couple, before, way;
+    };
+    /// The part of a body in that: its velocities before the last sweep and the way they went.
+    struct BodyWay {
+        BodyId body;
+        LaneBody before, way;
     };
     struct Side {
         std::int32_t body[kLanes];
@@ -103,8 +109,10 @@ private:
     void sweepUp(Section& section);
     template <bool kRolls>
     void sweepDown(Section& section);
+    void collectBodies(const GapScratch& scratch, const GapIsland& island);
     void begin(const Section& section);
-    void goOn(const Section& section, double beta);
+    template <bool kRolls>
+    void goOn(std::size_t place);
     void fill(const GapScratch& scratch, Batch& batch);
     void fillLane(const GapScratch& scratch, Batch& batch, int lane);
     template <bool kRolls>
@@ -117,6 +125,9 @@ private:
 
     std::vector<LaneBody>* bodies_ = nullptr;
     std::vector<std::int32_t> firstFree_;  // per body: the batch after the last that has it
+    std::vector<BodyWay> ways_;            // of the bodies that rows move
+    bool beginsAnew_ = true;               // the next sweep does
+    double share_ = 0.0;                   // of the last way that is gone again before it, if not
     std::vector<Row> rows_;
     std::vector<Roll> rolls_;          // of the rows; empty where none resists
     std::array<Section, 3> sections_;  // either half, and what lies across the cut
