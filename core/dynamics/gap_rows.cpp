@@ -291,6 +291,12 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
         count += near.contacts.size();
         scratch.pairs.push_back({.bodies = near.bodies, .near = i, .begin = begin, .end = count});
     }
+    // The largest list there is: neither the old one beside the new, nor room for twice as many.
+    if (count > scratch.rows.capacity()) {
+        scratch.rows.clear();
+        scratch.rows.shrink_to_fit();
+        scratch.rows.reserve(count + count / 8);
+    }
     scratch.rows.resize(count);
 
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;

@@ -172,15 +172,20 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
     }
 }
 
+/// Contacts are found in one place and kept in as much memory as they need: before they are reduced
+/// there are several times as many.
 void answer(const World& world, const GapScratch& scratch, std::span<const Question> questions)
 {
+    thread_local std::vector<GapContact> found;
     for (std::size_t i = 0; i < questions.size(); ++i) {
         if (i + 2 < questions.size()) questions[i + 2].pair->near->prefetch();
         if (i + 1 < questions.size()) questions[i + 1].pair->near->prefetchLists();
         auto& [pair, reach] = questions[i];
-        pair->farUntil =
-            odometerOf(scratch, pair->bodies) +
-            pair->near->findContacts(placePair(world, pair->bodies), reach, pair->contacts);
+        found.clear();
+        pair->farUntil = odometerOf(scratch, pair->bodies) +
+                         pair->near->findContacts(placePair(world, pair->bodies), reach, found);
+        pair->contacts.assign(found.begin(), found.end());
+        if (found.empty()) pair->contacts.shrink_to_fit();
         pair->depth = deepestOf(pair->contacts);
     }
 }

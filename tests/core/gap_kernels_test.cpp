@@ -31,14 +31,22 @@ bool sameContacts(const std::vector<GapContact>& p, const std::vector<GapContact
         });
 }
 
-/// A pair that remembers, asked the same as one that sees it for the first time.
-struct Asked {
-    NearFeatures remembering;
+/// A pair that moves on by the same step again and again and remembers, asked the same as one that
+/// is seen for the first time.
+struct Walk {
+    PlacedPair placed;
+    Vec3 step, turnA, turnB;
+    NearFeatures remembering = {};
     double odometer = 0.0, farUntil = 0.0;
     std::size_t contacts = 0, skipped = 0;
 
-    bool answersAsFresh(const PlacedPair& placed, double reach)
+    bool answersAsFresh(double reach)
     {
+        placed.worldFromA.position += step;
+        placed.worldFromA.orientation = rotated(placed.worldFromA.orientation, turnA);
+        placed.worldFromB.orientation = rotated(placed.worldFromB.orientation, turnB);
+        odometer += step.norm() + turnA.norm() * placed.shapeA->boundingRadius +
+                    turnB.norm() * placed.shapeB->boundingRadius;
         std::vector<GapContact> remembered, fresh;
         const bool isApart = reach + odometer < farUntil;
         if (!isApart) farUntil = odometer + remembering.findContacts(placed, reach, remembered);
@@ -59,22 +67,18 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
     std::size_t contacts = 0, skipped = 0;
     for (std::uint64_t run = 0; run < 160; ++run) {
         const Shape& other = run % 4 == 0 ? *pole : run % 4 == 1 ? *ball : *ring;
-        Pose a{1.5 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
-        Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
-        const Vec3 step = 0.02 * signedUnits(run, 9), turnA = 0.02 * signedUnits(run, 12),
-                   turnB = 0.01 * signedUnits(run, 15);
-        Asked asked;
+        const Pose a{1.5 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
+        const Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
+        Walk walk{{ring.get(), &other, a, b},
+                  0.02 * signedUnits(run, 9),
+                  0.02 * signedUnits(run, 12),
+                  0.01 * signedUnits(run, 15)};
         for (std::uint64_t i = 0; i < 60; ++i) {
-            a.position += step;
-            a.orientation = rotated(a.orientation, turnA);
-            b.orientation = rotated(b.orientation, turnB);
-            asked.odometer += step.norm() + turnA.norm() * ring->boundingRadius +
-                              turnB.norm() * other.boundingRadius;
             const double reach = 0.01 + 0.03 * std::abs(signedUnit(run, 20 + i));
-            ASSERT_TRUE(asked.answersAsFresh({ring.get(), &other, a, b}, reach)) << run << ' ' << i;
+            ASSERT_TRUE(walk.answersAsFresh(reach)) << run << ' ' << i;
         }
-        contacts += asked.contacts;
-        skipped += asked.skipped;
+        contacts += walk.contacts;
+        skipped += walk.skipped;
     }
     EXPECT_GT(contacts, 1000u);
     EXPECT_GT(skipped, 500u);
@@ -89,19 +93,18 @@ TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
     const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.4, {16, 10}), coarse);
     std::size_t contacts = 0, skipped = 0;
     for (std::uint64_t run = 0; run < 60; ++run) {
-        Pose a{2.0 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
+        const Pose a{2.0 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
         const Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
-        const Vec3 step = 0.01 * signedUnits(run, 9);
-        Asked asked;
+        Walk walk{{ring.get(), ring.get(), a, b},
+                  0.01 * signedUnits(run, 9),
+                  Vec3::Zero(),
+                  Vec3::Zero()};
         const double reach = 0.3 + 0.3 * randomUnit(7, run, 12);
         for (std::uint64_t i = 0; i < 100; ++i) {
-            a.position += step;
-            asked.odometer += step.norm();
-            ASSERT_TRUE(asked.answersAsFresh({ring.get(), ring.get(), a, b}, reach))
-                << run << ' ' << i;
+            ASSERT_TRUE(walk.answersAsFresh(reach)) << run << ' ' << i;
         }
-        contacts += asked.contacts;
-        skipped += asked.skipped;
+        contacts += walk.contacts;
+        skipped += walk.skipped;
     }
     EXPECT_GT(contacts, 1000u);
     EXPECT_GT(skipped, 20u);
@@ -114,22 +117,19 @@ TEST(NearFeatures, WhatStarsInEachOtherRememberChangesNoContact)
     std::size_t contacts = 0, skipped = 0;
     for (std::uint64_t run = 0; run < 12000; ++run) {
         const double apart = 0.15 + 0.4 * randomUnit(7, run, 18);
-        Pose a{apart * signedUnits(run, 0).normalized(), exponentialMap(3.0 * signedUnits(run, 3))};
-        Pose b{Vec3::Zero(), exponentialMap(3.0 * signedUnits(run, 6))};
-        const Vec3 step = 5e-4 * signedUnits(run, 9), turnA = 1e-3 * signedUnits(run, 12),
-                   turnB = 5e-4 * signedUnits(run, 15);
-        Asked asked;
+        const Pose a{apart * signedUnits(run, 0).normalized(),
+                     exponentialMap(3.0 * signedUnits(run, 3))};
+        const Pose b{Vec3::Zero(), exponentialMap(3.0 * signedUnits(run, 6))};
+        Walk walk{{star.get(), star.get(), a, b},
+                  5e-4 * signedUnits(run, 9),
+                  1e-3 * signedUnits(run, 12),
+                  5e-4 * signedUnits(run, 15)};
         for (std::uint64_t i = 0; i < 40; ++i) {
-            a.position += step;
-            a.orientation = rotated(a.orientation, turnA);
-            b.orientation = rotated(b.orientation, turnB);
-            asked.odometer += step.norm() + (turnA.norm() + turnB.norm()) * star->boundingRadius;
             const double reach = 0.001 + 0.006 * std::abs(signedUnit(run, 20 + i));
-            ASSERT_TRUE(asked.answersAsFresh({star.get(), star.get(), a, b}, reach))
-                << run << ' ' << i;
+            ASSERT_TRUE(walk.answersAsFresh(reach)) << run << ' ' << i;
         }
-        contacts += asked.contacts;
-        skipped += asked.skipped;
+        contacts += walk.contacts;
+        skipped += walk.skipped;
     }
     EXPECT_GT(contacts, 10000u);
     EXPECT_GT(skipped, 1000u);
@@ -685,6 +685,17 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling)
     return scratch;
 }
 
+void applyAll(const std::vector<GapRow>& rows, std::vector<GapBody>& bodies)
+{
+    for (const GapRow& row : rows) {
+        GapBody &a = bodies[row.a], &b = bodies[row.b];
+        if (row.movesA) applyTo(a, row.rA, row.worldImpulse());
+        if (row.movesA) applyCoupleTo(a, row.couple);
+        if (row.movesB) applyTo(b, row.rB, -row.worldImpulse());
+        if (row.movesB) applyCoupleTo(b, -row.couple);
+    }
+}
+
 void expectRowsAbreastAreRowsOneByOne(bool rolling)
 {
     int resisted = 0;
@@ -730,13 +741,7 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
         lanes.build(abreast, abreast.islands[0], bodies);
         lanes.begin();
         for (GapBody& body : plain.bodies) body.velocity = body.spin = Vec3::Zero();
-        for (const GapRow& row : abreast.rows) {
-            GapBody &a = plain.bodies[row.a], &b = plain.bodies[row.b];
-            if (row.movesA) applyTo(a, row.rA, row.worldImpulse());
-            if (row.movesA) applyCoupleTo(a, row.couple);
-            if (row.movesB) applyTo(b, row.rB, -row.worldImpulse());
-            if (row.movesB) applyCoupleTo(b, -row.couple);
-        }
+        applyAll(abreast.rows, plain.bodies);
         for (std::size_t i = 0; i < plain.bodies.size(); ++i) {
             EXPECT_NEAR((plain.bodies[i].velocity - bodies[i].velocity).norm(), 0.0, 1e-11);
             EXPECT_NEAR((plain.bodies[i].spin - bodies[i].spin).norm(), 0.0, 1e-11);
@@ -748,6 +753,35 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
 TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
 {
     expectRowsAbreastAreRowsOneByOne(false);
+}
+
+/// Between two sweeps bodies go on by themselves and impulses by themselves.
+TEST(GapLanes, GoingOnMovesBodiesByWhatIsAddedToTheImpulses)
+{
+    for (const bool rolling : {false, true}) {
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            GapScratch scratch = randomHeap(seed, rolling);
+            std::vector<GapBody> told = scratch.bodies;
+            std::vector<LaneBody> bodies(scratch.bodies.size() + 1);
+            for (std::size_t i = 0; i < told.size(); ++i) {
+                bodies[i] = {told[i].velocity, told[i].spin};
+            }
+            GapLanes lanes;
+            lanes.build(scratch, scratch.islands[0], bodies);
+            double energy = 0.0;
+            lanes.sweep();
+            for (int sweep = 0; sweep < 5; ++sweep) {
+                energy = lanes.goOn(energy);
+                lanes.sweep();
+            }
+            lanes.store(scratch);
+            applyAll(scratch.rows, told);
+            for (std::size_t i = 0; i < told.size(); ++i) {
+                EXPECT_NEAR((told[i].velocity - bodies[i].velocity).norm(), 0.0, 1e-11);
+                EXPECT_NEAR((told[i].spin - bodies[i].spin).norm(), 0.0, 1e-11);
+            }
+        }
+    }
 }
 
 TEST(GapLanes, NothingIsLeftOfTheIslandBefore)
