@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <unsupported/Eigen/BVH>
 
 #include "core/base/parallel.h"
 #include "core/collision/near_features.h"
@@ -129,27 +130,64 @@ public:
         : world_(world), down_(down), boxes_(boxesOf(world))
     {
         Aabb all;
+        std::vector<BodyId> under;
+        std::vector<TreeBox> boxesUnder;
         for (BodyId body = 0; body < static_cast<BodyId>(boxes_.size()); ++body) {
-            if (!world.shapeOf(body).isPlane && !boxes_[body].isEmpty()) all.include(boxes_[body]);
+            const Aabb& box = boxes_[body];
+            const bool isPlane = world.shapeOf(body).isPlane;
+            if (!isPlane && !box.isEmpty()) all.include(box);
             const bool isHeld = world.info[body].kind != BodyKind::dynamic;
-            if (isHeld || (who == Under::anybody && world.isBorn(body))) under_.push_back(body);
+            if (box.isEmpty() || !(isHeld || who == Under::anybody)) continue;
+            if (isPlane) {
+                planes_.push_back(body);
+            } else {
+                under.push_back(body);
+                boxesUnder.emplace_back(box.min, box.max);
+            }
         }
         reach_ = all.isEmpty() ? 0.0 : 2.0 * all.diagonal();
+        tree_.init(under.begin(), under.end(), boxesUnder.begin(), boxesUnder.end());
+        isBare_ = under.empty();
     }
 
     std::optional<double> dropOf(BodyId body) const
     {
         std::optional<double> least;
-        for (const BodyId under : under_) {
-            if (under == body) continue;
-            const std::optional<double> drop =
-                world_.shapeOf(under).isPlane ? dropOnPlane(body, under) : dropOnBox(body, under);
+        const auto add = [&](std::optional<double> drop) {
             if (drop && (!least || *drop < *least)) least = drop;
+        };
+        for (const BodyId plane : planes_) {
+            if (plane != body) add(dropOnPlane(body, plane));
         }
+        if (isBare_) return least;
+        Aabb swept = boxes_[body];
+        const Vec3 way = reach_ * down_;
+        swept.include(Aabb{boxes_[body].min + way, boxes_[body].max + way});
+        const auto ask = [&](BodyId under) {
+            if (under != body && swept.overlaps(boxes_[under])) add(dropOnBox(body, under));
+        };
+        Below<decltype(ask)> below{TreeBox(swept.min, swept.max), ask};
+        Eigen::BVIntersect(tree_, below);
         return least;
     }
 
 private:
+    using Tree = Eigen::KdBVH<double, 3, BodyId>;
+    using TreeBox = Tree::Volume;
+
+    /// Asks those whose boxes may meet the swept one.
+    template <class Ask>
+    struct Below {
+        TreeBox swept;
+        const Ask& ask;
+        bool intersectVolume(const TreeBox& box) const { return swept.intersects(box); }
+        bool intersectObject(BodyId body) const
+        {
+            ask(body);
+            return false;  // go on
+        }
+    };
+
     std::optional<double> dropOnPlane(BodyId body, BodyId plane) const
     {
         const BodyMotion& motion = world_.motion[plane];
@@ -159,12 +197,9 @@ private:
         return std::max(0.0, normal.dot(world_.motion[body].position - motion.position) / along);
     }
 
+    /// Where the way down meets the box.
     std::optional<double> dropOnBox(BodyId body, BodyId under) const
     {
-        Aabb swept = boxes_[body];
-        const Vec3 way = reach_ * down_;
-        swept.include(Aabb{boxes_[body].min + way, boxes_[body].max + way});
-        if (!swept.overlaps(boxes_[under])) return std::nullopt;
         const double top =
             down_.dot(boxes_[under].centre()) - 0.5 * down_.cwiseAbs().dot(boxes_[under].size());
         const double bottom =
@@ -178,8 +213,10 @@ private:
     const World& world_;
     Vec3 down_;
     std::vector<Aabb> boxes_;
-    std::vector<BodyId> under_;
-    double reach_ = 0.0;
+    std::vector<BodyId> planes_;
+    Tree tree_;             // of all others that may lie under a body
+    bool isBare_ = true;    // it is empty
+    double reach_ = 0.0;    // farther than anything is apart [m]
 };
 
 }  // namespace

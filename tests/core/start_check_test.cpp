@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
 #include "core/math/rotation.h"
+#include "tests/support/draw.h"
 
 namespace scree {
 namespace {
@@ -132,6 +134,29 @@ TEST_F(StartCheck, BodiesBesideAllSupportAreNamed)
     EXPECT_TRUE(findUnsupported(world, Vec3::Zero()).empty());
     addGround();
     EXPECT_TRUE(findUnsupported(world, settings.gravity).empty());
+}
+
+TEST_F(StartCheck, AmongManyBodiesTheSameAreNamedAsOneByOne)
+{
+    std::vector<Vec3> tables, places;
+    const auto place = [](std::uint64_t i) -> Vec3 { return 12.0 * test::signedUnits(i, 0); };
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        tables.push_back(place(i));
+        add("table_" + std::to_string(i), tables.back(), BodyKind::fixed);
+    }
+    std::vector<BodyId> expected;
+    for (std::uint64_t i = 40; i < 440; ++i) {
+        const Vec3 p = place(i);
+        const BodyId body = add("cube_" + std::to_string(i), p);
+        const bool isHeld = std::any_of(tables.begin(), tables.end(), [&](const Vec3& table) {
+            return std::abs(table.x() - p.x()) <= 1.0 && std::abs(table.z() - p.z()) <= 1.0 &&
+                   table.y() <= p.y() + 1.0;
+        });
+        if (!isHeld) expected.push_back(body);
+    }
+    EXPECT_EQ(findUnsupported(world, settings.gravity), expected);
+    EXPECT_GT(expected.size(), 50u);
+    EXPECT_LT(expected.size(), 350u);
 }
 
 TEST_F(StartCheck, SpeedsBeyondTheCapAreNamedWithTheStepsTheyNeed)
