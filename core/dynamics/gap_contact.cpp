@@ -109,10 +109,10 @@ void solve(const StepSettings& settings, double dt, const GapIsland& island, Gap
 }
 
 void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
-                 const GapIsland& island, std::vector<LaneBody>& laneBodies)
+                 const GapIsland& island, bool mayShare, std::vector<LaneBody>& laneBodies)
 {
     thread_local GapLanes lanes;
-    lanes.build(scratch, island, laneBodies);
+    lanes.build(scratch, island, mayShare, laneBodies);
     solve(settings, dt, island, lanes);
     lanes.store(scratch);
 }
@@ -237,18 +237,19 @@ ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLeve
     for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
         laneBodies[i] = {scratch.bodies[i].velocity, scratch.bodies[i].spin};
     }
-    // Those that keep all threads busy by themselves one by one, the others at once: a thread that
-    // waits for its half of an island must not begin another.
-    std::vector<const GapIsland*> small;
+    // What is most of the work by itself is shared by threads, all others are solved at once, each
+    // by one thread: a thread that waits for its half of an island must not begin another, and
+    // halves of an island that is small beside the rest are too little to wake a thread for.
+    std::vector<const GapIsland*> others;
     for (const GapIsland& island : scratch.islands) {
-        if (island.rowCount < kRowsWorthACut)
-            small.push_back(&island);
+        if (2 * island.rowCount < scratch.rows.size())
+            others.push_back(&island);
         else
-            solveIsland(settings, dt, scratch, island, laneBodies);
+            solveIsland(settings, dt, scratch, island, true, laneBodies);
     }
-    parallelFor(small.size(), 1, [&](std::size_t begin, std::size_t end) {
+    parallelFor(others.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            solveIsland(settings, dt, scratch, *small[i], laneBodies);
+            solveIsland(settings, dt, scratch, *others[i], false, laneBodies);
     });
     return countImpulses(scratch);
 }

@@ -64,21 +64,30 @@ LaneMask sticks(Lanes friction, const Lanes3& impulse)
 
 }  // namespace
 
-/// Calls work(batch) for all batches. Small islands keep to their thread: while it waited for
+/// Calls work(batch) for all batches. What is not shared keeps to its thread: while that waited for
 /// others it might begin another island, in the same GapLanes.
 template <class Work>
 void GapLanes::forBatches(const Work& work)
 {
     for (Section& section : sections_) {
         std::vector<Batch>& batches = section.batches;
-        parallelFor(batches.size(), isCut() ? 16 : batches.size(),
+        parallelFor(batches.size(), isShared_ ? 16 : batches.size(),
                     [&](std::size_t begin, std::size_t end) {
                         for (std::size_t i = begin; i < end; ++i) work(batches[i]);
                     });
     }
 }
 
-void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
+/// Calls work(half) for 0 and 1, at once where the island is shared.
+template <class Work>
+void GapLanes::inHalves(const Work& work)
+{
+    parallelFor(2, isShared_ ? 1 : 2, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t half = begin; half < end; ++half) work(half);
+    });
+}
+
+void GapLanes::build(const GapScratch& scratch, const GapIsland& island, bool mayShare,
                      std::vector<LaneBody>& bodies)
 {
     bodies_ = &bodies;
@@ -88,11 +97,9 @@ void GapLanes::build(const GapScratch& scratch, const GapIsland& island,
         parts[0] = island.pairs;
     else
         parts = partsOf(scratch, island.pairs);
-    const std::size_t halves = parts[1].empty() ? 1 : 2;
-    parallelFor(halves, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s) schedule(scratch, parts[s], sections_[s]);
-    });
-    for (std::size_t s = halves; s < parts.size(); ++s) schedule(scratch, parts[s], sections_[s]);
+    isShared_ = mayShare && !parts[1].empty();
+    inHalves([&](std::size_t half) { schedule(scratch, parts[half], sections_[half]); });
+    schedule(scratch, parts[2], sections_[2]);
     std::size_t rowCount = 0;
     for (Section& section : sections_) {
         for (Batch& batch : section.batches) {
@@ -381,18 +388,9 @@ void GapLanes::sweepDown(Section& section)
     }
 }
 
-/// Calls work(section) for both halves, at once where the island is cut.
-template <class Work>
-void GapLanes::inHalves(const Work& work)
-{
-    parallelFor(isCut() ? 2 : 1, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s) work(sections_[s]);
-    });
-}
-
 void GapLanes::begin()
 {
-    inHalves([&](const Section& section) { begin(section); });
+    inHalves([&](std::size_t half) { begin(sections_[half]); });
     begin(sections_[2]);
 }
 
@@ -401,10 +399,10 @@ GapSweep GapLanes::sweep()
     const auto up = resistsRolling() ? &GapLanes::sweepUp<true> : &GapLanes::sweepUp<false>;
     const auto down = resistsRolling() ? &GapLanes::sweepDown<true> : &GapLanes::sweepDown<false>;
     for (BodyWay& way : ways_) way.before = (*bodies_)[way.body];
-    inHalves([&](Section& section) { (this->*up)(section); });
+    inHalves([&](std::size_t half) { (this->*up)(sections_[half]); });
     (this->*up)(sections_[2]);
     (this->*down)(sections_[2]);
-    inHalves([&](Section& section) { (this->*down)(section); });
+    inHalves([&](std::size_t half) { (this->*down)(sections_[half]); });
     GapSweep swept;
     for (const Section& section : sections_) {
         swept.residual = std::max(swept.residual, largestOf(section.residual));

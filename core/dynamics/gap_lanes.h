@@ -29,8 +29,9 @@ struct GapSweep {
 class GapLanes {
 public:
     /// Lays the rows of an island out. `bodies` are those of the world, and one more that no row
-    /// has.
-    void build(const GapScratch& scratch, const GapIsland& island, std::vector<LaneBody>& bodies);
+    /// has. `mayShare`: from now on other threads may take a half; the bits are the same.
+    void build(const GapScratch& scratch, const GapIsland& island, bool mayShare,
+               std::vector<LaneBody>& bodies);
 
     /// The bodies take the impulses that the rows begin with.
     void begin();
@@ -103,7 +104,6 @@ private:
     void inHalves(const Work& work);
     template <class Work>
     void forBatches(const Work& work);
-    bool isCut() const { return !sections_[1].batches.empty(); }
     bool resistsRolling() const { return !rolls_.empty(); }
     template <bool kRolls>
     void sweepUp(Section& section);
@@ -124,6 +124,7 @@ private:
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
     std::vector<LaneBody>* bodies_ = nullptr;
+    bool isShared_ = false;                // between two threads
     std::vector<std::int32_t> firstFree_;  // per body: the batch after the last that has it
     std::vector<BodyWay> ways_;            // of the bodies that rows move
     bool beginsAnew_ = true;               // the next sweep does

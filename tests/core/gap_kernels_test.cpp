@@ -706,7 +706,7 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
         for (std::size_t i = 0; i < abreast.bodies.size(); ++i) {
             bodies[i] = {abreast.bodies[i].velocity, abreast.bodies[i].spin};
         }
-        lanes.build(abreast, abreast.islands[0], bodies);
+        lanes.build(abreast, abreast.islands[0], true, bodies);
         for (int sweep = 0; sweep < 3; ++sweep) {
             double residual = 0.0, fastest = 0.0;
             const auto visit = [&](std::size_t r) {
@@ -738,7 +738,7 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
         }
         // What was found is taken up again where the next step begins.
         for (LaneBody& body : bodies) body = {};
-        lanes.build(abreast, abreast.islands[0], bodies);
+        lanes.build(abreast, abreast.islands[0], true, bodies);
         lanes.begin();
         for (GapBody& body : plain.bodies) body.velocity = body.spin = Vec3::Zero();
         applyAll(abreast.rows, plain.bodies);
@@ -767,7 +767,7 @@ TEST(GapLanes, GoingOnMovesBodiesByWhatIsAddedToTheImpulses)
                 bodies[i] = {told[i].velocity, told[i].spin};
             }
             GapLanes lanes;
-            lanes.build(scratch, scratch.islands[0], bodies);
+            lanes.build(scratch, scratch.islands[0], true, bodies);
             double energy = 0.0;
             lanes.sweep();
             for (int sweep = 0; sweep < 5; ++sweep) {
@@ -789,13 +789,13 @@ TEST(GapLanes, NothingIsLeftOfTheIslandBefore)
     GapLanes lanes;
     GapScratch scratch = randomHeap(1, true);
     std::vector<LaneBody> bodies(scratch.bodies.size() + 1);
-    lanes.build(scratch, scratch.islands[0], bodies);
+    lanes.build(scratch, scratch.islands[0], true, bodies);
     lanes.sweep();
 
     for (LaneBody& body : bodies) body = {};
     for (GapRow& row : scratch.rows) row.target = 0.0;
     scratch.islands[0].pairs = {0};
-    lanes.build(scratch, scratch.islands[0], bodies);
+    lanes.build(scratch, scratch.islands[0], true, bodies);
     EXPECT_EQ(lanes.sweep().residual, 0.0);
 }
 
