@@ -271,7 +271,7 @@ void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back,
         std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair.first, pair.second));
     if (clearance_ > reach + window_) {
         window_ = clearance_;
-        cornersOfA_.shrink_to_fit();  // most never come as near again
+        cornersOfA_.shrink_to_fit();  // a heap has several times as many as touch
         cornersOfB_.shrink_to_fit();
         edges_.shrink_to_fit();
         return;

@@ -338,19 +338,16 @@ void GapLanes::begin(const Section& section)
 template <bool kRolls>
 inline void GapLanes::goOn(std::size_t place)
 {
+    const auto go = [&](Lanes3& before, Lanes3& way, Lanes3& now) {
+        if (beginsAnew_)
+            way = Lanes3{};
+        else
+            goFurther(lanesOf(share_), before, way, now);
+        before = now;
+    };
     Row& row = rows_[place];
-    if (beginsAnew_)
-        row.way = Lanes3{};
-    else
-        goFurther(lanesOf(share_), row.before, row.way, row.impulse);
-    row.before = row.impulse;
-    if constexpr (!kRolls) return;
-    Roll& roll = rolls_[place];
-    if (beginsAnew_)
-        roll.way = Lanes3{};
-    else
-        goFurther(lanesOf(share_), roll.before, roll.way, roll.couple);
-    roll.before = roll.couple;
+    go(row.before, row.way, row.impulse);
+    if constexpr (kRolls) go(rolls_[place].before, rolls_[place].way, rolls_[place].couple);
 }
 
 template <bool kRolls>

@@ -214,9 +214,9 @@ private:
     Vec3 down_;
     std::vector<Aabb> boxes_;
     std::vector<BodyId> planes_;
-    Tree tree_;             // of all others that may lie under a body
-    bool isBare_ = true;    // it is empty
-    double reach_ = 0.0;    // farther than anything is apart [m]
+    Tree tree_;           // of all others that may lie under a body
+    bool isBare_ = true;  // it is empty
+    double reach_ = 0.0;  // farther than anything is apart [m]
 };
 
 }  // namespace

@@ -95,10 +95,8 @@ TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
     for (std::uint64_t run = 0; run < 60; ++run) {
         const Pose a{2.0 * signedUnits(run, 0), exponentialMap(3.0 * signedUnits(run, 3))};
         const Pose b{Vec3::Zero(), exponentialMap(signedUnits(run, 6))};
-        Walk walk{{ring.get(), ring.get(), a, b},
-                  0.01 * signedUnits(run, 9),
-                  Vec3::Zero(),
-                  Vec3::Zero()};
+        Walk walk{
+            {ring.get(), ring.get(), a, b}, 0.01 * signedUnits(run, 9), Vec3::Zero(), Vec3::Zero()};
         const double reach = 0.3 + 0.3 * randomUnit(7, run, 12);
         for (std::uint64_t i = 0; i < 100; ++i) {
             ASSERT_TRUE(walk.answersAsFresh(reach)) << run << ' ' << i;
