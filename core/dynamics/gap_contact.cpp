@@ -109,10 +109,10 @@ void solve(const StepSettings& settings, double dt, const GapIsland& island, Gap
 }
 
 void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
-                 const GapIsland& island, bool mayShare, std::vector<LaneBody>& laneBodies)
+                 const GapIsland& island, bool mayShare)
 {
     thread_local GapLanes lanes;
-    lanes.build(scratch, island, mayShare, laneBodies);
+    lanes.build(scratch, island, mayShare);
     solve(settings, dt, island, lanes);
     lanes.store(scratch);
 }
@@ -233,10 +233,6 @@ ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLeve
                           GapScratch& scratch)
 {
     handWeightDown(settings, dt, levels, scratch);
-    std::vector<LaneBody> laneBodies(scratch.bodies.size() + 1);
-    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
-        laneBodies[i] = {scratch.bodies[i].velocity, scratch.bodies[i].spin};
-    }
     // What is most of the work by itself is shared by threads, all others are solved at once, each
     // by one thread: a thread that waits for its half of an island must not begin another, and
     // halves of an island that is small beside the rest are too little to wake a thread for.
@@ -245,11 +241,11 @@ ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLeve
         if (2 * island.rowCount < scratch.rows.size())
             others.push_back(&island);
         else
-            solveIsland(settings, dt, scratch, island, true, laneBodies);
+            solveIsland(settings, dt, scratch, island, true);
     }
     parallelFor(others.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            solveIsland(settings, dt, scratch, *others[i], false, laneBodies);
+            solveIsland(settings, dt, scratch, *others[i], false);
     });
     return countImpulses(scratch);
 }

@@ -64,70 +64,73 @@ LaneMask sticks(Lanes friction, const Lanes3& impulse)
 
 }  // namespace
 
-/// Calls work(batch) for all batches. What is not shared keeps to its thread: while that waited for
-/// others it might begin another island, in the same GapLanes.
-template <class Work>
-void GapLanes::forBatches(const Work& work)
-{
-    for (Section& section : sections_) {
-        std::vector<Batch>& batches = section.batches;
-        parallelFor(batches.size(), isShared_ ? 16 : batches.size(),
-                    [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t i = begin; i < end; ++i) work(batches[i]);
-                    });
-    }
-}
-
-/// Calls work(half) for 0 and 1, at once where the island is shared.
+/// Calls work(half) for 0 and 1, at once where the island is shared. What is not shared keeps to
+/// its thread: while that waited for others it might begin another island, in the same GapLanes.
 template <class Work>
 void GapLanes::inHalves(const Work& work)
 {
-    parallelFor(2, isShared_ ? 1 : 2, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t half = begin; half < end; ++half) work(half);
-    });
+    forEach(2, isShared_ ? 1 : 2, work);
 }
 
-void GapLanes::build(const GapScratch& scratch, const GapIsland& island, bool mayShare,
-                     std::vector<LaneBody>& bodies)
+void GapLanes::build(const GapScratch& scratch, const GapIsland& island, bool mayShare)
 {
-    bodies_ = &bodies;
-    firstFree_.resize(bodies_->size(), 0);
     PairParts parts;
     if (island.rowCount < kRowsWorthACut)
         parts[0] = island.pairs;
     else
         parts = partsOf(scratch, island.pairs);
     isShared_ = mayShare && !parts[1].empty();
-    inHalves([&](std::size_t half) { schedule(scratch, parts[half], sections_[half]); });
-    schedule(scratch, parts[2], sections_[2]);
-    std::size_t rowCount = 0;
-    for (Section& section : sections_) {
-        for (Batch& batch : section.batches) {
-            batch.end += rowCount;
-            batch.begin = rowCount;
-            rowCount = batch.end;
-        }
-    }
-    collectBodies(scratch, island);
+    resistsRolling_ = anyResistsSpin(scratch, island);
     beginsAnew_ = true;
-    rows_.resize(rowCount);
-    rolls_.resize(anyResistsSpin(scratch, island) ? rowCount : 0);
-    forBatches([&](Batch& batch) { fill(scratch, batch); });
+    collectBodies(scratch, parts);
+    inHalves([&](std::size_t half) { layOut(scratch, parts[half], sections_[half]); });
+    std::fill(firstFree_.begin(), firstFree_.end(), 0);
+    layOut(scratch, parts[2], sections_[2]);
 }
 
-void GapLanes::collectBodies(const GapScratch& scratch, const GapIsland& island)
+void GapLanes::collectBodies(const GapScratch& scratch, const PairParts& parts)
 {
-    ways_.clear();
-    const auto collect = [&](BodyId body) {
-        if (firstFree_[body] != 0 || scratch.bodies[body].inverseMass == 0.0) return;
-        firstFree_[body] = 1;
-        ways_.push_back({body, {}, {}});
+    for (std::size_t i = 1; i < idOf_.size(); ++i) placeOf_[idOf_[i]] = 0;
+    placeOf_.resize(scratch.bodies.size(), 0);
+    idOf_.assign(1, -1);
+    const auto collect = [&](const std::vector<std::size_t>& pairs, bool movable) {
+        for (const std::size_t i : pairs) {
+            for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+                const bool isMovable = scratch.bodies[body].inverseMass > 0.0;
+                if (placeOf_[body] != 0 || isMovable != movable) continue;
+                placeOf_[body] = static_cast<std::int32_t>(idOf_.size());
+                idOf_.push_back(body);
+            }
+        }
     };
-    for (const std::size_t i : island.pairs) {
-        collect(scratch.pairs[i].bodies.a);
-        collect(scratch.pairs[i].bodies.b);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        sections_[part].firstBody = idOf_.size();
+        collect(parts[part], true);
+        sections_[part].endBody = idOf_.size();
     }
-    for (const BodyWay& way : ways_) firstFree_[way.body] = 0;
+    for (const std::vector<std::size_t>& pairs : parts) collect(pairs, false);
+    bodies_.assign(idOf_.size(), {});
+    ways_.resize(idOf_.size());
+    firstFree_.assign(idOf_.size(), 0);
+    for (std::size_t i = 1; i < idOf_.size(); ++i) {
+        const GapBody& body = scratch.bodies[idOf_[i]];
+        bodies_[i] = {body.velocity, body.spin};
+    }
+}
+
+void GapLanes::layOut(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
+                      Section& section)
+{
+    schedule(scratch, pairs, section);
+    std::size_t rowCount = 0;
+    for (Batch& batch : section.batches) {
+        batch.end += rowCount;
+        batch.begin = rowCount;
+        rowCount = batch.end;
+    }
+    section.rows.resize(rowCount);
+    section.rolls.resize(resistsRolling_ ? rowCount : 0);
+    for (Batch& batch : section.batches) fill(scratch, batch, section);
 }
 
 /// The first batch with an idle lane for so many rows, not before `earliest`; a new one if none is.
@@ -141,12 +144,11 @@ std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest, Section
         if (batches[place].lanesUsed == kLanes - 1) open.erase(found);
         return place;
     }
-    const auto dummy = static_cast<std::int32_t>(bodies_->size() - 1);
     const auto place = static_cast<std::int32_t>(batches.size());
     Batch& batch = batches.emplace_back();
     batch.end = rows;
     for (int lane = 0; lane < kLanes; ++lane) {
-        batch.a.body[lane] = batch.b.body[lane] = dummy;
+        batch.a.body[lane] = batch.b.body[lane] = 0;
         batch.a.isMovable[lane] = batch.b.isMovable[lane] = false;
     }
     open.push_back(place);
@@ -161,11 +163,11 @@ void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t
     section.batches.clear();
     for (std::vector<std::int32_t>& open : section.open) open.clear();
     section.residual = section.squaredSpeed = section.energy = kNoLanes;
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
     for (const std::size_t i : pairs) {
         const GapPair& pair = scratch.pairs[i];
-        const auto [a, b] = pair.bodies;
-        const bool movesA = isMovable(a), movesB = isMovable(b);
+        const std::int32_t a = placeOf_[pair.bodies.a], b = placeOf_[pair.bodies.b];
+        const bool movesA = scratch.bodies[pair.bodies.a].inverseMass > 0.0;
+        const bool movesB = scratch.bodies[pair.bodies.b].inverseMass > 0.0;
         for (std::size_t r = pair.begin; r < pair.end; r += kRowsTogether) {
             const std::int32_t earliest =
                 std::max(movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0);
@@ -182,23 +184,18 @@ void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t
             if (movesB) firstFree_[b] = place + 1;
         }
     }
-    for (const std::size_t i : pairs) {
-        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (isMovable(body)) firstFree_[body] = 0;
-        }
-    }
 }
 
-void GapLanes::fill(const GapScratch& scratch, Batch& batch)
+void GapLanes::fill(const GapScratch& scratch, Batch& batch, Section& section)
 {
     for (std::size_t r = batch.begin; r < batch.end; ++r) {
-        if (batch.lanesUsed < kLanes) rows_[r] = Row{};
-        if (resistsRolling()) rolls_[r] = Roll{};
+        if (batch.lanesUsed < kLanes) section.rows[r] = Row{};
+        if (!section.rolls.empty()) section.rolls[r] = Roll{};
     }
-    for (int lane = 0; lane < batch.lanesUsed; ++lane) fillLane(scratch, batch, lane);
+    for (int lane = 0; lane < batch.lanesUsed; ++lane) fillLane(scratch, batch, lane, section);
 }
 
-void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
+void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane, Section& section)
 {
     const GapRow* from = &scratch.rows[batch.from[lane]];
     const auto place = [&](Side& side, const GapBody& body, bool moves) {
@@ -210,7 +207,7 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
     place(batch.b, scratch.bodies[from->b], from->movesB);
     batch.aFromB.set(lane, from->rB - from->rA);
     for (std::size_t r = batch.begin; r < batch.end; ++r, ++from) {
-        Row& row = rows_[r];
+        Row& row = section.rows[r];
         row.rA.set(lane, from->rA);
         row.normal.set(lane, from->normal);
         row.tangent.set(lane, from->tangent);
@@ -227,7 +224,7 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane)
         row.inverseSlideMass[lane] = 1.0 / from->slideMass;
         row.impulse.set(lane, from->impulse);
         if (!from->resistsSpin()) continue;
-        Roll& roll = rolls_[r];
+        Roll& roll = section.rolls[r];
         const Mat3 response =
             coupleResponse(*from, scratch.bodies[from->a], scratch.bodies[from->b]);
         roll.rollingArm[lane] = from->rollingArm;
@@ -265,10 +262,11 @@ inline Lanes3 GapLanes::velocityAt(const Row& row, const Batch& batch, const Mot
 }
 
 /// resistSpin of the plain twin without branches.
-inline Lanes GapLanes::resistSpin(std::size_t place, const Batch& batch, Motion& motion)
+inline Lanes GapLanes::resistSpin(std::size_t place, const Batch& batch, Motion& motion,
+                                  Section& section)
 {
-    const Row& row = rows_[place];
-    Roll& roll = rolls_[place];
+    const Row& row = section.rows[place];
+    Roll& roll = section.rolls[place];
     const Lanes3 w = motion.wA - motion.wB, old = roll.couple;
     const Lanes wn = dot(w, row.normal), before = dot(old, row.normal);
     const Lanes most = roll.spinningArm * row.impulse.x;
@@ -289,7 +287,7 @@ template <bool kRolls>
 inline void GapLanes::visit(std::size_t place, const Batch& batch, const Lanes3& u, Motion& motion,
                             Section& section)
 {
-    Row& row = rows_[place];
+    Row& row = section.rows[place];
     const Lanes3 old = row.impulse;
     const Lanes3 second = cross(row.normal, row.tangent);
     const Lanes un = dot(u, row.normal);
@@ -299,7 +297,7 @@ inline void GapLanes::visit(std::size_t place, const Batch& batch, const Lanes3&
     if constexpr (kRolls) {
         row.impulse.x = normal;
         apply(row, batch, {pushed, kNoLanes, kNoLanes}, motion);
-        section.residual = maxOf(section.residual, resistSpin(place, batch, motion));
+        section.residual = maxOf(section.residual, resistSpin(place, batch, motion, section));
         const Lanes3 turned = velocityAt(row, batch, motion);
         ut = dot(turned, row.tangent);
         us = dot(turned, second);
@@ -322,21 +320,37 @@ inline void GapLanes::visit(std::size_t place, const Batch& batch, const Lanes3&
     section.residual = maxOf(section.residual, changed);
 }
 
-void GapLanes::begin(const Section& section)
+void GapLanes::begin(Section& section)
 {
     for (const Batch& batch : section.batches) {
-        Motion motion(batch, *bodies_);
+        Motion motion(batch, bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
-            apply(rows_[r], batch, rows_[r].impulse, motion);
-            if (resistsRolling()) applyCouple(batch, rolls_[r].couple, motion);
+            apply(section.rows[r], batch, section.rows[r].impulse, motion);
+            if (resistsRolling_) applyCouple(batch, section.rolls[r].couple, motion);
         }
-        motion.store(batch, *bodies_);
+        motion.store(batch, bodies_);
     }
 }
 
-/// A row's part of the last goOn.
+/// The last goOn of the bodies of a section.
+void GapLanes::goOn(const Section& section)
+{
+    for (std::size_t i = section.firstBody; i < section.endBody; ++i) {
+        LaneBody& body = bodies_[i];
+        auto& [before, way] = ways_[i];
+        if (beginsAnew_) {
+            way = LaneBody{};
+        } else {
+            goFurther(share_, before.velocity, way.velocity, body.velocity);
+            goFurther(share_, before.spin, way.spin, body.spin);
+        }
+        before = body;
+    }
+}
+
+/// The last goOn of a row.
 template <bool kRolls>
-inline void GapLanes::goOn(std::size_t place)
+inline void GapLanes::goOn(Section& section, std::size_t place) const
 {
     const auto go = [&](Lanes3& before, Lanes3& way, Lanes3& now) {
         if (beginsAnew_)
@@ -345,24 +359,28 @@ inline void GapLanes::goOn(std::size_t place)
             goFurther(lanesOf(share_), before, way, now);
         before = now;
     };
-    Row& row = rows_[place];
+    Row& row = section.rows[place];
     go(row.before, row.way, row.impulse);
-    if constexpr (kRolls) go(rolls_[place].before, rolls_[place].way, rolls_[place].couple);
+    if constexpr (kRolls) {
+        Roll& roll = section.rolls[place];
+        go(roll.before, roll.way, roll.couple);
+    }
 }
 
 template <bool kRolls>
 void GapLanes::sweepUp(Section& section)
 {
+    goOn(section);
     section.residual = section.squaredSpeed = kNoLanes;
     for (const Batch& batch : section.batches) {
-        Motion motion(batch, *bodies_);
+        Motion motion(batch, bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
-            goOn<kRolls>(r);
-            const Lanes3 u = velocityAt(rows_[r], batch, motion);
+            goOn<kRolls>(section, r);
+            const Lanes3 u = velocityAt(section.rows[r], batch, motion);
             section.squaredSpeed = maxOf(section.squaredSpeed, dot(u, u));
             visit<kRolls>(r, batch, u, motion, section);
         }
-        motion.store(batch, *bodies_);
+        motion.store(batch, bodies_);
     }
 }
 
@@ -372,16 +390,16 @@ void GapLanes::sweepDown(Section& section)
     section.energy = kNoLanes;
     for (std::size_t place = section.batches.size(); place-- > 0;) {
         const Batch& batch = section.batches[place];
-        Motion motion(batch, *bodies_);
+        Motion motion(batch, bodies_);
         for (std::size_t r = batch.end; r-- > batch.begin;) {
-            Row& row = rows_[r];
+            Row& row = section.rows[r];
             visit<kRolls>(r, batch, velocityAt(row, batch, motion), motion, section);
             const Lanes3 d = row.impulse - row.before;
             const Lanes sideways = fma(d.y, d.y, d.z * d.z);
             section.energy = fma(row.inverseNormalMass, d.x * d.x, section.energy);
             section.energy = fma(row.inverseSlideMass, sideways, section.energy);
         }
-        motion.store(batch, *bodies_);
+        motion.store(batch, bodies_);
     }
 }
 
@@ -393,9 +411,8 @@ void GapLanes::begin()
 
 GapSweep GapLanes::sweep()
 {
-    const auto up = resistsRolling() ? &GapLanes::sweepUp<true> : &GapLanes::sweepUp<false>;
-    const auto down = resistsRolling() ? &GapLanes::sweepDown<true> : &GapLanes::sweepDown<false>;
-    for (BodyWay& way : ways_) way.before = (*bodies_)[way.body];
+    const auto up = resistsRolling_ ? &GapLanes::sweepUp<true> : &GapLanes::sweepUp<false>;
+    const auto down = resistsRolling_ ? &GapLanes::sweepDown<true> : &GapLanes::sweepDown<false>;
     inHalves([&](std::size_t half) { (this->*up)(sections_[half]); });
     (this->*up)(sections_[2]);
     (this->*down)(sections_[2]);
@@ -415,43 +432,30 @@ double GapLanes::goOn(double energyBefore)
     const double beta = shareOfLastWay(energy, energyBefore);
     beginsAnew_ = beta > 1.0;  // the active set has changed
     share_ = beta;
-    for (BodyWay& way : ways_) {
-        LaneBody& body = (*bodies_)[way.body];
-        if (beginsAnew_) {
-            way.way = LaneBody{};
-        } else {
-            goFurther(share_, way.before.velocity, way.way.velocity, body.velocity);
-            goFurther(share_, way.before.spin, way.way.spin, body.spin);
+    return energy;
+}
+
+void GapLanes::store(const Section& section, GapScratch& scratch) const
+{
+    for (std::size_t i = section.firstBody; i < section.endBody; ++i) {
+        scratch.bodies[idOf_[i]].velocity = bodies_[i].velocity;
+        scratch.bodies[idOf_[i]].spin = bodies_[i].spin;
+    }
+    for (const Batch& batch : section.batches) {
+        for (int lane = 0; lane < batch.lanesUsed; ++lane) {
+            GapRow* to = &scratch.rows[batch.from[lane]];
+            for (std::size_t r = batch.begin; r < batch.end; ++r, ++to) {
+                to->impulse = section.rows[r].impulse.get(lane);
+                if (resistsRolling_) to->couple = section.rolls[r].couple.get(lane);
+            }
         }
     }
-    return energy;
 }
 
 void GapLanes::store(GapScratch& scratch)
 {
-    const auto hand = [&](const Side& side, int lane) {
-        if (!side.isMovable[lane]) return;
-        const LaneBody& body = (*bodies_)[side.body[lane]];
-        scratch.bodies[side.body[lane]].velocity = body.velocity;
-        scratch.bodies[side.body[lane]].spin = body.spin;
-    };
-    for (const Section& section : sections_) {
-        for (const Batch& batch : section.batches) {
-            for (int lane = 0; lane < batch.lanesUsed; ++lane) {
-                hand(batch.a, lane);
-                hand(batch.b, lane);
-            }
-        }
-    }
-    forBatches([&](const Batch& batch) {
-        for (int lane = 0; lane < batch.lanesUsed; ++lane) {
-            GapRow* to = &scratch.rows[batch.from[lane]];
-            for (std::size_t r = batch.begin; r < batch.end; ++r, ++to) {
-                to->impulse = rows_[r].impulse.get(lane);
-                if (resistsRolling()) to->couple = rolls_[r].couple.get(lane);
-            }
-        }
-    });
+    inHalves([&](std::size_t half) { store(sections_[half], scratch); });
+    store(sections_[2], scratch);
 }
 
 }  // namespace scree

@@ -15,11 +15,6 @@
 
 namespace scree {
 
-/// What the rows of an island change, one cache line a body.
-struct alignas(64) LaneBody {
-    Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-};
-
 /// What a sweep up and down has met.
 struct GapSweep {
     double residual = 0.0;  ///< largest change of a velocity at a row [m/s]
@@ -28,10 +23,9 @@ struct GapSweep {
 
 class GapLanes {
 public:
-    /// Lays the rows of an island out. `bodies` are those of the world, and one more that no row
-    /// has. `mayShare`: from now on other threads may take a half; the bits are the same.
-    void build(const GapScratch& scratch, const GapIsland& island, bool mayShare,
-               std::vector<LaneBody>& bodies);
+    /// Lays the rows of an island and their bodies out. `mayShare`: from now on another thread may
+    /// take a half; the bits are the same.
+    void build(const GapScratch& scratch, const GapIsland& island, bool mayShare);
 
     /// The bodies take the impulses that the rows begin with.
     void begin();
@@ -40,8 +34,8 @@ public:
     GapSweep sweep();
 
     /// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].
-    /// Answers the energy of that change, to be handed in next time; 0 begins anew. Bodies go at
-    /// once, impulses when the next sweep comes by, which must follow.
+    /// Answers the energy of that change, to be handed in next time; 0 begins anew. Bodies and
+    /// impulses go when the next sweep comes by, which must follow.
     double goOn(double energyBefore);
 
     /// Hands impulses and velocities back to rows and bodies.
@@ -69,13 +63,16 @@ private:
         Lanes spinMass = kNoLanes;                       // about the normal
         Lanes3 couple, before, way;
     };
-    /// The part of a body in that: its velocities before the last sweep and the way they went.
+    /// What the rows change of a body, one cache line.
+    struct alignas(64) LaneBody {
+        Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+    };
+    /// A body before the last sweep, and the way it went.
     struct BodyWay {
-        BodyId body;
         LaneBody before, way;
     };
     struct Side {
-        std::int32_t body[kLanes];
+        std::int32_t body[kLanes];  // index into bodies_
         bool isMovable[kLanes];
         Lanes inverseMass = kNoLanes;
         SymmetricLanes inverseInertia;
@@ -86,52 +83,59 @@ private:
         Lanes3 aFromB;              // centres: what turns rA into rB
         std::int32_t from[kLanes];  // the first row of each in GapScratch::rows
         int lanesUsed = 0;
-        std::size_t begin = 0, end = 0;  // its rows here
+        std::size_t begin = 0, end = 0;  // its rows in the section
     };
     struct Motion;
-    /// Batches that are visited one after the other. Two lines of the cache apart: halves are
-    /// written to by two threads.
+    /// Batches that are visited one after the other, by the thread that has laid them out: they are
+    /// in its cache. Two lines of the cache apart: halves are written to by two threads.
     struct alignas(128) Section {
         std::vector<Batch> batches;
+        std::vector<Row> rows;
+        std::vector<Roll> rolls;                 // of the rows; empty where none resists
+        std::size_t firstBody = 0, endBody = 0;  // in bodies_: what only its rows move
         std::array<std::vector<std::int32_t>, kRowsTogether + 1> open;  // those with idle lanes
         Lanes residual = kNoLanes, squaredSpeed = kNoLanes, energy = kNoLanes;
     };
 
+    template <class Work>
+    void inHalves(const Work& work);
+    void collectBodies(const GapScratch& scratch, const PairParts& parts);
+    void layOut(const GapScratch& scratch, const std::vector<std::size_t>& pairs, Section& section);
     void schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
                   Section& section);
     std::int32_t batchFor(std::size_t rows, std::int32_t earliest, Section& section) const;
-    template <class Work>
-    void inHalves(const Work& work);
-    template <class Work>
-    void forBatches(const Work& work);
-    bool resistsRolling() const { return !rolls_.empty(); }
+    void goOn(const Section& section);
+    template <bool kRolls>
+    void goOn(Section& section, std::size_t place) const;
     template <bool kRolls>
     void sweepUp(Section& section);
     template <bool kRolls>
     void sweepDown(Section& section);
-    void collectBodies(const GapScratch& scratch, const GapIsland& island);
-    void begin(const Section& section);
+    void begin(Section& section);
+    void store(const Section& section, GapScratch& scratch) const;
+    static void fill(const GapScratch& scratch, Batch& batch, Section& section);
+    static void fillLane(const GapScratch& scratch, Batch& batch, int lane, Section& section);
     template <bool kRolls>
-    void goOn(std::size_t place);
-    void fill(const GapScratch& scratch, Batch& batch);
-    void fillLane(const GapScratch& scratch, Batch& batch, int lane);
-    template <bool kRolls>
-    void visit(std::size_t place, const Batch& batch, const Lanes3& u, Motion& motion,
-               Section& section);
-    Lanes resistSpin(std::size_t place, const Batch& batch, Motion& motion);
+    static void visit(std::size_t place, const Batch& batch, const Lanes3& u, Motion& motion,
+                      Section& section);
+    static Lanes resistSpin(std::size_t place, const Batch& batch, Motion& motion,
+                            Section& section);
     static void applyCouple(const Batch& batch, const Lanes3& couple, Motion& motion);
     static Lanes3 velocityAt(const Row& row, const Batch& batch, const Motion& motion);
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
-    std::vector<LaneBody>* bodies_ = nullptr;
-    bool isShared_ = false;                // between two threads
-    std::vector<std::int32_t> firstFree_;  // per body: the batch after the last that has it
-    std::vector<BodyWay> ways_;            // of the bodies that rows move
+    bool isShared_ = false;  // between two threads
+    bool resistsRolling_ = false;
+    // The bodies of the island, section by section, then what cannot be moved. Idle lanes have the
+    // first, which is none.
+    std::vector<LaneBody> bodies_;
+    std::vector<BodyWay> ways_;
+    std::vector<BodyId> idOf_;
+    std::vector<std::int32_t> placeOf_;    // in bodies_, by id; 0: not there
+    std::vector<std::int32_t> firstFree_;  // of each: the batch after the last that has it
     bool beginsAnew_ = true;               // the next sweep does
     double share_ = 0.0;                   // of the last way that is gone again before it, if not
-    std::vector<Row> rows_;
-    std::vector<Roll> rolls_;          // of the rows; empty where none resists
-    std::array<Section, 3> sections_;  // either half, and what lies across the cut
+    std::array<Section, 3> sections_;      // either half, and what lies across the cut
 };
 
 }  // namespace scree

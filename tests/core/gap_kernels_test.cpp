@@ -698,17 +698,26 @@ void applyAll(const std::vector<GapRow>& rows, std::vector<GapBody>& bodies)
     }
 }
 
+void stop(std::vector<GapBody>& bodies)
+{
+    for (GapBody& body : bodies) body.velocity = body.spin = Vec3::Zero();
+}
+
+void expectSameMotion(const std::vector<GapBody>& some, const std::vector<GapBody>& others)
+{
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        EXPECT_NEAR((some[i].velocity - others[i].velocity).norm(), 0.0, 1e-11);
+        EXPECT_NEAR((some[i].spin - others[i].spin).norm(), 0.0, 1e-11);
+    }
+}
+
 void expectRowsAbreastAreRowsOneByOne(bool rolling)
 {
     int resisted = 0;
     GapLanes lanes;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         GapScratch plain = randomHeap(seed, rolling), abreast = randomHeap(seed, rolling);
-        std::vector<LaneBody> bodies(abreast.bodies.size() + 1);
-        for (std::size_t i = 0; i < abreast.bodies.size(); ++i) {
-            bodies[i] = {abreast.bodies[i].velocity, abreast.bodies[i].spin};
-        }
-        lanes.build(abreast, abreast.islands[0], true, bodies);
+        lanes.build(abreast, abreast.islands[0], true);
         for (int sweep = 0; sweep < 3; ++sweep) {
             double residual = 0.0, fastest = 0.0;
             const auto visit = [&](std::size_t r) {
@@ -734,20 +743,15 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
             EXPECT_NEAR((plain.rows[r].couple - abreast.rows[r].couple).norm(), 0.0, 1e-11);
             resisted += !plain.rows[r].couple.isZero(1e-3);
         }
-        for (std::size_t i = 0; i < plain.bodies.size(); ++i) {
-            EXPECT_NEAR((plain.bodies[i].velocity - abreast.bodies[i].velocity).norm(), 0.0, 1e-11);
-            EXPECT_NEAR((plain.bodies[i].spin - abreast.bodies[i].spin).norm(), 0.0, 1e-11);
-        }
+        expectSameMotion(plain.bodies, abreast.bodies);
         // What was found is taken up again where the next step begins.
-        for (LaneBody& body : bodies) body = {};
-        lanes.build(abreast, abreast.islands[0], true, bodies);
+        stop(abreast.bodies);
+        stop(plain.bodies);
+        lanes.build(abreast, abreast.islands[0], true);
         lanes.begin();
-        for (GapBody& body : plain.bodies) body.velocity = body.spin = Vec3::Zero();
+        lanes.store(abreast);
         applyAll(abreast.rows, plain.bodies);
-        for (std::size_t i = 0; i < plain.bodies.size(); ++i) {
-            EXPECT_NEAR((plain.bodies[i].velocity - bodies[i].velocity).norm(), 0.0, 1e-11);
-            EXPECT_NEAR((plain.bodies[i].spin - bodies[i].spin).norm(), 0.0, 1e-11);
-        }
+        expectSameMotion(plain.bodies, abreast.bodies);
     }
     EXPECT_EQ(resisted > 100, rolling) << resisted;
 }
@@ -764,12 +768,8 @@ TEST(GapLanes, GoingOnMovesBodiesByWhatIsAddedToTheImpulses)
         for (std::uint64_t seed = 1; seed <= 20; ++seed) {
             GapScratch scratch = randomHeap(seed, rolling);
             std::vector<GapBody> told = scratch.bodies;
-            std::vector<LaneBody> bodies(scratch.bodies.size() + 1);
-            for (std::size_t i = 0; i < told.size(); ++i) {
-                bodies[i] = {told[i].velocity, told[i].spin};
-            }
             GapLanes lanes;
-            lanes.build(scratch, scratch.islands[0], true, bodies);
+            lanes.build(scratch, scratch.islands[0], true);
             double energy = 0.0;
             lanes.sweep();
             for (int sweep = 0; sweep < 5; ++sweep) {
@@ -778,10 +778,7 @@ TEST(GapLanes, GoingOnMovesBodiesByWhatIsAddedToTheImpulses)
             }
             lanes.store(scratch);
             applyAll(scratch.rows, told);
-            for (std::size_t i = 0; i < told.size(); ++i) {
-                EXPECT_NEAR((told[i].velocity - bodies[i].velocity).norm(), 0.0, 1e-11);
-                EXPECT_NEAR((told[i].spin - bodies[i].spin).norm(), 0.0, 1e-11);
-            }
+            expectSameMotion(told, scratch.bodies);
         }
     }
 }
@@ -791,9 +788,8 @@ TEST(GapLanes, SharedOrNotAnIslandThatIsCutHasTheSameBits)
     const auto solved = [](bool mayShare, bool rolling) {
         GapScratch scratch = randomHeap(3, rolling, 300);
         EXPECT_GT(scratch.rows.size(), kRowsWorthACut);
-        std::vector<LaneBody> bodies(scratch.bodies.size() + 1);
         GapLanes lanes;
-        lanes.build(scratch, scratch.islands[0], mayShare, bodies);
+        lanes.build(scratch, scratch.islands[0], mayShare);
         double energy = 0.0;
         for (int sweep = 0; sweep < 4; ++sweep) {
             lanes.sweep();
@@ -818,14 +814,13 @@ TEST(GapLanes, NothingIsLeftOfTheIslandBefore)
 {
     GapLanes lanes;
     GapScratch scratch = randomHeap(1, true);
-    std::vector<LaneBody> bodies(scratch.bodies.size() + 1);
-    lanes.build(scratch, scratch.islands[0], true, bodies);
+    lanes.build(scratch, scratch.islands[0], true);
     lanes.sweep();
 
-    for (LaneBody& body : bodies) body = {};
+    stop(scratch.bodies);
     for (GapRow& row : scratch.rows) row.target = 0.0;
     scratch.islands[0].pairs = {0};
-    lanes.build(scratch, scratch.islands[0], true, bodies);
+    lanes.build(scratch, scratch.islands[0], true);
     EXPECT_EQ(lanes.sweep().residual, 0.0);
 }
 
