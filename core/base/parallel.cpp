@@ -1,8 +1,6 @@
 #include "core/base/parallel.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
@@ -10,11 +8,14 @@
 #include <atomic>
 #include <memory>
 
+#include "core/base/thread_team.h"
+
 namespace scree {
 namespace {
 
 int chosenThreads = 1;
-std::unique_ptr<tbb::global_control> control;
+std::unique_ptr<tbb::global_control> control;  // of TBB
+std::unique_ptr<ThreadTeam> team;              // where there are several threads
 
 }  // namespace
 
@@ -23,6 +24,8 @@ void setThreadCount(int count)
     chosenThreads = std::max(count, 1);
     control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(chosenThreads));
+    team.reset();
+    if (chosenThreads > 1) team = std::make_unique<ThreadTeam>(chosenThreads);
 }
 
 int threadCount()
@@ -34,14 +37,7 @@ void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body)
 {
     if (count == 0) return;
-    if (chosenThreads == 1 || count <= grain) {
-        body(0, count);
-        return;
-    }
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, grain),
-        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); },
-        tbb::simple_partitioner());
+    if (!team || count <= grain || !team->share(count, grain, body)) body(0, count);
 }
 
 void parallelInOrder(const WorkOrder& order, const std::function<void(std::size_t item)>& work)

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/surface_rays.h"
 
@@ -37,6 +38,72 @@ TEST(Parallel, BothThreadsWorkAlsoAfterRaysHaveBeenCastAtAMesh)
     const SurfaceRays rays(makeBox(Vec3::Ones(), {1, 1, 1}));
     EXPECT_TRUE(rays.firstHit({0.0, 0.0, 3.0}, {0.0, 0.0, -1.0}, 10.0, SurfaceRays::Facing::any));
     EXPECT_EQ(rangesAtOnce(), 2);
+    setThreadCount(1);
+}
+
+TEST(Parallel, EveryIndexIsVisitedOnceInOneLoopAfterTheOther)
+{
+    setThreadCount(3);
+    std::vector<int> visits(500, 0);
+    for (std::size_t loop = 0; loop < 3000; ++loop) {
+        const std::size_t count = loop % visits.size();
+        forEach(count, 1 + loop % 7, [&](std::size_t i) { ++visits[i]; });
+        EXPECT_TRUE(std::all_of(visits.begin(), visits.begin() + static_cast<std::ptrdiff_t>(count),
+                                [](int n) { return n == 1; }));
+        std::fill(visits.begin(), visits.end(), 0);
+    }
+    setThreadCount(1);
+}
+
+// What a thread wrote in one loop is in its cache in the next.
+TEST(Parallel, EachThreadBeginsWithTheSameShareInEveryLoop)
+{
+    setThreadCount(2);
+    std::array<std::thread::id, 2> first;
+    for (int loop = 0; loop < 50; ++loop) {
+        std::array<std::thread::id, 2> ids;
+        std::atomic<int> begun = 0;
+        forEach(2, 1, [&](std::size_t i) {
+            ids[i] = std::this_thread::get_id();
+            ++begun;
+            while (begun < 2) std::this_thread::yield();
+        });
+        if (loop == 0) first = ids;
+        EXPECT_EQ(ids, first);
+    }
+    EXPECT_EQ(first[0], std::this_thread::get_id());
+    setThreadCount(1);
+}
+
+TEST(Parallel, WhatARangeThrowsComesOutOfTheLoopAndTheNextOneIsWhole)
+{
+    setThreadCount(2);
+    for (std::size_t bad = 0; bad < 100; ++bad) {
+        EXPECT_THROW(forEach(100, 1,
+                             [&](std::size_t i) {
+                                 if (i == bad) throw Error(ErrorKind::badInput, "in a range");
+                             }),
+                     Error);
+        std::atomic<int> done = 0;
+        forEach(100, 1, [&](std::size_t) { ++done; });
+        EXPECT_EQ(done, 100);
+    }
+    setThreadCount(1);
+}
+
+TEST(Parallel, ALoopInsideOfARangeIsDoneByItsThread)
+{
+    setThreadCount(2);
+    std::atomic<int> done = 0, elsewhere = 0;
+    forEach(20, 1, [&](std::size_t) {
+        const std::thread::id here = std::this_thread::get_id();
+        forEach(10, 1, [&](std::size_t) {
+            ++done;
+            elsewhere += std::this_thread::get_id() != here;
+        });
+    });
+    EXPECT_EQ(done, 200);
+    EXPECT_EQ(elsewhere, 0);
     setThreadCount(1);
 }
 

@@ -1,0 +1,132 @@
+#include "core/base/thread_team.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace scree {
+namespace {
+
+/// About a millisecond; with more threads than processors, somebody else needs the time.
+constexpr int kPausesAwake = 20000;
+/// About 50 µs. Who has waited for longer lets others go first.
+constexpr int kPausesBeforeYield = 1000;
+
+constexpr std::uint64_t kIsOpen = 1ull << 63, kOneInside = 1ull << 48;
+constexpr std::uint64_t kInside = kIsOpen - kOneInside, kLoopNumber = kOneInside - 1;
+
+/// Whether this thread is at work for a team.
+thread_local bool isAtWork = false;
+
+void pauseAfter(int pauses)
+{
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+    if (pauses > kPausesBeforeYield) std::this_thread::yield();
+}
+
+}  // namespace
+
+ThreadTeam::ThreadTeam(int count) : shares_(static_cast<std::size_t>(std::max(count, 2)))
+{
+    if (shares_.size() <= std::thread::hardware_concurrency()) pauses_ = kPausesAwake;
+    for (std::size_t self = 1; self < shares_.size(); ++self)
+        helpers_.emplace_back([this, self] { help(self); });
+}
+
+ThreadTeam::~ThreadTeam()
+{
+    isOver_ = true;
+    ++calls_;
+    calls_.notify_all();
+    for (std::thread& helper : helpers_) helper.join();
+}
+
+bool ThreadTeam::share(std::size_t count, std::size_t grain, const Body& body)
+{
+    if (isAtWork) return false;
+    const std::unique_lock lock(sharing_, std::try_to_lock);
+    if (!lock) return false;
+
+    loop_ = {&body, count, grain};
+    const std::size_t ranges = (count + grain - 1) / grain;
+    for (std::size_t s = 0; s < shares_.size(); ++s) {
+        shares_[s].next = ranges * s / shares_.size();
+        shares_[s].end = ranges * (s + 1) / shares_.size();
+    }
+    hasFailed_ = false;
+    door_ = kIsOpen | ((door_ + 1) & kLoopNumber);
+    ++calls_;
+    calls_.notify_all();
+    isAtWork = true;
+    work(0);
+    isAtWork = false;
+    door_ &= ~kIsOpen;
+    for (int pauses = 0; (door_ & kInside) != 0; ++pauses) pauseAfter(pauses);
+    if (hasFailed_) std::rethrow_exception(std::exchange(error_, nullptr));
+    return true;
+}
+
+void ThreadTeam::help(std::size_t self)
+{
+    isAtWork = true;
+    std::uint64_t lastLoop = 0;
+    for (int call = 0; !isOver_; call = calls_) {
+        if (enter(lastLoop)) {
+            work(self);
+            door_ -= kOneInside;
+        }
+        waitFor(call);
+    }
+}
+
+/// Comes back when more has been called than that.
+void ThreadTeam::waitFor(int call) const
+{
+    for (int pauses = 0; pauses < pauses_; ++pauses) {
+        if (calls_ != call) return;
+        pauseAfter(pauses);
+    }
+    calls_.wait(call);
+}
+
+/// Into a loop that is still open and not the last one again.
+bool ThreadTeam::enter(std::uint64_t& lastLoop)
+{
+    std::uint64_t door = door_;
+    while ((door & kIsOpen) != 0 && (door & kLoopNumber) != lastLoop) {
+        if (!door_.compare_exchange_weak(door, door + kOneInside)) continue;
+        lastLoop = door & kLoopNumber;
+        return true;
+    }
+    return false;
+}
+
+/// One's own share, then what others have left of theirs.
+void ThreadTeam::work(std::size_t first)
+{
+    for (std::size_t s = 0; s < shares_.size(); ++s) workOff(shares_[(first + s) % shares_.size()]);
+}
+
+void ThreadTeam::workOff(Share& share)
+{
+    while (share.next < share.end && !hasFailed_) {
+        const std::size_t range = share.next++;
+        if (range >= share.end) return;
+        try {
+            const std::size_t begin = range * loop_.grain;
+            (*loop_.body)(begin, std::min(begin + loop_.grain, loop_.count));
+        } catch (...) {
+            keep(std::current_exception());
+        }
+    }
+}
+
+void ThreadTeam::keep(std::exception_ptr error)
+{
+    const std::lock_guard lock(keeping_);
+    if (!error_) error_ = std::move(error);
+    hasFailed_ = true;
+}
+
+}  // namespace scree
