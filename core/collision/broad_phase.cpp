@@ -74,8 +74,12 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
                                                    std::span<const char> isAsked)
 {
     if (findMoved(boxes, mass)) {
-        forgetMoved();
-        enterMoved(boxes);
+        forEach(2, 1, [&](std::size_t list) {
+            if (list == 0)
+                enterMoved(boxes);
+            else
+                forgetMeetings();
+        });
         pairMoved();
     }
     found_.resize((meetings_.size() + kMeetingsTogether - 1) / kMeetingsTogether);
@@ -135,21 +139,17 @@ bool BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<Bod
     return true;
 }
 
-void BroadPhase::forgetMoved()
+void BroadPhase::forgetMeetings()
 {
-    forEach(2, 1, [&](std::size_t list) {
-        if (list == 0) {
-            std::erase_if(entries_, [&](const Entry& entry) { return isMoved_[entry.body] != 0; });
-            std::erase_if(large_, [&](BodyId body) { return isMoved_[body] != 0; });
-            return;
-        }
-        std::erase_if(meetings_,
-                      [&](const BodyPair& pair) { return isMoved_[pair.a] || isMoved_[pair.b]; });
-    });
+    std::erase_if(meetings_,
+                  [&](const BodyPair& pair) { return isMoved_[pair.a] || isMoved_[pair.b]; });
 }
 
+/// Into the cells where they are now.
 void BroadPhase::enterMoved(const std::vector<Aabb>& boxes)
 {
+    std::erase_if(entries_, [&](const Entry& entry) { return isMoved_[entry.body] != 0; });
+    std::erase_if(large_, [&](BodyId body) { return isMoved_[body] != 0; });
     const std::size_t stay = entries_.size(), stayLarge = large_.size();
     firstCells_.resize(boxes.size());
     for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {

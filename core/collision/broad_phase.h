@@ -43,7 +43,7 @@ private:
         friend auto operator<=>(const Entry&, const Entry&) = default;
     };
     bool findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass);
-    void forgetMoved();
+    void forgetMeetings();
     void enterMoved(const std::vector<Aabb>& boxes);
     void pairMoved();
     void pairInCells(std::size_t begin, std::size_t end, std::vector<BodyPair>& found) const;

@@ -30,10 +30,10 @@ std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
             held[any.b].turning += ofPairs[p].turnOfB;
         }
     }
-    for (std::size_t b = 0; b < held.size(); ++b) {
+    forEach(held.size(), kShortWork, [&](std::size_t b) {
         held[b].acceleration *= scratch.bodies[b].inverseMass / dt;
         held[b].turning = scratch.bodies[b].inverseInertia * held[b].turning / dt;
-    }
+    });
     return held;
 }
 

@@ -135,11 +135,11 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
 {
     const auto isStepped = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
     const auto bears = [](const GapRow& row) { return row.impulse.x() != 0.0; };
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        if (!isStepped(static_cast<BodyId>(i))) continue;
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
+        if (!isStepped(static_cast<BodyId>(i))) return;
         world.motion[i].velocity = scratch.bodies[i].velocity;
         world.motion[i].angularMomentum += scratch.bodies[i].angularImpulse;
-    }
+    });
     // What holds sleepers is remembered for when they wake.
     std::vector<RememberedContact>& kept = scratch.formerContacts;
     std::size_t ofSleepers = 0;

@@ -120,8 +120,7 @@ public:
           graph_(levels.graph),
           scratch_(scratch),
           isLookedAt_(scratch.nearPairs.size(), 0),
-          isPushed_(scratch.bodies.size(), 0),
-          left_(scratch.nearPairs.size(), kDeep)
+          isPushed_(scratch.bodies.size(), 0)
     {
     }
 
@@ -181,6 +180,7 @@ private:
                 deepest = std::max(deepest, depth);
             }
             if (deepest == 0.0) continue;
+            left_.resize(scratch_.nearPairs.size(), kDeep);
             const double share = deepest / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
             left_[pair.near] =
                 std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop, kDeep);
@@ -263,7 +263,7 @@ private:
     PushOutTally tally_;
     double reach_ = 0.0;  // of contacts that pushes may close: the deepest overlap [m]
     std::vector<char> isLookedAt_, isPushed_;  // per near pair; per body
-    std::vector<double> left_;                 // per near pair: as of RowToPush
+    std::vector<double> left_;                 // per near pair, if any is deep: as of RowToPush
     std::vector<GapContact> contacts_;
     std::vector<RowToPush> rows_;
     std::vector<RowPush> pushes_;
@@ -314,11 +314,22 @@ PushOutTally separateGaps(World& world, const StepSettings& settings, const GapL
 
 DeepestOverlap findDeepestGap(const GapScratch& scratch)
 {
-    DeepestOverlap deepest;
-    for (const NearPair& pair : scratch.nearPairs) {
-        if (pair.depth > deepest.depth) deepest = {pair.depth, pair.bodies.a, pair.bodies.b};
+    // The first of equal ones counts, however many threads there are.
+    constexpr std::size_t kTogether = 1024;
+    const std::vector<NearPair>& pairs = scratch.nearPairs;
+    std::vector<DeepestOverlap> deepest((pairs.size() + kTogether - 1) / kTogether);
+    forEach(deepest.size(), 1, [&](std::size_t part) {
+        const std::size_t end = std::min((part + 1) * kTogether, pairs.size());
+        for (std::size_t i = part * kTogether; i < end; ++i) {
+            const auto [a, b] = pairs[i].bodies;
+            if (pairs[i].depth > deepest[part].depth) deepest[part] = {pairs[i].depth, a, b};
+        }
+    });
+    DeepestOverlap overall;
+    for (const DeepestOverlap& one : deepest) {
+        if (one.depth > overall.depth) overall = one;
     }
-    return deepest;
+    return overall;
 }
 
 }  // namespace scree

@@ -20,6 +20,14 @@ constexpr double kLeastReach = 2e-4;
 /// An overlap that the eye may see, as a share of the smaller body.
 constexpr double kVisible = 5e-3;
 
+/// Near pairs that one thread lays out together.
+constexpr std::size_t kPairsTogether = 512;
+
+bool isBefore(const NearPair& pair, const BodyPair& bodies)
+{
+    return pair.bodies < bodies;
+}
+
 GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
 {
     const BodyMotion& motion = world.motion[id];
@@ -130,16 +138,21 @@ void findGapPairs(const World& world, GapScratch& scratch)
     // Both lists are sorted: pairs that stay keep what they know.
     std::vector<NearPair>& former = scratch.formerNearPairs;
     std::swap(scratch.nearPairs, former);
-    scratch.nearPairs.clear();
-    std::size_t old = 0;
-    for (const BodyPair& bodies : found) {
-        while (old < former.size() && former[old].bodies < bodies) ++old;
-        if (old < former.size() && former[old].bodies == bodies) {
-            scratch.nearPairs.push_back(std::move(former[old++]));
-        } else {
-            scratch.nearPairs.emplace_back().bodies = bodies;
+    scratch.nearPairs.resize(found.size());
+    parallelFor(found.size(), kPairsTogether, [&](std::size_t begin, std::size_t end) {
+        auto old = std::lower_bound(former.begin(), former.end(), found[begin], isBefore);
+        for (std::size_t i = begin; i < end; ++i) {
+            while (old != former.end() && old->bodies < found[i]) ++old;
+            NearPair& pair = scratch.nearPairs[i];
+            if (old != former.end() && old->bodies == found[i]) {
+                pair = std::move(*old);
+            } else {
+                pair = NearPair{};
+                pair.bodies = found[i];
+                pair.near = std::make_unique<NearFeatures>();
+            }
         }
-    }
+    });
 }
 
 double odometerOf(const GapScratch& scratch, BodyPair bodies)
@@ -193,9 +206,8 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
 /// As solved, do the bodies run visibly into each other where they were not looked at?
 bool runsIntoUnseen(const World& world, double dt, const GapScratch& scratch, BodyPair bodies)
 {
-    const auto known = std::lower_bound(
-        scratch.nearPairs.begin(), scratch.nearPairs.end(), bodies,
-        [](const NearPair& pair, const BodyPair& sought) { return pair.bodies < sought; });
+    const auto known =
+        std::lower_bound(scratch.nearPairs.begin(), scratch.nearPairs.end(), bodies, isBefore);
     const bool isKnown = known != scratch.nearPairs.end() && known->bodies == bodies;
     NearFeatures ofNone;
     NearFeatures& near = isKnown ? *known->near : ofNone;
