@@ -15,7 +15,8 @@ int threadCount();
 
 /// Calls body(begin, end) for consecutive ranges that together cover 0 … count − 1, each index
 /// once. Ranges are about `grain` long. The body must write only what belongs to its own indices:
-/// then any number of threads gives the same bits.
+/// then any number of threads gives the same bits. What it throws comes out of here. A loop inside
+/// of a range is done by the thread of that range.
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 

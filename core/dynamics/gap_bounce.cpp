@@ -37,12 +37,15 @@ constexpr double kPairIsSolved = 1e-4;  // of the speed of the impact
 /// Places that are hit within this share of a step are hit together.
 constexpr double kTogether = 0.01;
 
+/// The clock of an island when its visits begin.
+constexpr std::int64_t kBeforeAll = 1;
+
 /// Where fewer pairs are hit at first, few are in all.
 constexpr std::size_t kHitsWorthACut = 32;
 
-/// What the impacts of this step have done to a body so far. One cache line: two threads write to
-/// neighbours.
-struct alignas(64) Impacts {
+/// What the impacts of this step have done to a body so far. Two cache lines, since they are
+/// fetched by twos: two threads write to neighbours.
+struct alignas(128) Impacts {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
     double earliest = std::numeric_limits<double>::infinity();
     std::int64_t changedAt = 0;  // the visit of a pair that changed it last
@@ -100,24 +103,20 @@ struct ImpactState {
     {
     }
 
-    /// Not to be asked for the first time by two threads.
-    const PairsOfBodies& pairsOfBodies()
-    {
-        if (!pairsOf) pairsOf.emplace(scratch);
-        return *pairsOf;
-    }
+    void findPairsOfBodies() { pairsOf_.emplace(scratch); }
+    const PairsOfBodies& pairsOfBodies() const { return *pairsOf_; }
 
     const StepSettings& settings;
     double dt, slowest;
     GapScratch& scratch;
     std::vector<Held> held;
     std::vector<Impacts> impacts;
-    // Of each pair, by the clock of who visits: the last visit that ended with nothing left to be
+    // Of each pair, by the clock of its island: the last visit that ended with nothing left to be
     // hit, 0: none; and the last look at it.
     std::vector<std::int64_t> doneAt, gatheredAt;
 
 private:
-    std::optional<PairsOfBodies> pairsOf;
+    std::optional<PairsOfBodies> pairsOf_;
 };
 
 /// Visits pairs one by one. Two lines of the cache apart: the visits of halves are written to by
@@ -128,10 +127,7 @@ public:
     /// else.
     enum class Of { all, half };
     ImpactVisits(ImpactState& state, Of pairs)
-        : state_(state),
-          scratch_(state.scratch),
-          isOfHalf_(pairs == Of::half),
-          placeOf_(state.scratch.bodies.size(), -1)
+        : state_(state), scratch_(state.scratch), isOfHalf_(pairs == Of::half)
     {
     }
 
@@ -370,8 +366,9 @@ private:
         for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
         if (solveTogether(true) > 0.0) solveTogether(false);
         for (std::size_t i = 0; i < rows_.size(); ++i) {
-            applyImpulses(rows_[i], rows_[i].worldImpulse(), earliest);
-            note(hits_[i], rows_[i].worldImpulse());
+            const GapRow& row = rows_[i].row;
+            applyImpulses(row, row.worldImpulse(), earliest);
+            note(hits_[i], row.worldImpulse());
             ++counts_.sticking;
         }
     }
@@ -384,31 +381,36 @@ private:
         hitBodies_.clear();
         double fastest = 0.0;
         for (Impact& impact : hits_) {
-            rows_.push_back(rowAt(impact));
-            if (!withFriction) rows_.back().friction = 0.0;
+            GapRow row = rowAt(impact);
+            if (!withFriction) row.friction = 0.0;
             fastest = std::max(fastest, impact.velocity.norm());
-            for (const BodyId body : {impact.row->a, impact.row->b}) {
-                if (placeOf_[body] >= 0) continue;
-                placeOf_[body] = static_cast<std::int32_t>(after_.size());
-                hitBodies_.push_back(body);
-                after_.push_back(scratch_.bodies[body]);
-            }
+            const std::size_t placeA = placeOf(row.a), placeB = placeOf(row.b);
+            rows_.push_back({row, placeA, placeB});
         }
-        const auto after = [&](BodyId body) -> GapBody& { return after_[placeOf_[body]]; };
         for (int sweep = 0; sweep < kMostPairSweeps; ++sweep) {
             double residual = 0.0;
-            for (GapRow& row : rows_)
-                residual = std::max(residual, visitRow(row, after(row.a), after(row.b)));
+            for (auto& [row, a, b] : rows_)
+                residual = std::max(residual, visitRow(row, after_[a], after_[b]));
             if (residual <= kPairIsSolved * fastest) break;
         }
         double work = 0.0;
-        for (const GapRow& row : rows_) {
+        for (const auto& [row, a, b] : rows_) {
             const Vec3 before = velocityAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
-            work +=
-                0.5 * row.worldImpulse().dot(before + velocityAt(row, after(row.a), after(row.b)));
+            work += 0.5 * row.worldImpulse().dot(before + velocityAt(row, after_[a], after_[b]));
         }
-        for (const BodyId body : hitBodies_) placeOf_[body] = -1;
         return work;
+    }
+
+    /// In after_. There are few.
+    std::size_t placeOf(BodyId body)
+    {
+        const auto found = std::find(hitBodies_.begin(), hitBodies_.end(), body);
+        if (found == hitBodies_.end()) {
+            hitBodies_.push_back(body);
+            after_.push_back(scratch_.bodies[body]);
+            return after_.size() - 1;
+        }
+        return static_cast<std::size_t>(found - hitBodies_.begin());
     }
 
     void note(const Impact& impact, const Vec3& impulse)
@@ -443,79 +445,62 @@ private:
 
     ImpactState& state_;
     GapScratch& scratch_;
-    std::int64_t clock_ = 0;
+    std::int64_t clock_ = kBeforeAll;
     bool isOfHalf_;
     std::vector<std::size_t> left_;
     ImpulseCounts counts_;
     std::vector<GapImpact> noted_;
     std::vector<BodyId> toSpread_;
     std::vector<Impact> hits_;
-    std::vector<GapRow> rows_;           // of hits_
-    std::vector<BodyId> hitBodies_;      // of hits_
-    std::vector<GapBody> after_;         // these
-    std::vector<std::int32_t> placeOf_;  // of a body in after_; −1: not hit
+    struct RowOfHit {
+        GapRow row;
+        std::size_t a, b;  // in after_
+    };
+    std::vector<RowOfHit> rows_;     // of hits_
+    std::vector<BodyId> hitBodies_;  // of these
+    std::vector<GapBody> after_;     // the same ones, as the blows leave them
 };
 
-class ImpactPass {
+/// The impacts of an island.
+class IslandImpacts {
 public:
-    ImpactPass(const StepSettings& settings, double dt, GapScratch& scratch)
-        : state_(settings, dt, scratch), scratch_(scratch)
+    IslandImpacts(ImpactState& state, const GapIsland& island, bool mayCut) : state_(state)
     {
+        if (mayCut && island.rowCount >= kRowsWorthACut)
+            parts_ = partsOf(state.scratch, island.pairs);
+        else
+            parts_[0] = island.pairs;
+        isCut_ = !parts_[1].empty();
     }
 
-    ImpulseCounts run(std::int64_t& loopsAtTheirCap)
+    /// `first`: the pairs that are going to be hit, the first first. A body that moves on as it did
+    /// until its blow would run through what it meets before.
+    void run(std::span<const std::size_t> first)
     {
-        const std::vector<std::size_t> first = inOrderOfTime();
-        shareOut(first.size());
         for (const std::size_t i : first) whole_.visit(i);
-        bool isOver = false;
-        for (int sweep = 0; sweep < state_.settings.collisionIterations && !isOver; ++sweep) {
+        for (int sweep = 0; sweep < state_.settings.collisionIterations && !isOver_; ++sweep) {
             const std::int64_t before = counts().total();
             sweepThereAndBack();
-            isOver = counts().total() == before;
+            isOver_ = counts().total() == before;
         }
-        if (!isOver) ++loopsAtTheirCap;
-        scratch_.impacts.clear();
-        for (const ImpactVisits* visits : {&whole_, &halves_[0], &halves_[1]}) {
-            const std::vector<GapImpact>& noted = visits->impacts();
-            scratch_.impacts.insert(scratch_.impacts.end(), noted.begin(), noted.end());
-        }
-        return counts();
+    }
+
+    bool isOver() const { return isOver_; }
+    ImpulseCounts counts() const
+    {
+        ImpulseCounts sum = whole_.counts();
+        for (const ImpactVisits& half : halves_) sum += half.counts();
+        return sum;
+    }
+    std::vector<GapImpact> impacts() const
+    {
+        std::vector<GapImpact> all = whole_.impacts();
+        for (const ImpactVisits& half : halves_)
+            all.insert(all.end(), half.impacts().begin(), half.impacts().end());
+        return all;
     }
 
 private:
-    /// The pairs that are going to be hit, the first first: a body that moves on as it did until
-    /// its blow would run through what it meets before. Most pairs are hit by nothing yet: they are
-    /// done until a blow comes to one of their bodies.
-    std::vector<std::size_t> inOrderOfTime()
-    {
-        whole_.setClock(1);
-        std::vector<double> times(scratch_.pairs.size());
-        forPairs(scratch_, [&](std::size_t p) {
-            times[p] = whole_.timeOf(scratch_.pairs[p]);
-            if (times[p] < 0.0) state_.doneAt[p] = 1;
-        });
-        std::vector<std::size_t> hit;
-        for (const std::size_t p : scratch_.order) {
-            if (times[p] >= 0.0) hit.push_back(p);
-        }
-        std::stable_sort(hit.begin(), hit.end(),
-                         [&](std::size_t p, std::size_t q) { return times[p] < times[q]; });
-        return hit;
-    }
-
-    /// Visits share the pairs out from now on, if there are enough to be done.
-    void shareOut(std::size_t hitPairs)
-    {
-        if (hitPairs < kHitsWorthACut || scratch_.rows.size() < kRowsWorthACut) {
-            parts_[0] = scratch_.order;
-            return;
-        }
-        parts_ = partsOf(scratch_, scratch_.order);
-        isShared_ = true;
-        state_.pairsOfBodies();
-    }
-
     /// A blow runs along a row of touching bodies whichever way it lies.
     void sweepThereAndBack()
     {
@@ -533,7 +518,7 @@ private:
     template <class Work>
     void inHalves(const Work& work)
     {
-        if (!isShared_) {
+        if (!isCut_) {
             work(whole_, parts_[0]);
             return;
         }
@@ -548,28 +533,72 @@ private:
         }
     }
 
-    ImpulseCounts counts() const
-    {
-        ImpulseCounts sum = whole_.counts();
-        for (const ImpactVisits& half : halves_) sum += half.counts();
-        return sum;
-    }
-
-    ImpactState state_;
-    GapScratch& scratch_;
+    ImpactState& state_;
     ImpactVisits whole_{state_, ImpactVisits::Of::all};
     std::array<ImpactVisits, 2> halves_{
         {{state_, ImpactVisits::Of::half}, {state_, ImpactVisits::Of::half}}};
     PairParts parts_;
-    bool isShared_ = false;
+    bool isCut_ = false, isOver_ = false;
 };
+
+/// The pairs that are going to be hit, island by island, the first first. Most are hit by nothing
+/// yet: they are done until a blow comes to one of their bodies.
+std::vector<std::size_t> inOrderOfTime(ImpactState& state)
+{
+    const GapScratch& scratch = state.scratch;
+    const ImpactVisits visits(state, ImpactVisits::Of::all);
+    std::vector<double> times(scratch.pairs.size());
+    forPairs(scratch, [&](std::size_t p) {
+        times[p] = visits.timeOf(scratch.pairs[p]);
+        if (times[p] < 0.0) state.doneAt[p] = kBeforeAll;
+    });
+    std::vector<std::size_t> hit;
+    for (const std::size_t p : scratch.order) {
+        if (times[p] >= 0.0) hit.push_back(p);
+    }
+    std::stable_sort(hit.begin(), hit.end(), [&](std::size_t p, std::size_t q) {
+        return std::pair(scratch.pairs[p].island, times[p]) <
+               std::pair(scratch.pairs[q].island, times[q]);
+    });
+    return hit;
+}
 
 }  // namespace
 
 ImpulseCounts resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
                              std::int64_t& loopsAtTheirCap)
 {
-    return ImpactPass(settings, dt, scratch).run(loopsAtTheirCap);
+    scratch.impacts.clear();
+    ImpactState state(settings, dt, scratch);
+    const std::vector<std::size_t> hit = inOrderOfTime(state);
+    if (hit.empty()) return {};
+    state.findPairsOfBodies();
+    const bool mayCut = hit.size() >= kHitsWorthACut && scratch.rows.size() >= kRowsWorthACut;
+
+    struct Outcome {
+        ImpulseCounts counts;
+        std::vector<GapImpact> impacts;
+        bool isOver = true;
+    };
+    std::vector<Outcome> outcomes(scratch.islands.size());
+    forIslands(scratch, [&](std::size_t i) {
+        const auto first = std::ranges::equal_range(
+            hit, i, {}, [&](std::size_t p) { return scratch.pairs[p].island; });
+        if (first.empty()) return;
+        IslandImpacts island(state, scratch.islands[i], mayCut);
+        island.run(first);
+        outcomes[i] = {island.counts(), island.impacts(), island.isOver()};
+    });
+    ImpulseCounts counts;
+    bool isOver = true;
+    for (const Outcome& outcome : outcomes) {
+        counts += outcome.counts;
+        scratch.impacts.insert(scratch.impacts.end(), outcome.impacts.begin(),
+                               outcome.impacts.end());
+        isOver = isOver && outcome.isOver;
+    }
+    if (!isOver) ++loopsAtTheirCap;
+    return counts;
 }
 
 }  // namespace scree

@@ -109,10 +109,10 @@ void solve(const StepSettings& settings, double dt, const GapIsland& island, Gap
 }
 
 void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
-                 const GapIsland& island, bool mayShare)
+                 const GapIsland& island)
 {
     thread_local GapLanes lanes;
-    lanes.build(scratch, island, mayShare);
+    lanes.build(scratch, island);
     solve(settings, dt, island, lanes);
     lanes.store(scratch);
 }
@@ -208,18 +208,19 @@ void addForcesToGaps(double dt, GapScratch& scratch)
         scratch.bodies[scratch.pairs[i].bodies.a].isStopped = true;
         scratch.bodies[scratch.pairs[i].bodies.b].isStopped = true;
     }
-    for (GapBody& body : scratch.bodies) {
+    forEach(scratch.bodies.size(), kShortWork, [&](std::size_t b) {
+        GapBody& body = scratch.bodies[b];
         body.velocityBefore = body.velocity;
         body.spinBefore = body.spin;
-        if (body.inverseMass == 0.0) continue;
+        if (body.inverseMass == 0.0) return;
         const Vec3 turning = body.inverseInertia * body.torque;
         body.velocity += dt * body.pull;
         body.spin += dt * turning;
         body.angularImpulse += dt * body.torque;
-        if (body.isStopped) continue;
+        if (body.isStopped) return;
         body.shift -= 0.5 * dt * dt * body.pull;
         body.turn -= 0.5 * dt * dt * turning;
-    }
+    });
     forPairs(scratch, [&](std::size_t i) {
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
             GapRow& row = scratch.rows[r];
@@ -233,20 +234,8 @@ ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLeve
                           GapScratch& scratch)
 {
     handWeightDown(settings, dt, levels, scratch);
-    // What is most of the work by itself is shared by threads, all others are solved at once, each
-    // by one thread: a thread that waits for its half of an island must not begin another, and
-    // halves of an island that is small beside the rest are too little to wake a thread for.
-    std::vector<const GapIsland*> others;
-    for (const GapIsland& island : scratch.islands) {
-        if (2 * island.rowCount < scratch.rows.size())
-            others.push_back(&island);
-        else
-            solveIsland(settings, dt, scratch, island, true);
-    }
-    parallelFor(others.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            solveIsland(settings, dt, scratch, *others[i], false);
-    });
+    forIslands(scratch,
+               [&](std::size_t i) { solveIsland(settings, dt, scratch, scratch.islands[i]); });
     return countImpulses(scratch);
 }
 

@@ -64,22 +64,20 @@ LaneMask sticks(Lanes friction, const Lanes3& impulse)
 
 }  // namespace
 
-/// Calls work(half) for 0 and 1, at once where the island is shared. What is not shared keeps to
-/// its thread: while that waited for others it might begin another island, in the same GapLanes.
+/// Calls work(half) for 0 and 1, at once if there are two.
 template <class Work>
 void GapLanes::inHalves(const Work& work)
 {
-    forEach(2, isShared_ ? 1 : 2, work);
+    forEach(2, sections_[1].firstBody == sections_[1].endBody ? 2 : 1, work);
 }
 
-void GapLanes::build(const GapScratch& scratch, const GapIsland& island, bool mayShare)
+void GapLanes::build(const GapScratch& scratch, const GapIsland& island)
 {
     PairParts parts;
     if (island.rowCount < kRowsWorthACut)
         parts[0] = island.pairs;
     else
         parts = partsOf(scratch, island.pairs);
-    isShared_ = mayShare && !parts[1].empty();
     resistsRolling_ = anyResistsSpin(scratch, island);
     beginsAnew_ = true;
     collectBodies(scratch, parts);

@@ -23,9 +23,8 @@ struct GapSweep {
 
 class GapLanes {
 public:
-    /// Lays the rows of an island and their bodies out. `mayShare`: from now on another thread may
-    /// take a half; the bits are the same.
-    void build(const GapScratch& scratch, const GapIsland& island, bool mayShare);
+    /// Lays the rows of an island and their bodies out.
+    void build(const GapScratch& scratch, const GapIsland& island);
 
     /// The bodies take the impulses that the rows begin with.
     void begin();
@@ -124,7 +123,6 @@ private:
     static Lanes3 velocityAt(const Row& row, const Batch& batch, const Motion& motion);
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
-    bool isShared_ = false;  // between two threads
     bool resistsRolling_ = false;
     // The bodies of the island, section by section, then what cannot be moved. Idle lanes have the
     // first, which is none.

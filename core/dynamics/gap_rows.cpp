@@ -129,6 +129,17 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
     }
 }
 
+/// Two halves at once.
+template <class Item>
+void sortInHalves(std::vector<Item>& items)
+{
+    const auto middle = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
+    forEach(2, 1, [&](std::size_t half) {
+        std::sort(half == 0 ? items.begin() : middle, half == 0 ? middle : items.end());
+    });
+    std::inplace_merge(items.begin(), middle, items.end());
+}
+
 /// Islands in the order of their lowest pairs.
 void cutIntoIslands(GapScratch& scratch)
 {
@@ -144,6 +155,10 @@ void cutIntoIslands(GapScratch& scratch)
             island.isRemembered = island.isRemembered || pair.isCarried;
         }
     }
+    // What one island needs is in the cache until it is done with.
+    scratch.order.clear();
+    for (const GapIsland& island : scratch.islands)
+        scratch.order.insert(scratch.order.end(), island.pairs.begin(), island.pairs.end());
 }
 
 /// Cuts an island where its bodies spread most, across gravity or not.
@@ -195,25 +210,36 @@ void shareOut(GapScratch& scratch)
 std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
                                                     const std::vector<std::size_t>& pairs)
 {
-    DisjointSets sets(scratch.bodies.size());
     const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    // Few bodies of a large world may be in these pairs: what is done for each is done for those.
+    thread_local std::vector<std::int32_t> placeOf;
+    placeOf.resize(scratch.bodies.size(), -1);
+    std::vector<BodyId> met;
+    for (const std::size_t i : pairs) {
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (!isMovable(body) || placeOf[body] >= 0) continue;
+            placeOf[body] = static_cast<std::int32_t>(met.size());
+            met.push_back(body);
+        }
+    }
+    DisjointSets sets(met.size());
     for (const std::size_t i : pairs) {
         const auto [a, b] = scratch.pairs[i].bodies;
-        if (isMovable(a) && isMovable(b))
-            sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+        if (isMovable(a) && isMovable(b)) sets.join(placeOf[a], placeOf[b]);
     }
-    std::vector<std::int32_t> placeOf(scratch.bodies.size(), -1);
+    std::vector<std::int32_t> listOf(met.size(), -1);
     std::vector<std::vector<std::size_t>> together;
     for (const std::size_t i : pairs) {
         const auto [a, b] = scratch.pairs[i].bodies;
         if (!isMovable(a) && !isMovable(b)) continue;
-        std::int32_t& place = placeOf[sets.find(static_cast<std::size_t>(isMovable(a) ? a : b))];
-        if (place < 0) {
-            place = static_cast<std::int32_t>(together.size());
+        std::int32_t& list = listOf[sets.find(placeOf[isMovable(a) ? a : b])];
+        if (list < 0) {
+            list = static_cast<std::int32_t>(together.size());
             together.emplace_back();
         }
-        together[place].push_back(i);
+        together[list].push_back(i);
     }
+    for (const BodyId body : met) placeOf[body] = -1;
     return together;
 }
 
@@ -345,7 +371,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
     });
 
     // Bottom to top: what carries is solved before what is carried.
-    std::sort(byHeight.begin(), byHeight.end());
+    sortInHalves(byHeight);
     scratch.order.clear();
     for (const auto& [height, pair] : byHeight) scratch.order.push_back(pair);
     cutIntoIslands(scratch);

@@ -67,7 +67,7 @@ struct GapRow {
 /// anew.
 struct NearPair {
     BodyPair bodies;
-    std::unique_ptr<NearFeatures> near = std::make_unique<NearFeatures>();
+    std::unique_ptr<NearFeatures> near;
     std::vector<GapContact> contacts;
     double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
     double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
@@ -134,7 +134,7 @@ struct GapScratch {
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< pair by pair
-    std::vector<std::size_t> order;  ///< of the pairs: bottom to top
+    std::vector<std::size_t> order;  ///< of the pairs: island by island, bottom to top
     std::vector<GapIsland> islands;
     std::vector<GapImpact> impacts;                 ///< of this step
     std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember
@@ -150,6 +150,22 @@ template <class Work>
 void forPairs(const GapScratch& scratch, const Work& work)
 {
     forEach(scratch.pairs.size(), kShortWork, work);
+}
+
+/// Calls work(index) for all islands; they share no movable body. What is most of all rows by
+/// itself may share its loops with all threads, the others are worked on at once, each by one.
+template <class Work>
+void forIslands(const GapScratch& scratch, const Work& work)
+{
+    const auto isMost = [&](std::size_t i) {
+        return 2 * scratch.islands[i].rowCount >= scratch.rows.size();
+    };
+    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
+        if (isMost(i)) work(i);
+    }
+    forEach(scratch.islands.size(), 1, [&](std::size_t i) {
+        if (!isMost(i)) work(i);
+    });
 }
 
 /// Those of the pairs together that share movable bodies, directly or through others; pairs without

@@ -711,13 +711,30 @@ void expectSameMotion(const std::vector<GapBody>& some, const std::vector<GapBod
     }
 }
 
-void expectRowsAbreastAreRowsOneByOne(bool rolling)
+/// The rows in the order of a sweep: those of a cut island part by part.
+std::vector<std::size_t> rowsInOrder(const GapScratch& scratch)
+{
+    std::vector<std::size_t> rows;
+    const bool isCut = scratch.rows.size() >= kRowsWorthACut;
+    for (int part = 0; part < (isCut ? 3 : 1); ++part) {
+        for (const GapPair& pair : scratch.pairs) {
+            if (isCut && pair.part != part) continue;
+            for (std::size_t r = pair.begin; r < pair.end; ++r) rows.push_back(r);
+        }
+    }
+    return rows;
+}
+
+void expectRowsAbreastAreRowsOneByOne(bool rolling, std::uint64_t seeds = 20,
+                                      std::uint64_t size = 12)
 {
     int resisted = 0;
     GapLanes lanes;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        GapScratch plain = randomHeap(seed, rolling), abreast = randomHeap(seed, rolling);
-        lanes.build(abreast, abreast.islands[0], true);
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        GapScratch plain = randomHeap(seed, rolling, size);
+        GapScratch abreast = randomHeap(seed, rolling, size);
+        const std::vector<std::size_t> rows = rowsInOrder(plain);
+        lanes.build(abreast, abreast.islands[0]);
         for (int sweep = 0; sweep < 3; ++sweep) {
             double residual = 0.0, fastest = 0.0;
             const auto visit = [&](std::size_t r) {
@@ -725,13 +742,13 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
                 residual =
                     std::max(residual, visitRow(row, plain.bodies[row.a], plain.bodies[row.b]));
             };
-            for (std::size_t r = 0; r < plain.rows.size(); ++r) {
+            for (const std::size_t r : rows) {
                 const GapRow& row = plain.rows[r];
                 const Vec3 u = velocityAt(row, plain.bodies[row.a], plain.bodies[row.b]);
                 fastest = std::max(fastest, u.norm());
                 visit(r);
             }
-            for (std::size_t r = plain.rows.size(); r-- > 0;) visit(r);
+            for (std::size_t i = rows.size(); i-- > 0;) visit(rows[i]);
             const GapSweep swept = lanes.sweep();
             EXPECT_NEAR(swept.residual, residual, 1e-11);
             EXPECT_NEAR(swept.fastest, fastest, 1e-11);
@@ -747,7 +764,7 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling)
         // What was found is taken up again where the next step begins.
         stop(abreast.bodies);
         stop(plain.bodies);
-        lanes.build(abreast, abreast.islands[0], true);
+        lanes.build(abreast, abreast.islands[0]);
         lanes.begin();
         lanes.store(abreast);
         applyAll(abreast.rows, plain.bodies);
@@ -764,12 +781,12 @@ TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
 /// Between two sweeps bodies go on by themselves and impulses by themselves.
 TEST(GapLanes, GoingOnMovesBodiesByWhatIsAddedToTheImpulses)
 {
-    for (const bool rolling : {false, true}) {
+    for (const std::uint64_t size : {12, 300}) {  // the larger one is cut
         for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-            GapScratch scratch = randomHeap(seed, rolling);
+            GapScratch scratch = randomHeap(seed, seed % 2 == 0, size);
             std::vector<GapBody> told = scratch.bodies;
             GapLanes lanes;
-            lanes.build(scratch, scratch.islands[0], true);
+            lanes.build(scratch, scratch.islands[0]);
             double energy = 0.0;
             lanes.sweep();
             for (int sweep = 0; sweep < 5; ++sweep) {
@@ -783,13 +800,14 @@ TEST(GapLanes, GoingOnMovesBodiesByWhatIsAddedToTheImpulses)
     }
 }
 
-TEST(GapLanes, SharedOrNotAnIslandThatIsCutHasTheSameBits)
+TEST(GapLanes, AnIslandThatIsCutHasTheSameBitsOnOneAndTwoThreads)
 {
-    const auto solved = [](bool mayShare, bool rolling) {
+    const auto solved = [](int threads, bool rolling) {
+        setThreadCount(threads);
         GapScratch scratch = randomHeap(3, rolling, 300);
         EXPECT_GT(scratch.rows.size(), kRowsWorthACut);
         GapLanes lanes;
-        lanes.build(scratch, scratch.islands[0], mayShare);
+        lanes.build(scratch, scratch.islands[0]);
         double energy = 0.0;
         for (int sweep = 0; sweep < 4; ++sweep) {
             lanes.sweep();
@@ -797,36 +815,45 @@ TEST(GapLanes, SharedOrNotAnIslandThatIsCutHasTheSameBits)
         }
         lanes.sweep();
         lanes.store(scratch);
-        return scratch.rows;
+        setThreadCount(1);
+        return scratch;
     };
-    setThreadCount(2);
     for (const bool rolling : {false, true}) {
-        const std::vector<GapRow> shared = solved(true, rolling), alone = solved(false, rolling);
-        for (std::size_t r = 0; r < shared.size(); ++r) {
-            EXPECT_EQ(shared[r].impulse, alone[r].impulse);
-            EXPECT_EQ(shared[r].couple, alone[r].couple);
+        const GapScratch alone = solved(1, rolling), shared = solved(2, rolling);
+        for (std::size_t r = 0; r < shared.rows.size(); ++r) {
+            EXPECT_EQ(shared.rows[r].impulse, alone.rows[r].impulse);
+            EXPECT_EQ(shared.rows[r].couple, alone.rows[r].couple);
+        }
+        for (std::size_t i = 0; i < shared.bodies.size(); ++i) {
+            EXPECT_EQ(shared.bodies[i].velocity, alone.bodies[i].velocity);
+            EXPECT_EQ(shared.bodies[i].spin, alone.bodies[i].spin);
         }
     }
-    setThreadCount(1);
 }
 
 TEST(GapLanes, NothingIsLeftOfTheIslandBefore)
 {
     GapLanes lanes;
     GapScratch scratch = randomHeap(1, true);
-    lanes.build(scratch, scratch.islands[0], true);
+    lanes.build(scratch, scratch.islands[0]);
     lanes.sweep();
 
     stop(scratch.bodies);
     for (GapRow& row : scratch.rows) row.target = 0.0;
     scratch.islands[0].pairs = {0};
-    lanes.build(scratch, scratch.islands[0], true);
+    lanes.build(scratch, scratch.islands[0]);
     EXPECT_EQ(lanes.sweep().residual, 0.0);
 }
 
 TEST(GapLanes, RowsAbreastThatResistRollingAreRowsVisitedOneByOneToo)
 {
     expectRowsAbreastAreRowsOneByOne(true);
+}
+
+TEST(GapLanes, SoAreThoseOfAnIslandThatIsCut)
+{
+    expectRowsAbreastAreRowsOneByOne(false, 2, 300);
+    expectRowsAbreastAreRowsOneByOne(true, 2, 300);
 }
 
 }  // namespace
