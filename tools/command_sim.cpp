@@ -80,6 +80,7 @@ public:
         if (!options.from.empty()) branch = parseBranch(options.from);
         take_.emplace(folder, shot_, world_, programVersion(), existing, branch);
         for (const std::string& notice : take_->notices()) console.warning(notice);
+        std::vector<ShotBody>().swap(shot_.bodies);  // the world has them; a kilobyte each
     }
 
     int run()
