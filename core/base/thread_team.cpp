@@ -37,8 +37,7 @@ ThreadTeam::ThreadTeam(int count) : shares_(static_cast<std::size_t>(std::max(co
 ThreadTeam::~ThreadTeam()
 {
     isOver_ = true;
-    ++calls_;
-    calls_.notify_all();
+    call(shares_.size());
     for (std::thread& helper : helpers_) helper.join();
 }
 
@@ -48,16 +47,15 @@ bool ThreadTeam::share(std::size_t count, std::size_t grain, const Body& body)
     const std::unique_lock lock(sharing_, std::try_to_lock);
     if (!lock) return false;
 
-    loop_ = {&body, count, grain};
     const std::size_t ranges = (count + grain - 1) / grain;
-    for (std::size_t s = 0; s < shares_.size(); ++s) {
-        shares_[s].next = ranges * s / shares_.size();
-        shares_[s].end = ranges * (s + 1) / shares_.size();
+    loop_ = {&body, count, grain, std::min(ranges, shares_.size())};
+    for (std::size_t s = 0; s < loop_.shares; ++s) {
+        shares_[s].next = ranges * s / loop_.shares;
+        shares_[s].end = ranges * (s + 1) / loop_.shares;
     }
     hasFailed_ = false;
     door_ = kIsOpen | ((door_ + 1) & kLoopNumber);
-    ++calls_;
-    calls_.notify_all();
+    call(loop_.shares);
     isAtWork = true;
     work(0);
     isAtWork = false;
@@ -67,27 +65,36 @@ bool ThreadTeam::share(std::size_t count, std::size_t grain, const Body& body)
     return true;
 }
 
+/// The helpers that have one of the first shares. The others may sleep.
+void ThreadTeam::call(std::size_t shares)
+{
+    for (std::size_t s = 1; s < shares; ++s) {
+        ++shares_[s].calls;
+        shares_[s].calls.notify_one();
+    }
+}
+
 void ThreadTeam::help(std::size_t self)
 {
     isAtWork = true;
+    const Share& own = shares_[self];
     std::uint64_t lastLoop = 0;
-    for (int call = 0; !isOver_; call = calls_) {
+    for (int last = 0; !isOver_; last = own.calls) {
         if (enter(lastLoop)) {
             work(self);
             door_ -= kOneInside;
         }
-        waitFor(call);
+        waitForCall(own, last);
     }
 }
 
-/// Comes back when more has been called than that.
-void ThreadTeam::waitFor(int call) const
+void ThreadTeam::waitForCall(const Share& own, int last) const
 {
     for (int pauses = 0; pauses < pauses_; ++pauses) {
-        if (calls_ != call) return;
+        if (own.calls != last) return;
         pauseAfter(pauses);
     }
-    calls_.wait(call);
+    own.calls.wait(last);
 }
 
 /// Into a loop that is still open and not the last one again.
@@ -105,7 +112,7 @@ bool ThreadTeam::enter(std::uint64_t& lastLoop)
 /// One's own share, then what others have left of theirs.
 void ThreadTeam::work(std::size_t first)
 {
-    for (std::size_t s = 0; s < shares_.size(); ++s) workOff(shares_[(first + s) % shares_.size()]);
+    for (std::size_t s = 0; s < loop_.shares; ++s) workOff(shares_[(first + s) % loop_.shares]);
 }
 
 void ThreadTeam::workOff(Share& share)

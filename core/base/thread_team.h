@@ -35,19 +35,22 @@ public:
     bool share(std::size_t count, std::size_t grain, const Body& body);
 
 private:
-    /// Ranges first to end − 1 are for one thread, until it has done them and takes from others.
+    /// Ranges next to end − 1 are for one thread, until it has done them and takes from others.
     /// Two lines of the cache each.
     struct alignas(128) Share {
         std::atomic<std::size_t> next = 0;
         std::size_t end = 0;
+        std::atomic<int> calls = 0;  // what its thread waits for
     };
     struct Loop {
         const Body* body = nullptr;
         std::size_t count = 0, grain = 1;
+        std::size_t shares = 0;  // in use: of few ranges not everybody gets one
     };
 
+    void call(std::size_t shares);
     void help(std::size_t self);
-    void waitFor(int call) const;
+    void waitForCall(const Share& own, int last) const;
     bool enter(std::uint64_t& lastLoop);
     void work(std::size_t first);
     void workOff(Share& share);
@@ -59,8 +62,8 @@ private:
     // Whether helpers may enter, how many are inside, and the number of the loop. Who comes late
     // finds the door shut: nobody waits for him.
     alignas(128) std::atomic<std::uint64_t> door_ = 0;
-    alignas(128) std::atomic<int> calls_ = 0;  // what helpers wait for
-    std::atomic<bool> isOver_ = false, hasFailed_ = false;
+    alignas(128) std::atomic<bool> isOver_ = false;
+    std::atomic<bool> hasFailed_ = false;
     std::mutex keeping_;
     std::exception_ptr error_;
     int pauses_ = 0;  // that a helper waits awake
