@@ -6,10 +6,11 @@
 namespace scree {
 namespace {
 
-/// About a millisecond; with more threads than processors, somebody else needs the time.
-constexpr int kPausesAwake = 20000;
-/// About 50 µs. Who has waited for longer lets others go first.
+/// Who has waited for so long, 10 to 50 µs by the processor, lets others go first.
 constexpr int kPausesBeforeYield = 1000;
+/// About a millisecond; four were no faster. With more threads than processors somebody else needs
+/// the time.
+constexpr int kPausesAwake = 5000;
 
 constexpr std::uint64_t kIsOpen = 1ull << 63, kOneInside = 1ull << 48;
 constexpr std::uint64_t kInside = kIsOpen - kOneInside, kLoopNumber = kOneInside - 1;

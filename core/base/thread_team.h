@@ -2,7 +2,7 @@
 //
 // A step of a thousand bodies is some two hundred loops of 5 to 500 µs, and two in each sweep over
 // the contacts. Threads that fall asleep between two of them cost more to wake than many of them
-// take, so those of a team wait awake for a millisecond. And each begins with its own share of the
+// take, so those of a team wait awake for a while. And each begins with its own share of the
 // indices, the same in every loop of that length: what it wrote in the last sweep is in its cache.
 // Given to TBB, the same loops took 4 % longer (a thousand rings, two threads).
 #pragma once
