@@ -1,0 +1,356 @@
+// Symbols: s gap, u normal velocity (approaching < 0), g relative acceleration along the normal,
+//          t time of impact within the step, e restitution.
+//
+// The paper bounces a body where it is when its prediction interferes: up to v dt too early, and an
+// elastic bounce loses v dt of height. Here the gap says when the surfaces meet. The speed there
+// decides the impulse, and the body moves with its old velocity until then, so that a bounce is
+// right to rounding at any step length.  [A28]
+//
+// No threshold velocity decides what bounces. But a bounce that is over before the step ends cannot
+// be shown: if gravity would bring the body back within the rest of the step, it does not bounce.
+// Heaps that come to rest do it here, at speeds of g dt.
+//
+// What is hit from two sides at once is solved at once. One pair after the other, the first made
+// two balls that ran into a third from either side leave with speeds a tenth apart. Blows that
+// follow from each other still run on pair by pair: solved at once they would not pass along a row.
+#include "core/dynamics/gap_impacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/contact_point.h"
+#include "core/dynamics/friction.h"
+#include "core/dynamics/gap_contact.h"
+
+namespace scree {
+namespace {
+
+constexpr int kMostPairSweeps = 20;
+constexpr double kPairIsSolved = 1e-4;  // of the speed of the impact
+
+/// Places that are hit within this share of a step are hit together.
+constexpr double kTogether = 0.01;
+
+/// Whether what hits there has come from afar in this step: it was neither hit already nor did
+/// its bodies lie on each other.
+bool arrives(const Impact& hit)
+{
+    return !hit.row->wasHit && !hit.isCarried;
+}
+
+}  // namespace
+
+PairsOfBodies::PairsOfBodies(const GapScratch& scratch) : begin_(scratch.bodies.size() + 1, 0)
+{
+    const auto forBodies = [&](const auto& visit) {
+        for (const std::size_t i : scratch.order) {
+            for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+                if (scratch.bodies[body].inverseMass > 0.0) visit(body, i);
+            }
+        }
+    };
+    forBodies([&](BodyId body, std::size_t) { ++begin_[body + 1]; });
+    for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+    pairs_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    forBodies([&](BodyId body, std::size_t i) { pairs_[next[body]++] = i; });
+}
+
+ImpactState::ImpactState(const StepSettings& chosen, double step, GapScratch& rows)
+    : settings(chosen),
+      dt(step),
+      slowest(slowestApproach(chosen, step)),
+      scratch(rows),
+      held(heldAsBefore(step, rows)),
+      impacts(rows.bodies.size()),
+      doneAt(rows.pairs.size(), 0),
+      gatheredAt(rows.pairs.size(), 0)
+{
+}
+
+double ImpactVisits::timeOf(const GapPair& pair) const
+{
+    double time = -1.0;
+    Impact impact{};
+    for (std::size_t r = pair.begin; r < pair.end; ++r) {
+        if (!impactOf(pair, scratch_.rows[r], impact)) continue;
+        time = time < 0.0 ? impact.time : std::min(time, impact.time);
+    }
+    return time;
+}
+
+/// What lies on something does not fall on what lies a hair below it: of gravity only that
+/// brings the two together which what held their bodies in the last step would let through now.
+/// A ring that hung on three corners of a pole fell on a fourth 0.4 mm away, through the three,
+/// and was pushed out again, step after step.
+Vec3 ImpactVisits::gravityAt(const GapRow& row) const
+{
+    const Vec3 free = scratch_.bodies[row.a].pull - scratch_.bodies[row.b].pull;
+    const double g = free.dot(row.normal);
+    if (g >= 0.0) return free;
+    const Held &a = state_.held[row.a], &b = state_.held[row.b];
+    const Vec3 held =
+        a.acceleration + a.turning.cross(row.rA) - b.acceleration - b.turning.cross(row.rB);
+    return free + std::clamp(held.dot(row.normal), 0.0, -g) * row.normal;
+}
+
+/// False when the row is not going to be hit within the step.
+bool ImpactVisits::impactOf(const GapPair& pair, GapRow& row, Impact& impact) const
+{
+    const GapBody& a = scratch_.bodies[row.a];
+    const GapBody& b = scratch_.bodies[row.b];
+    const Vec3 relative = velocityAt(row, a, b);
+    const double u = relative.dot(row.normal);
+    const double s = std::max(row.gap, 0.0);
+    const double atRest = s + shiftAt(row, a, b);
+    const auto end = [&](double g) { return atRest + state_.dt * (u + 0.5 * g * state_.dt); };
+    // Most rows are not even closed by all of gravity.
+    if (end((a.pull - b.pull).dot(row.normal)) >= 0.0) return false;
+    const Vec3 gravity = gravityAt(row);
+    const double g = gravity.dot(row.normal);
+    if (end(g) >= 0.0) return false;
+    const double root = u * u - 2.0 * g * s;
+    if (root < 0.0) return false;
+    // Once hit, what it hits again in the same step was not a fall: the parabola is used up.
+    // What all of gravity would bring back within the step bounces no more: in a heap each blow
+    // makes many such, and they would go on for ever.
+    if (row.wasHit) {
+        const double fall = state_.dt * std::max(a.pull.norm(), b.pull.norm());
+        if (u >= -state_.slowest || 2.0 * row.restitution * -u <= fall) return false;
+        impact = {&row, pair.isCarried, relative, 0.0, -row.restitution * u, Vec3::Zero()};
+        return true;
+    }
+    const double closing = -u + std::sqrt(root);
+    if (s > 0.0 && closing <= 0.0) return false;  // only the shifts bring them together
+    const double time = s > 0.0 ? std::min(2.0 * s / closing, state_.dt) : 0.0;
+    const double speed = u + g * time;
+    if (speed >= -state_.slowest) return false;
+    // What lies on something that lies on the ground falls back on it with all of gravity, even
+    // if both are free to fall.
+    const double pull =
+        pair.isCarried ? std::max(a.pull.norm(), b.pull.norm()) : (b.pull - a.pull).dot(row.normal);
+    if (2.0 * row.restitution * -speed <= pull * (state_.dt - time)) return false;
+    impact = {&row,
+              pair.isCarried,
+              relative + time * gravity,
+              time,
+              u - (1.0 + row.restitution) * speed,
+              Vec3::Zero()};
+    return true;
+}
+
+/// True when nothing is left to be hit.
+bool ImpactVisits::resolvePair(std::size_t p)
+{
+    for (int n = 0; n < state_.settings.collisionPairImpulses; ++n) {
+        if (!gather(p)) {
+            left_.push_back(p);
+            return false;
+        }
+        if (hits_.empty()) return true;
+        for (const Impact& hit : hits_) hit.row->wasHit = true;
+        if (hits_.size() == 1) {
+            applyOne(hits_[0]);
+        } else {
+            applyTogether();
+        }
+    }
+    return false;
+}
+
+/// Fills hits_ with the first impacts of a pair, and those that come to its bodies, and on to
+/// the others of these, at the same time. False when some might come through what is left to
+/// somebody else.
+bool ImpactVisits::gather(std::size_t p)
+{
+    hits_.clear();
+    const double time = gatherFirst(p);
+    if (hits_.empty() || !arrives(hits_[0])) return true;
+    ++clock_;
+    state_.gatheredAt[p] = clock_;
+    toSpread_ = {scratch_.pairs[p].bodies.a, scratch_.pairs[p].bodies.b};
+    while (!toSpread_.empty()) {
+        const BodyId body = toSpread_.back();
+        toSpread_.pop_back();
+        for (const std::size_t q : state_.pairsOfBodies().of(body)) {
+            if (scratch_.pairs[q].isCarried) continue;
+            if (isOfHalf_ && scratch_.pairs[q].part == 2) return false;
+            if (state_.gatheredAt[q] == clock_) continue;
+            state_.gatheredAt[q] = clock_;
+            const std::size_t before = hits_.size();
+            gatherFirst(q);
+            dropHits(before, [&](const Impact& hit) {
+                return !arrives(hit) || std::abs(hit.time - time) > kTogether * state_.dt;
+            });
+            const auto [a, b] = scratch_.pairs[q].bodies;
+            if (hits_.size() > before) toSpread_.push_back(a == body ? b : a);
+        }
+    }
+    return true;
+}
+
+/// Of all places of a pair that would be hit, those that are hit first: what would follow may
+/// not, once these are answered. Answers their time.
+double ImpactVisits::gatherFirst(std::size_t p)
+{
+    const GapPair& pair = scratch_.pairs[p];
+    const std::size_t before = hits_.size();
+    double earliest = state_.dt;
+    Impact impact{};
+    for (std::size_t r = pair.begin; r < pair.end; ++r) {
+        if (!impactOf(pair, scratch_.rows[r], impact)) continue;
+        hits_.push_back(impact);
+        earliest = std::min(earliest, impact.time);
+    }
+    dropHits(before,
+             [&](const Impact& hit) { return hit.time > earliest + kTogether * state_.dt; });
+    return earliest;
+}
+
+template <class Which>
+void ImpactVisits::dropHits(std::size_t from, const Which& which)
+{
+    const auto begin = hits_.begin() + static_cast<std::ptrdiff_t>(from);
+    hits_.erase(std::remove_if(begin, hits_.end(), which), hits_.end());
+}
+
+/// How far the centres slide along each other until the impact, if both are free to.
+Vec3 ImpactVisits::slideUntil(const Impact& impact) const
+{
+    const GapRow& row = *impact.row;
+    if (!row.movesA || !row.movesB) return Vec3::Zero();
+    return impact.time * (scratch_.bodies[row.a].velocity - scratch_.bodies[row.b].velocity);
+}
+
+/// The row of an impact with the lever arms it has then: the place goes along with both.
+/// Angular momentum is kept so, and energy too. Keeps the arms of now where they alone see it
+/// coming.
+GapRow ImpactVisits::rowAt(Impact& impact) const
+{
+    GapRow row = *impact.row;
+    const GapBody& a = scratch_.bodies[row.a];
+    const GapBody& b = scratch_.bodies[row.b];
+    const Vec3 slid = slideUntil(impact);
+    row.impulse = Vec3::Zero();
+    row.target = impact.velocityAfter;
+    impact.slid = Vec3::Zero();
+    if (slid.isZero(0.0)) return row;
+    row.rA -= 0.5 * slid;
+    row.rB += 0.5 * slid;
+    const Vec3 velocity = velocityAt(row, a, b) + impact.time * gravityAt(row);
+    const double speed = velocity.dot(row.normal);
+    if (speed >= -state_.slowest) {
+        row.rA = impact.row->rA;
+        row.rB = impact.row->rB;
+        return row;
+    }
+    prepareRow(scratch_, row);
+    row.target = velocityAt(row, a, b).dot(row.normal) - (1.0 + row.restitution) * speed;
+    impact.velocity = velocity;
+    impact.slid = slid;
+    return row;
+}
+
+void ImpactVisits::applyOne(Impact& impact)
+{
+    const GapRow row = rowAt(impact);
+    const GapBody& a = scratch_.bodies[row.a];
+    const GapBody& b = scratch_.bodies[row.b];
+    const Mat3 k =
+        collisionMatrix(row.movesA ? PassInertia{a.inverseMass, a.inverseInertia} : PassInertia{},
+                        row.rA) +
+        collisionMatrix(row.movesB ? PassInertia{b.inverseMass, b.inverseInertia} : PassInertia{},
+                        row.rB);
+    const ContactImpulse j =
+        contactImpulse(k, impact.velocity, row.normal, row.restitution, row.friction);
+    applyImpulses(row, j.impulse, impact.time);
+    note(impact, j.impulse);
+    countImpulse(counts_, j.kind);
+}
+
+/// A face that lands flat is hit at all its corners at once. One by one they would make it
+/// spin. With friction, Newton's rule at several places can add energy, again and again;
+/// without it cannot, and that is what is left then.
+void ImpactVisits::applyTogether()
+{
+    double earliest = state_.dt;
+    for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
+    if (solveTogether(true) > 0.0) solveTogether(false);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const GapRow& row = rows_[i].row;
+        applyImpulses(row, row.worldImpulse(), earliest);
+        note(hits_[i], row.worldImpulse());
+        ++counts_.sticking;
+    }
+}
+
+/// Fills rows_ with the impulses of hits_; answers their work [J].
+double ImpactVisits::solveTogether(bool withFriction)
+{
+    rows_.clear();
+    after_.clear();
+    hitBodies_.clear();
+    double fastest = 0.0;
+    for (Impact& impact : hits_) {
+        GapRow row = rowAt(impact);
+        if (!withFriction) row.friction = 0.0;
+        fastest = std::max(fastest, impact.velocity.norm());
+        const std::size_t placeA = placeOf(row.a), placeB = placeOf(row.b);
+        rows_.push_back({row, placeA, placeB});
+    }
+    for (int sweep = 0; sweep < kMostPairSweeps; ++sweep) {
+        double residual = 0.0;
+        for (auto& [row, a, b] : rows_)
+            residual = std::max(residual, visitRow(row, after_[a], after_[b]));
+        if (residual <= kPairIsSolved * fastest) break;
+    }
+    double work = 0.0;
+    for (const auto& [row, a, b] : rows_) {
+        const Vec3 before = velocityAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
+        work += 0.5 * row.worldImpulse().dot(before + velocityAt(row, after_[a], after_[b]));
+    }
+    return work;
+}
+
+/// In after_. There are few.
+std::size_t ImpactVisits::placeOf(BodyId body)
+{
+    const auto found = std::find(hitBodies_.begin(), hitBodies_.end(), body);
+    if (found == hitBodies_.end()) {
+        hitBodies_.push_back(body);
+        after_.push_back(scratch_.bodies[body]);
+        return after_.size() - 1;
+    }
+    return static_cast<std::size_t>(found - hitBodies_.begin());
+}
+
+void ImpactVisits::note(const Impact& impact, const Vec3& impulse)
+{
+    noted_.push_back(
+        {static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse, impact.slid});
+}
+
+void ImpactVisits::applyImpulses(const GapRow& row, const Vec3& impulse, double time)
+{
+    if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, state_.impacts[row.a], time);
+    if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, state_.impacts[row.b], time);
+}
+
+void ImpactVisits::applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts,
+                           double time)
+{
+    const Vec3 dv = body.inverseMass * impulse;
+    const Vec3 dw = body.inverseInertia * r.cross(impulse);
+    body.velocity += dv;
+    body.spin += dw;
+    body.angularImpulse += r.cross(impulse);
+    impacts.velocity += dv;
+    impacts.spin += dw;
+    impacts.earliest = std::min(impacts.earliest, time);
+    impacts.changedAt = clock_;
+    body.hitAt = impacts.earliest;
+    body.shift = -impacts.earliest * impacts.velocity;
+    body.turn = -impacts.earliest * impacts.spin;
+}
+
+}  // namespace scree

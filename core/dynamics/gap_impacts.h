@@ -1,0 +1,145 @@
+// The impacts of a step of method `scree`, pair by pair: what is hit, when, and what it does to its
+// bodies.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/dynamics/gap_held.h"
+#include "core/dynamics/gap_rows.h"
+
+namespace scree {
+
+/// The clock of an island when its visits begin.
+constexpr std::int64_t kBeforeAll = 1;
+
+/// What the impacts of this step have done to a body so far. Two cache lines, since they are
+/// fetched by twos: two threads write to neighbours.
+struct alignas(128) Impacts {
+    Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
+    double earliest = std::numeric_limits<double>::infinity();
+    std::int64_t changedAt = 0;  // the visit of a pair that changed it last
+};
+
+struct Impact {
+    GapRow* row;
+    bool isCarried;            // as its pair
+    Vec3 velocity;             // relative, at the moment of impact
+    double time;               // within the step
+    double velocityAfter;      // normal velocity that makes it leave as it must
+    Vec3 slid = Vec3::Zero();  // what its lever arms have allowed for
+};
+
+/// The pairs that have rows, by movable body, in the order of visits.
+class PairsOfBodies {
+public:
+    explicit PairsOfBodies(const GapScratch& scratch);
+
+    std::span<const std::size_t> of(BodyId body) const
+    {
+        return std::span(pairs_).subspan(begin_[body], begin_[body + 1] - begin_[body]);
+    }
+
+private:
+    std::vector<std::size_t> begin_, pairs_;
+};
+
+/// What is known of the impacts of a step, by body, row and pair. Visits of pairs that share no
+/// movable body read and write different parts of it.
+struct ImpactState {
+    ImpactState(const StepSettings& chosen, double step, GapScratch& rows);
+
+    void findPairsOfBodies() { pairsOf_.emplace(scratch); }
+    const PairsOfBodies& pairsOfBodies() const { return *pairsOf_; }
+
+    const StepSettings& settings;
+    double dt, slowest;
+    GapScratch& scratch;
+    std::vector<Held> held;
+    std::vector<Impacts> impacts;
+    // Of each pair, by the clock of its island: the last visit that ended with nothing left to be
+    // hit, 0: none; and the last look at it.
+    std::vector<std::int64_t> doneAt, gatheredAt;
+
+private:
+    std::optional<PairsOfBodies> pairsOf_;
+};
+
+/// Visits pairs one by one. Two lines of the cache apart: the visits of halves are written to by
+/// two threads.
+class alignas(128) ImpactVisits {
+public:
+    /// `half`: of pairs of one half. Those whose blows may reach the other are left to somebody
+    /// else.
+    enum class Of { all, half };
+    ImpactVisits(ImpactState& state, Of pairs)
+        : state_(state), scratch_(state.scratch), isOfHalf_(pairs == Of::half)
+    {
+    }
+
+    /// Those that were left since the last call.
+    std::vector<std::size_t> takeLeft() { return std::exchange(left_, {}); }
+
+    /// Ticks with what is found and done: a pair is done with until one of its bodies has changed
+    /// since. Who goes on with the pairs of others goes on with the latest of their clocks.
+    std::int64_t clock() const { return clock_; }
+    void setClock(std::int64_t clock) { clock_ = clock; }
+
+    const ImpulseCounts& counts() const { return counts_; }
+    const std::vector<GapImpact>& impacts() const { return noted_; }
+
+    /// When the first row of a pair will be hit; negative: none will.
+    double timeOf(const GapPair& pair) const;
+
+    void visit(std::size_t p)
+    {
+        const auto [a, b] = scratch_.pairs[p].bodies;
+        const std::int64_t changedAt =
+            std::max(state_.impacts[a].changedAt, state_.impacts[b].changedAt);
+        if (state_.doneAt[p] > changedAt) return;
+        if (resolvePair(p)) state_.doneAt[p] = ++clock_;
+    }
+
+private:
+    struct RowOfHit {
+        GapRow row;
+        std::size_t a, b;  // in after_
+    };
+
+    Vec3 gravityAt(const GapRow& row) const;
+    bool impactOf(const GapPair& pair, GapRow& row, Impact& impact) const;
+    bool resolvePair(std::size_t p);
+    bool gather(std::size_t p);
+    double gatherFirst(std::size_t p);
+    template <class Which>
+    void dropHits(std::size_t from, const Which& which);
+    Vec3 slideUntil(const Impact& impact) const;
+    GapRow rowAt(Impact& impact) const;
+    void applyOne(Impact& impact);
+    void applyTogether();
+    double solveTogether(bool withFriction);
+    std::size_t placeOf(BodyId body);
+    void note(const Impact& impact, const Vec3& impulse);
+    void applyImpulses(const GapRow& row, const Vec3& impulse, double time);
+    void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts, double time);
+
+    ImpactState& state_;
+    GapScratch& scratch_;
+    std::int64_t clock_ = kBeforeAll;
+    bool isOfHalf_;
+    std::vector<std::size_t> left_;
+    ImpulseCounts counts_;
+    std::vector<GapImpact> noted_;
+    std::vector<BodyId> toSpread_;
+    std::vector<Impact> hits_;
+    std::vector<RowOfHit> rows_;     // of hits_
+    std::vector<BodyId> hitBodies_;  // of these
+    std::vector<GapBody> after_;     // the same ones, as the blows leave them
+};
+
+}  // namespace scree
