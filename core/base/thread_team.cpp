@@ -44,7 +44,7 @@ ThreadTeam::~ThreadTeam()
 
 bool ThreadTeam::share(std::size_t count, std::size_t grain, const Body& body)
 {
-    if (isAtWork) return false;
+    if (isAtWork) return false;  // who holds a mutex must not try it
     const std::unique_lock lock(sharing_, std::try_to_lock);
     if (!lock) return false;
 
