@@ -1,6 +1,7 @@
 #include "core/collision/near_features.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -151,6 +152,12 @@ double roundingOf(const RelativePair& pair)
     return kSinglePrecision * (pair.first.boundingRadius + pair.translation.norm());
 }
 
+/// How far beyond its reach a look sees [m].
+double lookAhead(const RelativePair& pair, double reach)
+{
+    return std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair.first, pair.second));
+}
+
 /// The next free lane of eights that are filled one lane after the other.
 template <class Eight>
 std::pair<Eight&, std::size_t> nextLane(std::vector<Eight>& eights, std::size_t& filled)
@@ -182,21 +189,71 @@ double apartAtLeast(const PlacedPair& bodies)
     return apart - bulgeOf(pair);
 }
 
-void NearFeatures::moveTo(const RelativePair& pair)
+/// Distances change no faster than points move. So for every feature there is a place on the way of
+/// the pair (how far any point has moved in the frame of the other body, added up) before which it
+/// need not be looked at; and for most pairs one for all of them.
+class alignas(64) NearFeatures::Memory {
+public:
+    /// Follows the pair; answers whether it has to be looked at again.
+    bool isStaleAt(const RelativePair& pair, double reach);
+
+    /// Adds all contacts below `reach`; with `isNew` all features are looked at first.
+    void addContacts(const RelativePair& pair, const RelativePair& back, const ToWorld& ofA,
+                     const ToWorld& ofB, double reach, bool isNew, ContactList& list);
+
+    /// How much longer a way there is, in the world, before there may be others [m].
+    double farFor(const RelativePair& pair) const;
+
+    void prefetchLists() const;
+
+private:
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    static constexpr FloatLanes kNever = {kInfinity, kInfinity, kInfinity, kInfinity,
+                                          kInfinity, kInfinity, kInfinity, kInfinity};
+
+    /// What is told eight at a time, in single precision, on the way since the last look [m]. Lanes
+    /// that are left over are infinitely far.
+    struct alignas(64) NearCorners {
+        FloatLanes farUntil = kNever;  // how far they were when last looked at
+        std::array<std::int32_t, kFloatLanes> corner = {};
+    };
+    struct alignas(64) NearEdges {
+        FloatLanes farUntil = kNever;
+        FloatLanes outsideUntil = kNever;  // the way until which they cannot have crossed
+        std::array<std::int32_t, kFloatLanes> ofA = {}, ofB = {};
+    };
+    void look(const RelativePair& pair, const RelativePair& back, double reach,
+              std::vector<NearEdges>& found);
+    void lookAtCorners(const RelativePair& pair, std::vector<NearCorners>& near) const;
+    void lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach,
+                     std::vector<NearEdges>& found) const;
+    void faceCorners(const RelativePair& pair, FeatureKind kind, const ToWorld& toWorld,
+                     double reach, std::vector<NearCorners>& near, ContactList& list) const;
+    void touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
+                    std::vector<NearEdges>& near, ContactList& list) const;
+    void keep(const std::vector<NearEdges>& found, double reach);
+
+    double moved_ = 0.0;                // the way since the last look [m]
+    double window_ = 0.0;               // for which that is good [m]
+    double clearance_ = 0.0;            // everything nearer was noted then [m]
+    Mat3 rotation_ = Mat3::Identity();  // B from A, when last asked about
+    Vec3 translation_ = Vec3::Zero();
+    std::vector<NearCorners> cornersOfA_, cornersOfB_;
+    std::vector<NearEdges> edges_;
+};
+
+bool NearFeatures::Memory::isStaleAt(const RelativePair& pair, double reach)
 {
     // The norm of what two rotations differ by is √2 times the chord of a point at unit distance.
     const double chord = (pair.rotation - rotation_).norm() / std::numbers::sqrt2;
     moved_ += (pair.translation - translation_).norm() + chord * leverOf(pair);
     rotation_ = pair.rotation;
     translation_ = pair.translation;
+    return moved_ > window_ || reach + moved_ > clearance_;
 }
 
-bool NearFeatures::isStale(double reach) const
-{
-    return !isKnown_ || moved_ > window_ || reach + moved_ > clearance_;
-}
-
-void NearFeatures::lookAtCorners(const RelativePair& pair, std::vector<NearCorners>& near) const
+void NearFeatures::Memory::lookAtCorners(const RelativePair& pair,
+                                         std::vector<NearCorners>& near) const
 {
     thread_local std::vector<NearCorners> found;
     found.clear();
@@ -218,8 +275,8 @@ void NearFeatures::lookAtCorners(const RelativePair& pair, std::vector<NearCorne
     near.assign(found.begin(), found.end());
 }
 
-void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach,
-                               std::vector<NearEdges>& found) const
+void NearFeatures::Memory::lookAtEdges(const RelativePair& pair, const RelativePair& back,
+                                       double reach, std::vector<NearEdges>& found) const
 {
     const ContactFeatures &first = pair.first.features, &second = pair.second.features;
     if (first.edges().empty() || second.edges().empty()) return;
@@ -256,35 +313,22 @@ void NearFeatures::lookAtEdges(const RelativePair& pair, const RelativePair& bac
     }
 }
 
-void NearFeatures::lookAgain(const RelativePair& pair, const RelativePair& back, double reach,
-                             std::vector<NearEdges>& found)
+void NearFeatures::Memory::look(const RelativePair& pair, const RelativePair& back, double reach,
+                                std::vector<NearEdges>& found)
 {
-    isKnown_ = true;
-    cornersOfA_.clear();
-    cornersOfB_.clear();
-    edges_.clear();
     moved_ = 0.0;
-
-    // Most pairs whose boxes meet are far apart: a few spheres say how far.
-    clearance_ = apartAtLeast(pair, back);
-    window_ =
-        std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair.first, pair.second));
-    if (clearance_ > reach + window_) {
-        window_ = clearance_;
-        cornersOfA_.shrink_to_fit();  // a heap has several times as many as touch
-        cornersOfB_.shrink_to_fit();
-        edges_.shrink_to_fit();
-        return;
-    }
+    rotation_ = pair.rotation;
+    translation_ = pair.translation;
+    window_ = lookAhead(pair, reach);
     clearance_ = reach + window_;
     lookAtCorners(pair, cornersOfA_);
     lookAtCorners(back, cornersOfB_);
     lookAtEdges(pair, back, reach, found);
 }
 
-void NearFeatures::faceCorners(const RelativePair& pair, FeatureKind kind, const ToWorld& toWorld,
-                               double reach, std::vector<NearCorners>& near,
-                               ContactList& list) const
+void NearFeatures::Memory::faceCorners(const RelativePair& pair, FeatureKind kind,
+                                       const ToWorld& toWorld, double reach,
+                                       std::vector<NearCorners>& near, ContactList& list) const
 {
     const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
     const FloatLanes needed = floatLanesOf(roundedUp(reach + moved_));
@@ -316,8 +360,9 @@ void NearFeatures::faceCorners(const RelativePair& pair, FeatureKind kind, const
     }
 }
 
-void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
-                              std::vector<NearEdges>& near, ContactList& list) const
+void NearFeatures::Memory::touchEdges(const RelativePair& pair, const ToWorld& toWorld,
+                                      double reach, std::vector<NearEdges>& near,
+                                      ContactList& list) const
 {
     if (near.empty()) return;
     const double deepest = deepestEdges(pair);
@@ -370,7 +415,7 @@ void NearFeatures::touchEdges(const RelativePair& pair, const ToWorld& toWorld, 
 }
 
 /// Of the pairs of edges found those that may matter before the next look.
-void NearFeatures::keep(const std::vector<NearEdges>& found, double reach)
+void NearFeatures::Memory::keep(const std::vector<NearEdges>& found, double reach)
 {
     thread_local std::vector<NearEdges> kept;
     kept.clear();
@@ -390,6 +435,47 @@ void NearFeatures::keep(const std::vector<NearEdges>& found, double reach)
     }
     edges_.assign(kept.begin(), kept.end());
 }
+
+void NearFeatures::Memory::addContacts(const RelativePair& pair, const RelativePair& back,
+                                       const ToWorld& ofA, const ToWorld& ofB, double reach,
+                                       bool isNew, ContactList& list)
+{
+    thread_local std::vector<NearEdges> found;
+    found.clear();
+    if (isNew) look(pair, back, reach, found);
+    faceCorners(pair, FeatureKind::cornerOfA, ofA, reach, cornersOfA_, list);
+    faceCorners(back, FeatureKind::cornerOfB, ofB, reach, cornersOfB_, list);
+    touchEdges(pair, ofA, reach, isNew ? found : edges_, list);
+    if (isNew) keep(found, reach);
+}
+
+double NearFeatures::Memory::farFor(const RelativePair& pair) const
+{
+    FloatLanes farUntil = kNever, outsideUntil = kNever;
+    for (const std::vector<NearCorners>* near : {&cornersOfA_, &cornersOfB_}) {
+        for (const NearCorners& eight : *near) farUntil = minOf(farUntil, eight.farUntil);
+    }
+    for (const NearEdges& eight : edges_) {
+        farUntil = minOf(farUntil, eight.farUntil);
+        outsideUntil = minOf(outsideUntil, eight.outsideUntil);
+    }
+    const double far = std::min({clearance_, window_, double{leastOf(farUntil)}}) - moved_;
+    const double outside = (leastOf(outsideUntil) - moved_) * countedOfWay(pair);
+    return std::min(far, outside);
+}
+
+void NearFeatures::Memory::prefetchLists() const
+{
+    const auto fetch = [](const auto& list) { fetchLines(list.data(), list.data() + list.size()); };
+    fetch(cornersOfA_);
+    fetch(cornersOfB_);
+    fetch(edges_);
+}
+
+NearFeatures::NearFeatures() = default;
+NearFeatures::~NearFeatures() = default;
+NearFeatures::NearFeatures(NearFeatures&&) noexcept = default;
+NearFeatures& NearFeatures::operator=(NearFeatures&&) noexcept = default;
 
 double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
                                   std::vector<GapContact>& contacts)
@@ -421,42 +507,31 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         return 0.0;
     }
 
-    moveTo(pair);
-    thread_local std::vector<NearEdges> found;
-    found.clear();
-    const bool isNew = isStale(reach);
-    if (isNew) lookAgain(pair, back, reach, found);
-    faceCorners(pair, FeatureKind::cornerOfA, ofA, reach, cornersOfA_, list);
-    faceCorners(back, FeatureKind::cornerOfB, ofB, reach, cornersOfB_, list);
-    touchEdges(pair, ofA, reach, isNew ? found : edges_, list);
-    if (isNew) keep(found, reach);
+    const bool isNew = !memory_ || memory_->isStaleAt(pair, reach);
+    if (isNew) {
+        // Most pairs whose boxes meet are far apart: a few spheres say how far.
+        const double apart = apartAtLeast(pair, back);
+        if (apart > reach + lookAhead(pair, reach)) {
+            memory_.reset();
+            return apart - bulge;
+        }
+        if (!memory_) memory_ = std::make_unique<Memory>();
+    }
+    memory_->addContacts(pair, back, ofA, ofB, reach, isNew, list);
     list.finish();
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? worldFromA : worldFromB, smaller);
-
-    FloatLanes farUntil = kNever, outsideUntil = kNever;
-    for (const std::vector<NearCorners>* near : {&cornersOfA_, &cornersOfB_}) {
-        for (const NearCorners& eight : *near) farUntil = minOf(farUntil, eight.farUntil);
-    }
-    for (const NearEdges& eight : edges_) {
-        farUntil = minOf(farUntil, eight.farUntil);
-        outsideUntil = minOf(outsideUntil, eight.outsideUntil);
-    }
-    const double far = std::min({clearance_, window_, double{leastOf(farUntil)}}) - moved_;
-    const double outside = (leastOf(outsideUntil) - moved_) * countedOfWay(pair);
-    return std::min(far, outside) - bulge;
+    return memory_->farFor(pair) - bulge;
 }
 
 void NearFeatures::prefetch() const
 {
-    fetchLines(this, this + 1);
+    if (memory_) fetchLines(memory_.get(), memory_.get() + 1);
 }
 
 void NearFeatures::prefetchLists() const
 {
-    fetchLines(cornersOfA_.data(), cornersOfA_.data() + cornersOfA_.size());
-    fetchLines(cornersOfB_.data(), cornersOfB_.data() + cornersOfB_.size());
-    fetchLines(edges_.data(), edges_.data() + edges_.size());
+    if (memory_) memory_->prefetchLists();
 }
 
 }  // namespace scree

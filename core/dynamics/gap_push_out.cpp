@@ -244,7 +244,7 @@ private:
     double look(NearPair& pair, double reach)
     {
         contacts_.clear();
-        pair.near->findContacts(placePair(world_, pair.bodies), reach, contacts_);
+        pair.near.findContacts(placePair(world_, pair.bodies), reach, contacts_);
         return deepestOf(contacts_);
     }
 

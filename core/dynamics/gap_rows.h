@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -67,7 +66,7 @@ struct GapRow {
 /// anew.
 struct NearPair {
     BodyPair bodies;
-    std::unique_ptr<NearFeatures> near;
+    NearFeatures near;
     std::vector<GapContact> contacts;
     double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
     double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]

@@ -149,7 +149,6 @@ void findGapPairs(const World& world, GapScratch& scratch)
             } else {
                 pair = NearPair{};
                 pair.bodies = found[i];
-                pair.near = std::make_unique<NearFeatures>();
             }
         }
     });
@@ -191,12 +190,12 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
 {
     thread_local std::vector<GapContact> found;
     for (std::size_t i = 0; i < questions.size(); ++i) {
-        if (i + 2 < questions.size()) questions[i + 2].pair->near->prefetch();
-        if (i + 1 < questions.size()) questions[i + 1].pair->near->prefetchLists();
+        if (i + 2 < questions.size()) questions[i + 2].pair->near.prefetch();
+        if (i + 1 < questions.size()) questions[i + 1].pair->near.prefetchLists();
         auto& [pair, reach] = questions[i];
         found.clear();
         pair->farUntil = odometerOf(scratch, pair->bodies) +
-                         pair->near->findContacts(placePair(world, pair->bodies), reach, found);
+                         pair->near.findContacts(placePair(world, pair->bodies), reach, found);
         pair->contacts.assign(found.begin(), found.end());
         if (found.empty()) pair->contacts.shrink_to_fit();
         pair->depth = deepestOf(pair->contacts);
@@ -204,13 +203,13 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
 }
 
 /// As solved, do the bodies run visibly into each other where they were not looked at?
-bool runsIntoUnseen(const World& world, double dt, const GapScratch& scratch, BodyPair bodies)
+bool runsIntoUnseen(const World& world, double dt, GapScratch& scratch, BodyPair bodies)
 {
     const auto known =
         std::lower_bound(scratch.nearPairs.begin(), scratch.nearPairs.end(), bodies, isBefore);
     const bool isKnown = known != scratch.nearPairs.end() && known->bodies == bodies;
     NearFeatures ofNone;
-    NearFeatures& near = isKnown ? *known->near : ofNone;
+    NearFeatures& near = isKnown ? known->near : ofNone;
     const auto [a, b] = bodies;
     const double reach = reachOf(world, scratch, bodies, paceOf(world, scratch, a, dt),
                                  paceOf(world, scratch, b, dt), dt);
