@@ -188,7 +188,7 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
     // Both parts are sorted: the memory is, and so are the pairs.
     std::inplace_merge(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(ofSleepers),
                        kept.end(), [](const RememberedContact& p, const RememberedContact& q) {
-                           return p.a < q.a || (p.a == q.a && p.b < q.b);
+                           return bodiesOf(p) < bodiesOf(q);
                        });
     std::swap(world.contactMemory.contacts, kept);
     world.contactMemory.dt = dt;

@@ -20,7 +20,7 @@ constexpr double kSamePlace = 0.05;
 
 bool isBefore(const RememberedContact& contact, const BodyPair& bodies)
 {
-    return BodyPair{contact.a, contact.b} < bodies;
+    return bodiesOf(contact) < bodies;
 }
 
 Vec3 anyTangent(const Vec3& normal)
@@ -341,7 +341,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
             const bool isHeldA = isHeldBy(world, a, b), isHeldB = isHeldBy(world, b, a);
             while (known != memory.end() && isBefore(*known, pair.bodies)) ++known;
             const auto firstKnown = known;
-            while (known != memory.end() && BodyPair{known->a, known->b} == pair.bodies) ++known;
+            while (known != memory.end() && bodiesOf(*known) == pair.bodies) ++known;
             pair.isCarried = firstKnown != known;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapContact& contact = contacts[r - pair.begin];

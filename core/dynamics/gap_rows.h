@@ -181,6 +181,12 @@ inline bool isDriven(const GapBody& body)
     return body.inverseMass == 0.0 && !(body.velocity.isZero(0.0) && body.spin.isZero(0.0));
 }
 
+/// By these what is remembered is sorted.
+inline BodyPair bodiesOf(const RememberedContact& contact)
+{
+    return {contact.a, contact.b};
+}
+
 /// Whether the group of `body` keeps it from being moved by `other`.
 bool isHeldBy(const World& world, BodyId body, BodyId other);
 
