@@ -11,6 +11,7 @@ namespace scree {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of lengths
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Sine of the angle by which a face may lean out from the way on which an edge leaves, and still
 /// be taken for one along it. Of boxes flush with each other faces lean by rounding, to either
@@ -216,7 +217,7 @@ bool hasComeInBy(const RelativePair& pair, std::int32_t corner, const Vec3& p, c
 
 double smallerRadius(const Shape& a, const Shape& b)
 {
-    double smaller = std::numeric_limits<double>::infinity();
+    double smaller = kInfinity;
     for (const Shape* shape : {&a, &b}) {
         if (!shape->isPlane) smaller = std::min(smaller, shape->boundingRadius);
     }
@@ -232,13 +233,14 @@ FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double rea
     const auto supports = [&](const Vec3& n) {
         return features.cornerSupports(corner, pair.rotation.transpose() * n);
     };
-    const auto apart = [](double distance) { return FacedCorner{{}, {}, distance}; };
+    const auto between = [](double least, double most) { return FacedCorner{{}, {}, least, most}; };
+    const auto apart = [&](double distance) { return between(distance, distance); };
     const auto touch = [&](const Vec3& normal, double gap) {
-        return FacedCorner{FeatureContact{p, normal, gap}, {}, 0.0};
+        return FacedCorner{FeatureContact{p, normal, gap}, {}};
     };
     const auto refuse = [&](const Vec3& normal, double gap) {
         if (gap >= 0.0) return apart(gap);
-        return FacedCorner{{}, FeatureContact{p, normal, gap}, 0.0};
+        return FacedCorner{{}, FeatureContact{p, normal, gap}};
     };
     if (pair.second.isPlane) return p.y() < reach ? touch(Vec3::UnitY(), p.y()) : apart(p.y());
     const double grid = field.gridValue(p);
@@ -251,14 +253,14 @@ FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double rea
         if (!field.solid() || grid >= sharpness) return refuse(normal, grid);
         nearest = {grid, p, true, gradient};
     } else if (grid >= field.refinementBand()) {
-        if (grid >= reach) return apart(field.lowerBound(p, grid));
+        if (grid >= reach) return between(field.lowerBound(p, grid), kInfinity);
         // Of a grid value nobody knows whether it is above or below the true distance.
         const auto seen = field.nearestFromAfar(p);
         const double gap = seen ? seen->value : field.upperBound(p);
         const Vec3 normal =
             seen ? Vec3((p - seen->point) / gap) : field.gridGradient(p).normalized();
         if (gap < reach && normal.allFinite() && supports(normal)) return touch(normal, gap);
-        return apart(field.lowerBound(p, grid));
+        return between(field.lowerBound(p, grid), gap);
     } else {
         nearest = field.nearest(p);
         if (nearest.value >= reach) return apart(nearest.value);
@@ -293,7 +295,7 @@ FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double rea
         best = FeatureContact{p, face.normal, face.height};
     }
     if (!best) return refuse(nearest.normal, nearest.value);
-    return FacedCorner{best, {}, 0.0};
+    return FacedCorner{best, {}};
 }
 
 std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,

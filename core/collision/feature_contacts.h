@@ -59,7 +59,7 @@ struct FacedCorner {
     /// If not, as though it were one: the corner lies inside, but what surrounds it would have had
     /// to pass through the surface first.
     std::optional<FeatureContact> unsupported;
-    double apart = 0.0;  ///< if neither, their distance at least [m]
+    double apart = 0.0, within = 0.0;  ///< if neither, their distance at least and at most [m]
 };
 
 /// A corner of the first shape and the surface of the second, which are in contact when nearer than

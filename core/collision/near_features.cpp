@@ -344,7 +344,8 @@ void NearFeatures::Memory::faceCorners(const RelativePair& pair, FeatureKind kin
                          featureId(kind, corner, side), contact);
             };
             creased.clear();
-            if (faced.apart < reach)
+            // What might be as far away as `reach` is not asked about every time.
+            if (faced.within < reach)
                 findCreaseContacts(pair, corner, reach, faced.contact, creased);
             bool isTold = false;
             for (const auto& [contact, side] : creased) {
