@@ -66,15 +66,33 @@ double apartAtLeast(const RelativePair& pair, const RelativePair& back)
     return atLeast;
 }
 
-/// Edges of the first shape that may come within `clearance` of the second, in the order of their
-/// tree, where what is near each other is next to each other.
-void findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::int32_t>& near)
+/// Calls leaf(thing, distance) for all of a tree that may come within `clearance` of the field, in
+/// the order of the tree, where what is near each other is next to each other; with a lower bound
+/// of its distance. Answers one of all the others [m].
+template <class Leaf>
+float findNear(const SphereLaneTree& tree, const DistanceLanes& field, double clearance,
+               const Leaf& leaf)
+{
+    const FloatLanes within = floatLanesOf(clearance);
+    const FloatLanes never = floatLanesOf(std::numeric_limits<float>::infinity());
+    FloatLanes apart = never, atLeast = never;
+    tree.visit(
+        [&](const SphereLanes& spheres) {
+            atLeast = field.apartAtLeast(spheres);
+            const IntLanes isNear = atLeast < within;
+            apart = minOf(apart, isNear ? never : atLeast);
+            return bitsOf(isNear);
+        },
+        [&](std::uint32_t thing, int lane) { leaf(thing, atLeast[lane]); });
+    return leastOf(apart);
+}
+
+/// Edges of the first shape.
+float findEdgesNear(const RelativePair& pair, double clearance, std::vector<std::int32_t>& near)
 {
     near.clear();
-    const DistanceLanes field = fieldOfSecond(pair);
-    pair.first.features.edgeTree().visit(
-        [&](const SphereLanes& spheres) { return field.mayBeWithin(clearance, spheres); },
-        [&](std::uint32_t e, int) { near.push_back(static_cast<std::int32_t>(e)); });
+    return findNear(pair.first.features.edgeTree(), fieldOfSecond(pair), clearance,
+                    [&](std::uint32_t e, float) { near.push_back(static_cast<std::int32_t>(e)); });
 }
 
 /// Lanes that are left over repeat the last edge.
@@ -197,7 +215,11 @@ public:
     /// Follows the pair; answers whether it has to be looked at again.
     bool isStaleAt(const RelativePair& pair, double reach);
 
-    /// Adds all contacts below `reach`; with `isNew` all features are looked at first.
+    /// Looks at all features; answers how far apart the bodies are at least [m]. What is nearer
+    /// than that is noted.
+    double look(const RelativePair& pair, const RelativePair& back, double reach);
+
+    /// Adds all contacts below `reach`; `isNew` right after a look.
     void addContacts(const RelativePair& pair, const RelativePair& back, const ToWorld& ofA,
                      const ToWorld& ofB, double reach, bool isNew, ContactList& list);
 
@@ -222,16 +244,23 @@ private:
         FloatLanes outsideUntil = kNever;  // the way until which they cannot have crossed
         std::array<std::int32_t, kFloatLanes> ofA = {}, ofB = {};
     };
-    void look(const RelativePair& pair, const RelativePair& back, double reach,
-              std::vector<NearEdges>& found);
-    void lookAtCorners(const RelativePair& pair, std::vector<NearCorners>& near) const;
-    void lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach,
-                     std::vector<NearEdges>& found) const;
+    /// Each answers how far all of its features are at least, if none is near, and otherwise the
+    /// clearance [m].
+    double lookAtCorners(const RelativePair& pair, std::vector<NearCorners>& near) const;
+    double lookAtEdges(const RelativePair& pair, const RelativePair& back, double reach,
+                       std::vector<NearEdges>& found) const;
     void faceCorners(const RelativePair& pair, FeatureKind kind, const ToWorld& toWorld,
                      double reach, std::vector<NearCorners>& near, ContactList& list) const;
     void touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach,
                     std::vector<NearEdges>& near, ContactList& list) const;
     void keep(const std::vector<NearEdges>& found, double reach);
+
+    /// What the last look of this thread has found, before it is known what of that to keep.
+    static std::vector<NearEdges>& foundEdges()
+    {
+        thread_local std::vector<NearEdges> found;
+        return found;
+    }
 
     double moved_ = 0.0;                // the way since the last look [m]
     double window_ = 0.0;               // for which that is good [m]
@@ -252,39 +281,35 @@ bool NearFeatures::Memory::isStaleAt(const RelativePair& pair, double reach)
     return moved_ > window_ || reach + moved_ > clearance_;
 }
 
-void NearFeatures::Memory::lookAtCorners(const RelativePair& pair,
-                                         std::vector<NearCorners>& near) const
+double NearFeatures::Memory::lookAtCorners(const RelativePair& pair,
+                                           std::vector<NearCorners>& near) const
 {
     thread_local std::vector<NearCorners> found;
     found.clear();
     const ContactFeatures& features = pair.first.features;
-    const DistanceLanes field = fieldOfSecond(pair);
-    const FloatLanes clearance = floatLanesOf(clearance_);
-    FloatLanes atLeast;
     std::size_t count = 0;
-    features.cornerTree().visit(
-        [&](const SphereLanes& spheres) {
-            atLeast = field.apartAtLeast(spheres);
-            return bitsOf(atLeast < clearance);
-        },
-        [&](std::uint32_t i, int lane) {
-            auto [eight, free] = nextLane(found, count);
-            eight.farUntil[free] = atLeast[lane];
-            eight.corner[free] = features.corners()[i];
-        });
+    const double apart = findNear(features.cornerTree(), fieldOfSecond(pair), clearance_,
+                                  [&](std::uint32_t i, float atLeast) {
+                                      auto [eight, free] = nextLane(found, count);
+                                      eight.farUntil[free] = atLeast;
+                                      eight.corner[free] = features.corners()[i];
+                                  });
     near.assign(found.begin(), found.end());
+    return found.empty() ? apart : clearance_;
 }
 
-void NearFeatures::Memory::lookAtEdges(const RelativePair& pair, const RelativePair& back,
-                                       double reach, std::vector<NearEdges>& found) const
+double NearFeatures::Memory::lookAtEdges(const RelativePair& pair, const RelativePair& back,
+                                         double reach, std::vector<NearEdges>& found) const
 {
+    found.clear();
     const ContactFeatures &first = pair.first.features, &second = pair.second.features;
-    if (first.edges().empty() || second.edges().empty()) return;
+    if (first.edges().empty() || second.edges().empty()) return kInfinity;
     thread_local std::vector<std::int32_t> nearA, nearB;
     thread_local std::vector<FacingLanes> eightsOfA, eightsOfB;
-    findEdgesNear(pair, clearance_, nearA);
-    if (nearA.empty()) return;
-    findEdgesNear(back, clearance_, nearB);
+    const double apartA = findEdgesNear(pair, clearance_, nearA);
+    if (nearA.empty()) return apartA;
+    const double apartB = findEdgesNear(back, clearance_, nearB);
+    if (nearB.empty()) return apartB;
     inEights(first.lines(), nearA, eightsOfA);
     inEights(second.lines(), nearB, eightsOfB);
 
@@ -311,19 +336,18 @@ void NearFeatures::Memory::lookAtEdges(const RelativePair& pair, const RelativeP
             }
         }
     }
+    return clearance_;
 }
 
-void NearFeatures::Memory::look(const RelativePair& pair, const RelativePair& back, double reach,
-                                std::vector<NearEdges>& found)
+double NearFeatures::Memory::look(const RelativePair& pair, const RelativePair& back, double reach)
 {
     moved_ = 0.0;
     rotation_ = pair.rotation;
     translation_ = pair.translation;
     window_ = lookAhead(pair, reach);
     clearance_ = reach + window_;
-    lookAtCorners(pair, cornersOfA_);
-    lookAtCorners(back, cornersOfB_);
-    lookAtEdges(pair, back, reach, found);
+    return std::min({lookAtCorners(pair, cornersOfA_), lookAtCorners(back, cornersOfB_),
+                     lookAtEdges(pair, back, reach, foundEdges())});
 }
 
 void NearFeatures::Memory::faceCorners(const RelativePair& pair, FeatureKind kind,
@@ -441,9 +465,7 @@ void NearFeatures::Memory::addContacts(const RelativePair& pair, const RelativeP
                                        const ToWorld& ofA, const ToWorld& ofB, double reach,
                                        bool isNew, ContactList& list)
 {
-    thread_local std::vector<NearEdges> found;
-    found.clear();
-    if (isNew) look(pair, back, reach, found);
+    std::vector<NearEdges>& found = foundEdges();
     faceCorners(pair, FeatureKind::cornerOfA, ofA, reach, cornersOfA_, list);
     faceCorners(back, FeatureKind::cornerOfB, ofB, reach, cornersOfB_, list);
     touchEdges(pair, ofA, reach, isNew ? found : edges_, list);
@@ -509,14 +531,19 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     }
 
     const bool isNew = !memory_ || memory_->isStaleAt(pair, reach);
-    if (isNew) {
+    const double far = reach + lookAhead(pair, reach);
+    if (!memory_) {
         // Most pairs whose boxes meet are far apart: a few spheres say how far.
         const double apart = apartAtLeast(pair, back);
-        if (apart > reach + lookAhead(pair, reach)) {
+        if (apart > far) return apart - bulge;
+        memory_ = std::make_unique<Memory>();
+    }
+    if (isNew) {
+        const double apart = memory_->look(pair, back, reach);
+        if (apart > far) {
             memory_.reset();
             return apart - bulge;
         }
-        if (!memory_) memory_ = std::make_unique<Memory>();
     }
     memory_->addContacts(pair, back, ofA, ofB, reach, isNew, list);
     list.finish();
