@@ -21,12 +21,6 @@ public:
     /// Never more than the distance between the solid and each of the spheres [m].
     FloatLanes apartAtLeast(const SphereLanes& spheres) const;
 
-    /// Which of the spheres may be nearer to the solid than `clearance` [m].
-    unsigned mayBeWithin(double clearance, const SphereLanes& spheres) const
-    {
-        return bitsOf(apartAtLeast(spheres) <= floatLanesOf(clearance));
-    }
-
 private:
     FloatLanes ofFormula(const FloatLanes3& p) const;
     FloatLanes ofNodes(const FloatLanes3& p) const;

@@ -26,7 +26,8 @@ std::shared_ptr<const Shape> boneShape(const std::string& name)
 }
 
 /// The planes beside a small crease may be nearer to a corner than anything of the surface. They
-/// were told of as long as the corner was known to have been near a while ago.
+/// were told of as long as nobody knew that the corner was far, which a pair that is seen for the
+/// first time may know at once.
 TEST(NearBones, WhatAPairRemembersChangesNoContactInItsCreases)
 {
     const auto skull = boneShape("skull"), femur = boneShape("femur");
