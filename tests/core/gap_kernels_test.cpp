@@ -201,12 +201,12 @@ double nearestVertex(const PlacedPair& pair)
     return nearest;
 }
 
-TEST(NearFeatures, BodiesAreAsFarApartAsAFewSpheresSayOrFarther)
+TEST(NearFeatures, BodiesAreAsFarApartAsAFewSpheresOrALookSayOrFarther)
 {
     const std::array<std::shared_ptr<const Shape>, 4> shapes = {
         buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10})), boxShape({1.0, 0.6, 0.4}, 1),
         exactSphere(0.5), buildPlaneShape("floor")};
-    int apart = 0, overlapping = 0;
+    int apart = 0, overlapping = 0, toldByLook = 0;
     for (std::uint64_t run = 0; run < 400; ++run) {
         const Shape &a = *shapes[run % 3], &b = *shapes[run / 3 % 4];
         const auto at = [&](std::uint64_t which) {
@@ -219,9 +219,15 @@ TEST(NearFeatures, BodiesAreAsFarApartAsAFewSpheresSayOrFarther)
         if (nearest < 0.0) ++overlapping;
         EXPECT_TRUE(nearest <= 1.0 || bound > 0.0) << run;
         if (bound > 0.0) ++apart;
+        std::vector<GapContact> contacts;
+        const double answered = NearFeatures().findContacts(pair, 0.001, contacts);
+        if (!contacts.empty()) continue;
+        EXPECT_LE(answered, nearest + 1e-9) << run;
+        if (answered > bound + 1e-9) ++toldByLook;
     }
     EXPECT_GT(apart, 40);
     EXPECT_GT(overlapping, 40);
+    EXPECT_GT(toldByLook, 10);
 }
 
 /// As seen in a heap: an outer edge of one ring lies 16 mm deep across the inner rim of the other,
