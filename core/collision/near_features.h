@@ -33,8 +33,8 @@ double apartAtLeast(const PlacedPair& bodies);
 
 /// The features of a pair that may come within reach, remembered while the pair moves little. The
 /// memory changes no result: what is found depends on the poses and the reach alone. Most pairs
-/// whose boxes meet are far apart and have none: with one each ten thousand rings took a sixth more
-/// memory and 4 % more time.
+/// whose boxes meet are far apart and have none: with one each ten thousand rings took a seventh
+/// more memory.
 class NearFeatures {
 public:
     NearFeatures();
