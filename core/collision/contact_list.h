@@ -13,21 +13,6 @@
 
 namespace scree {
 
-/// What found a contact. A pair that has an exact ball in it has no other features.
-enum class FeatureKind : std::uint64_t {
-    cornerOfA = 0,
-    cornerOfB = 1,
-    edges = 2,
-    ball = 3,
-    round = 3
-};
-
-inline std::uint64_t featureId(FeatureKind kind, std::int32_t first, std::int32_t second = 0)
-{
-    return static_cast<std::uint64_t>(kind) << 62 | static_cast<std::uint64_t>(first) << 31 |
-           static_cast<std::uint64_t>(second);
-}
-
 /// Turns what one way found into the contact of the pair.
 struct ToWorld {
     Mat3 worldFromSecond;

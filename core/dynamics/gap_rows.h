@@ -71,6 +71,7 @@ struct NearPair {
     double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
     double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
     double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
+    bool isLagged = false;      ///< the contacts have gone along with the bodies since
 };
 
 /// The few of these that have rows.
@@ -115,21 +116,30 @@ struct GapPace {
     double fastest(double dt) const { return speed + bySpin + dt * pull; }
 };
 
+/// How a body has moved in a step.
+struct BodyMove {
+    Mat3 turn = Mat3::Identity();
+    Vec3 shift = Vec3::Zero();  ///< of its centre of mass [m]
+    double way = 0.0;           ///< of any of its points, at most [m]
+    bool hasMoved = false;      ///< by as little as a bit
+};
+
 struct GapScratch {
     BroadPhase broadPhase;
     std::vector<Aabb> boxes;
     std::vector<AppliedForce> forces;
     std::vector<NearPair> nearPairs;        ///< sorted by bodies
     std::vector<NearPair> formerNearPairs;  ///< of the last step, without those that are left
-    /// Per body: where it was last, whether it has moved since, and how far its points have moved
-    /// in all at most [m].
+    /// Per body: where it is, how it has come there in the last step, and how far its points have
+    /// moved in all at most [m].
     std::vector<Pose> seenAt;
-    std::vector<char> hasMoved;
+    std::vector<BodyMove> moves;
     std::vector<double> odometer;
     /// Per body: the pace with which this step looks for gaps, and what an earlier attempt has
     /// shown it to gain besides [m/s].
     std::vector<GapPace> paces;
     std::vector<double> gain;
+    bool looksFar = false;  ///< for all the speed that two bodies have in common
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< pair by pair

@@ -12,10 +12,12 @@
 #include "core/dynamics/contact_pass.h"
 #include "core/dynamics/gap_bounce.h"
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_search.h"
+#include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
@@ -272,6 +274,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
     scratch.gain.assign(world.bodyCount(), 0.0);
+    scratch.looksFar = false;
     GapLevels levels = solveGaps(world, dt, report);
     int looks = 0;
     while (wakeStruck(world, dt, scratch) ||
@@ -305,6 +308,12 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.contactPairs = static_cast<std::int64_t>(scratch.rows.size());
     ++world.clock.subStep;
     return report;
+}
+
+/// Between any two steps, but for contacts that the next one would take along.
+bool Stepper::mayStopAt(const Clock& clock) const
+{
+    return settings_.method == Method::paper || isSoughtAnewAt(clock);
 }
 
 FrameReport Stepper::advanceFrame(World& world, double frameDuration,
@@ -344,7 +353,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
             frame.births = giveBirths(world);
             break;
         }
-        if (stopRequested && stopRequested()) {
+        if (stopRequested && mayStopAt(world.clock) && stopRequested()) {
             frame.finished = false;
             break;
         }

@@ -26,9 +26,9 @@ public:
     StepReport step(World& world, double dt);
 
     /// Advances the world to the end of the frame that its clock stands in, in as many steps as the
-    /// limiter asks for [A16], and moves the clock on. `stopRequested` is asked between steps; when
-    /// it answers true the world stays between two sub-steps and a later call goes on from there
-    /// to the same bits.
+    /// limiter asks for [A16], and moves the clock on. `stopRequested` is asked between steps, by
+    /// method `scree` after every fourth; when it answers true the world stays between two
+    /// sub-steps and a later call goes on from there to the same bits.
     /// `afterStep` is called after every step with the world and the time reached since the frame
     /// began [s]; it may look, for poses between frames, but change nothing.
     FrameReport advanceFrame(World& world, double frameDuration,
@@ -44,6 +44,7 @@ private:
     /// The step proper, with the pairs that may meet already in scratch.
     StepReport stepFoundPairs(World& world, double dt);
     StepReport stepGaps(World& world, double dt);
+    bool mayStopAt(const Clock& clock) const;
     GapLevels solveGaps(World& world, double dt, StepReport& report);
 
     StepSettings settings_;

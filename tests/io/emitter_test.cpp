@@ -154,7 +154,7 @@ TEST(Emitter, ARunStoppedWhileBodiesWaitGoesOnToTheSameBytes)
 {
     const test::TemporaryFolder folder;
     Shot shot = parse(kQueue);
-    shot.settings.substeps.min = 4;  // so that there is an inside of a frame to stop in
+    shot.settings.substeps.min = 8;  // so that there is an inside of a frame to stop in
     World whole = buildWorld(shot), before = buildWorld(shot), after = buildWorld(shot);
     {
         TakeWriter take(folder / "whole", shot, whole, "1", ExistingTake::refuse);

@@ -1,0 +1,122 @@
+#include "core/dynamics/gap_lag.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+
+namespace scree {
+namespace {
+
+/// Steps from one that seeks all contacts anew to the next.
+constexpr std::int64_t kLagSteps = 4;
+
+/// A pair whose points move farther than this share of the smaller body in a step is sought anew.
+/// At twice as much nothing gets faster.
+constexpr double kMostWay = 1e-3;
+
+/// How much faster a pair may get before its contacts have to be sought anew.
+constexpr double kSpeedUp = 1.1;
+constexpr double kWayMore = 0.1 * kMostWay;  // as a share of the smaller body
+
+/// A corner is a point of its body and a face a plane of the other, so that their contact is the
+/// one that would be found; where two edges cross it is as good as the turn is small.
+void takeAlong(const BodyMove& a, const BodyMove& b, const Vec3& bFromABefore, const Vec3& bFromA,
+               GapContact& contact)
+{
+    const Vec3 half = 0.5 * contact.gap * contact.normal;
+    const Vec3 onA = a.turn * (contact.rA + half);
+    const Vec3 onB = b.turn * (contact.rA - half - bFromABefore) + bFromA;
+    const Vec3 withA = a.turn * contact.normal, withB = b.turn * contact.normal;
+    const FeatureKind kind = kindOf(contact.feature);
+    contact.normal = kind == FeatureKind::cornerOfA   ? withB
+                     : kind == FeatureKind::cornerOfB ? withA
+                                                      : Vec3((withA + withB).normalized());
+    contact.gap = contact.normal.dot(onA - onB);
+    const Vec3 halfNow = 0.5 * contact.gap * contact.normal;
+    contact.rA = kind == FeatureKind::cornerOfA   ? Vec3(onA - halfNow)
+                 : kind == FeatureKind::cornerOfB ? Vec3(onB + halfNow)
+                                                  : Vec3(0.5 * (onA + onB));
+}
+
+/// The place of a round contact is no point of its bodies: it stays below what rolls, and if it
+/// went along it would push that on.
+bool isRound(const GapContact& contact)
+{
+    return kindOf(contact.feature) == FeatureKind::round;
+}
+
+}  // namespace
+
+void followBodies(const World& world, GapScratch& scratch)
+{
+    const std::size_t known = scratch.seenAt.size();
+    scratch.seenAt.resize(world.bodyCount());
+    scratch.moves.resize(world.bodyCount());
+    scratch.odometer.resize(world.bodyCount(), 0.0);
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
+        const Pose pose = world.motion[i].worldFromBody();
+        Pose& then = scratch.seenAt[i];
+        BodyMove& move = scratch.moves[i];
+        move = {};
+        move.hasMoved = i >= known || pose.position != then.position ||
+                        pose.orientation.coeffs() != then.orientation.coeffs();
+        if (i < known && move.hasMoved) {
+            const Shape& shape = world.shapeOf(static_cast<BodyId>(i));
+            const Quat turn = pose.orientation * then.orientation.conjugate();
+            // The chord of a point at unit distance.
+            const double turned = 2.0 * turn.vec().norm();
+            const double farthest =
+                shape.isPlane ? std::numeric_limits<double>::infinity() : shape.boundingRadius;
+            move.turn = turn.toRotationMatrix();
+            move.shift = pose.position - then.position;
+            move.way = move.shift.norm();
+            if (turned > 0.0) move.way += turned * farthest;
+            scratch.odometer[i] += move.way;
+        }
+        then = pose;
+    });
+}
+
+double odometerOf(const GapScratch& scratch, BodyPair bodies)
+{
+    return scratch.odometer[bodies.a] + scratch.odometer[bodies.b];
+}
+
+bool isSoughtAnewAt(const Clock& clock)
+{
+    return clock.subStep % kLagSteps == 0;
+}
+
+double lookAheadToLag(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+{
+    const Clock& clock = world.clock;
+    const double left = world.frameDuration - clock.frameTimeDone - dt;
+    const auto untilAnew = static_cast<double>(kLagSteps - 1 - clock.subStep % kLagSteps);
+    const double steps = std::min(untilAnew, std::ceil(left / dt));
+    const GapPace &a = scratch.paces[bodies.a], &b = scratch.paces[bodies.b];
+    const double way = dt * (a.speed + a.bySpin + b.speed + b.bySpin);
+    const double smaller = smallerRadius(world, bodies.a, bodies.b);
+    if (!(steps > 0.0) || way > kMostWay * smaller) return 0.0;
+    return kSpeedUp * steps * way + kWayMore * smaller;
+}
+
+bool takeContactsAlong(const World& world, const GapScratch& scratch, double reach, NearPair& pair)
+{
+    const BodyMove& a = scratch.moves[pair.bodies.a];
+    const BodyMove& b = scratch.moves[pair.bodies.b];
+    const double way = a.way + b.way;
+    if (!(reach + way <= pair.foundWithin)) return false;
+    if (way > kMostWay * smallerRadius(world, pair.bodies.a, pair.bodies.b)) return false;
+    if (std::any_of(pair.contacts.begin(), pair.contacts.end(), isRound)) return false;
+    const Vec3 bFromA = world.motion[pair.bodies.b].position - world.motion[pair.bodies.a].position;
+    const Vec3 bFromABefore = bFromA - b.shift + a.shift;
+    for (GapContact& contact : pair.contacts) takeAlong(a, b, bFromABefore, bFromA, contact);
+    pair.foundWithin -= way;
+    pair.isLagged = true;
+    pair.depth = deepestOf(pair.contacts);
+    return true;
+}
+
+}  // namespace scree

@@ -1,0 +1,31 @@
+// What is known of a pair from one step to the next: how far its bodies have moved since, and
+// contacts that go along with them instead of being sought anew.  [A25; algorithm 14: lagged
+// geometry]
+//
+// What moves by a two-thousandth of its size in a step touches where it did: of a heap that settles
+// a tenth of the time of a step went into finding that out. Contacts that have been carried are in
+// no checkpoint, so that every so many steps, and where a frame begins, all are sought anew.
+#pragma once
+
+#include "core/dynamics/gap_rows.h"
+
+namespace scree {
+
+/// Notes how every body has moved since the last step.
+void followBodies(const World& world, GapScratch& scratch);
+
+/// How far the points of both bodies have moved in all, added up, at most [m].
+double odometerOf(const GapScratch& scratch, BodyPair bodies);
+
+/// Whether the step at this time seeks all contacts anew: a run may be cut before it.
+bool isSoughtAnewAt(const Clock& clock);
+
+/// How much farther than it has to a step of dt looks for the contacts of a pair, so that the next
+/// ones may carry them [m].
+double lookAheadToLag(const World& world, const GapScratch& scratch, BodyPair bodies, double dt);
+
+/// Whether all contacts with gaps below `reach` are known, once those that there are have been
+/// carried along with the bodies [m]. Not in a step that seeks all anew.
+bool takeContactsAlong(const World& world, const GapScratch& scratch, double reach, NearPair& pair);
+
+}  // namespace scree

@@ -1,0 +1,156 @@
+// Symbols: gap_rows.h.
+#include "core/dynamics/gap_unseen.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/dynamics/gap_lag.h"
+#include "core/dynamics/gap_search.h"
+#include "core/dynamics/integrator.h"
+
+namespace scree {
+namespace {
+
+/// An overlap that must not come unseen, as a share of the smaller body.
+constexpr double kVisible = 1e-3;
+
+/// Near pairs that one thread goes through together.
+constexpr std::size_t kPairsTogether = 512;
+
+/// By how much the velocity of any point of a body has changed, as solved, beyond what pulls it
+/// [m/s].
+double changeOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
+{
+    const GapBody& b = scratch.bodies[body];
+    const BodyMotion& motion = world.motion[body];
+    const Vec3 spin = angularVelocity(motion, world.mass[body]);
+    return (b.velocity - motion.velocity - dt * b.pull).norm() +
+           (b.spin - spin - dt * (b.inverseInertia * b.torque)).norm() *
+               world.shapeOf(body).boundingRadius;
+}
+
+/// How far any two points of the bodies move against each other in the step, as solved, at most
+/// [m].
+double approachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+{
+    const GapBody &a = scratch.bodies[bodies.a], &b = scratch.bodies[bodies.b];
+    const auto byTurn = [&](BodyId id, const GapBody& body) {
+        const Shape& shape = world.shapeOf(id);
+        return shape.isPlane ? 0.0 : (dt * body.spin + body.turn).norm() * shape.boundingRadius;
+    };
+    return (dt * (a.velocity - b.velocity) + a.shift - b.shift).norm() + byTurn(bodies.a, a) +
+           byTurn(bodies.b, b);
+}
+
+/// As solved, do the bodies run visibly into each other where they have not been looked at: at gaps
+/// above `seen` [m]?
+bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodies, double dt,
+                    double seen, NearFeatures& near)
+{
+    const auto [a, b] = bodies;
+    const double visible = kVisible * smallerRadius(world, a, b);
+    const double within = approachOf(world, scratch, bodies, dt) - visible;
+    if (within <= seen) return false;
+    std::vector<GapContact> contacts;
+    near.findContacts(placePair(world, bodies), within, contacts);
+    const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
+    return std::any_of(contacts.begin(), contacts.end(), [&](const GapContact& contact) {
+        if (contact.gap < seen) return false;
+        GapRow row{};
+        row.rA = contact.rA;
+        row.rB = contact.rA + bFromA;
+        row.normal = contact.normal;
+        const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
+        const double opened =
+            shiftAt(row, bodyA, bodyB) + dt * velocityAt(row, bodyA, bodyB).dot(row.normal);
+        return contact.gap + opened < -visible;
+    });
+}
+
+/// Whom the step has given another velocity than it was looked for with, so that it ends visibly
+/// elsewhere.
+struct Struck {
+    std::vector<double> change;  ///< per body [m/s]
+    std::vector<char> isStruck;
+    std::vector<char> isFaster;  ///< and leaves the box that it was looked for in
+    std::vector<Aabb> boxes;     ///< that it does not leave
+};
+
+Struck findStruck(const World& world, const GapScratch& scratch, double dt)
+{
+    Struck struck{std::vector<double>(world.bodyCount(), 0.0),
+                  std::vector<char>(world.bodyCount(), 0), std::vector<char>(world.bodyCount(), 0),
+                  scratch.boxes};
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
+        const auto body = static_cast<BodyId>(i);
+        if (scratch.bodies[i].inverseMass == 0.0) return;
+        const double visible = kVisible * world.shapeOf(body).boundingRadius;
+        struck.change[i] = changeOf(world, scratch, body, dt);
+        struck.isStruck[i] = dt * (struck.change[i] - scratch.gain[i]) > visible;
+        const double faster = paceOf(world, scratch, body, dt).fastest(dt) -
+                              scratch.paces[i].fastest(dt) - scratch.gain[i];
+        struck.isFaster[i] = dt * faster > visible;
+        if (struck.isFaster[i]) struck.boxes[i] = struck.boxes[i].grown(dt * faster);
+    });
+    return struck;
+}
+
+/// Those that run visibly into what they were not looked at for.
+std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, double dt,
+                                 GapScratch& scratch)
+{
+    const auto isAny = [](const std::vector<char>& flags) {
+        return std::find(flags.begin(), flags.end(), 1) != flags.end();
+    };
+    std::vector<BodyPair> unseen;
+    if (!isAny(struck.isStruck)) return unseen;
+
+    std::vector<NearPair>& known = scratch.nearPairs;
+    std::vector<char> isMet(known.size(), 0);
+    parallelFor(known.size(), kPairsTogether, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [a, b] = known[i].bodies;
+            if (!struck.isStruck[a] && !struck.isStruck[b]) continue;
+            const double seen = std::max(known[i].foundWithin,
+                                         known[i].farUntil - odometerOf(scratch, known[i].bodies));
+            isMet[i] = runsIntoUnseen(world, scratch, known[i].bodies, dt, seen, known[i].near);
+        }
+    });
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        if (isMet[i]) unseen.push_back(known[i].bodies);
+    }
+
+    if (!isAny(struck.isFaster)) return unseen;
+    const std::vector<BodyPair>& pairs = scratch.broadPhase.findPairs(
+        struck.boxes, world.mass, [&](BodyPair pair) { return isMovedPair(world, scratch, pair); },
+        struck.isFaster);
+    isMet.assign(pairs.size(), 0);
+    parallelFor(pairs.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto near = std::ranges::lower_bound(known, pairs[i], {}, &NearPair::bodies);
+            if (near != known.end() && near->bodies == pairs[i]) continue;
+            NearFeatures ofNone;
+            isMet[i] = runsIntoUnseen(world, scratch, pairs[i], dt, 0.0, ofNone);
+        }
+    });
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (isMet[i]) unseen.push_back(pairs[i]);
+    }
+    return unseen;
+}
+
+}  // namespace
+
+bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
+{
+    const Struck struck = findStruck(world, scratch, dt);
+    const std::vector<BodyPair> unseen = findUnseen(world, struck, dt, scratch);
+    for (const BodyPair& pair : unseen) {
+        for (const BodyId body : {pair.a, pair.b})
+            scratch.gain[body] = std::max(scratch.gain[body], struck.change[body]);
+    }
+    scratch.looksFar = scratch.looksFar || !unseen.empty();
+    return !unseen.empty();
+}
+
+}  // namespace scree
