@@ -1,5 +1,5 @@
-// What the outside asks of a running simulation: SIGINT, SIGTERM and SIGHUP to stop at the next
-// sub-step, SIGUSR1 to save and go on.
+// What the outside asks of a running simulation: SIGINT, SIGTERM and SIGHUP to stop after the next
+// sub-step that it can go on from, SIGUSR1 to save there and go on.
 #pragma once
 
 namespace scree {

@@ -9,7 +9,7 @@
 namespace scree {
 namespace {
 
-/// Steps from one that seeks all contacts anew to the next.
+/// Steps from one that seeks all contacts anew to the next. With eight nothing gets faster.
 constexpr std::int64_t kLagSteps = 4;
 
 /// A pair whose points move farther than this share of the smaller body in a step is sought anew.

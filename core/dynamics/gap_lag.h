@@ -2,9 +2,9 @@
 // contacts that go along with them instead of being sought anew.  [A25; algorithm 14: lagged
 // geometry]
 //
-// What moves by a two-thousandth of its size in a step touches where it did: of a heap that settles
-// a tenth of the time of a step went into finding that out. Contacts that have been carried are in
-// no checkpoint, so that every so many steps, and where a frame begins, all are sought anew.
+// What moves by a thousandth of its size in a step touches where it did: of a heap that settles a
+// tenth of the time of a step went into finding that out. Contacts that have gone along are in no
+// checkpoint, so that every so many steps, and where a frame begins, all are sought anew.
 #pragma once
 
 #include "core/dynamics/gap_rows.h"
@@ -21,11 +21,11 @@ double odometerOf(const GapScratch& scratch, BodyPair bodies);
 bool isSoughtAnewAt(const Clock& clock);
 
 /// How much farther than it has to a step of dt looks for the contacts of a pair, so that the next
-/// ones may carry them [m].
+/// ones may take them along [m].
 double lookAheadToLag(const World& world, const GapScratch& scratch, BodyPair bodies, double dt);
 
-/// Whether all contacts with gaps below `reach` are known, once those that there are have been
-/// carried along with the bodies [m]. Not in a step that seeks all anew.
+/// Takes the contacts of a pair along with its bodies, if then all with gaps below `reach` [m] are
+/// known; answers whether. Not in a step that seeks all anew.
 bool takeContactsAlong(const World& world, const GapScratch& scratch, double reach, NearPair& pair);
 
 }  // namespace scree

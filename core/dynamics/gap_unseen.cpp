@@ -14,9 +14,6 @@ namespace {
 /// An overlap that must not come unseen, as a share of the smaller body.
 constexpr double kVisible = 1e-3;
 
-/// Near pairs that one thread goes through together.
-constexpr std::size_t kPairsTogether = 512;
-
 /// By how much the velocity of any point of a body has changed, as solved, beyond what pulls it
 /// [m/s].
 double changeOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
@@ -107,14 +104,12 @@ std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, doubl
 
     std::vector<NearPair>& known = scratch.nearPairs;
     std::vector<char> isMet(known.size(), 0);
-    parallelFor(known.size(), kPairsTogether, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto [a, b] = known[i].bodies;
-            if (!struck.isStruck[a] && !struck.isStruck[b]) continue;
-            const double seen = std::max(known[i].foundWithin,
-                                         known[i].farUntil - odometerOf(scratch, known[i].bodies));
-            isMet[i] = runsIntoUnseen(world, scratch, known[i].bodies, dt, seen, known[i].near);
-        }
+    forEach(known.size(), kShortWork, [&](std::size_t i) {
+        NearPair& pair = known[i];
+        if (!struck.isStruck[pair.bodies.a] && !struck.isStruck[pair.bodies.b]) return;
+        const double seen =
+            std::max(pair.foundWithin, pair.farUntil - odometerOf(scratch, pair.bodies));
+        isMet[i] = runsIntoUnseen(world, scratch, pair.bodies, dt, seen, pair.near);
     });
     for (std::size_t i = 0; i < known.size(); ++i) {
         if (isMet[i]) unseen.push_back(known[i].bodies);
@@ -125,13 +120,10 @@ std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, doubl
         struck.boxes, world.mass, [&](BodyPair pair) { return isMovedPair(world, scratch, pair); },
         struck.isFaster);
     isMet.assign(pairs.size(), 0);
-    parallelFor(pairs.size(), 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto near = std::ranges::lower_bound(known, pairs[i], {}, &NearPair::bodies);
-            if (near != known.end() && near->bodies == pairs[i]) continue;
-            NearFeatures ofNone;
-            isMet[i] = runsIntoUnseen(world, scratch, pairs[i], dt, 0.0, ofNone);
-        }
+    forEach(pairs.size(), 4, [&](std::size_t i) {
+        if (std::ranges::binary_search(known, pairs[i], {}, &NearPair::bodies)) return;
+        NearFeatures ofNone;
+        isMet[i] = runsIntoUnseen(world, scratch, pairs[i], dt, 0.0, ofNone);
     });
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (isMet[i]) unseen.push_back(pairs[i]);
