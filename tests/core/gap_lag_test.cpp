@@ -63,9 +63,12 @@ struct Error {
     double gap = 0.0, place = 0.0, normal = 0.0;
     int contacts = 0;
 
-    void add(const Followed& followed, double reach)
+    /// After three small steps; false when the contacts have not gone along.
+    bool addWalk(std::uint64_t run, Followed& followed)
     {
-        const std::vector<GapContact> anew = followed.found(reach);
+        for (std::uint64_t step = 1; step <= 3; ++step)
+            if (!followed.goOn(run, step, 3e-5, 0.0)) return false;
+        const std::vector<GapContact> anew = followed.found(0.02);
         for (const GapContact& taken : followed.pair.contacts) {
             const auto same = std::ranges::find(anew, taken.feature, &GapContact::feature);
             if (same == anew.end()) continue;
@@ -74,6 +77,7 @@ struct Error {
             place = std::max(place, (taken.rA - same->rA).norm());
             normal = std::max(normal, (taken.normal - same->normal).norm());
         }
+        return true;
     }
 };
 
@@ -89,9 +93,7 @@ TEST(GapLag, CornersOverFacesGoToWhereTheyWouldBeFound)
         const bool isAbove = run % 2 == 0;
         Followed followed(isAbove ? cube : slab, isAbove ? tilted : below, isAbove ? slab : cube,
                           isAbove ? below : tilted, 0.02);
-        for (std::uint64_t step = 1; step <= 3; ++step)
-            ASSERT_TRUE(followed.goOn(run, step, 3e-5, 0.0));
-        error.add(followed, 0.02);
+        ASSERT_TRUE(error.addWalk(run, followed));
     }
     EXPECT_GE(error.contacts, 100);
     EXPECT_LE(error.gap, 1e-12);
@@ -110,9 +112,7 @@ TEST(GapLag, CrossedEdgesGoNearlyThere)
             Vec3(0.0, 2.0 * edge + 0.003, 0.0) + 1e-3 * signedUnits(run, 0),
             exponentialMap(Vec3(0.0, 0.5 * kPi + 0.3 * signedUnit(run, 3), 0.0)) * onEdge};
         Followed followed(bar, above, bar, {Vec3::Zero(), onEdge}, 0.02);
-        for (std::uint64_t step = 1; step <= 3; ++step)
-            ASSERT_TRUE(followed.goOn(run, step, 3e-5, 0.0));
-        error.add(followed, 0.02);
+        ASSERT_TRUE(error.addWalk(run, followed));
     }
     EXPECT_GE(error.contacts, 40);
     EXPECT_LE(error.gap, 1e-6);
