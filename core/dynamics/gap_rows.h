@@ -135,11 +135,11 @@ struct GapScratch {
     std::vector<Pose> seenAt;
     std::vector<BodyMove> moves;
     std::vector<double> odometer;
-    /// Per body: the pace with which this step looks for gaps, and what an earlier attempt has
-    /// shown it to gain besides [m/s].
+    /// Per body: the pace with which this step looks for gaps, what an earlier attempt has shown it
+    /// to gain besides [m/s], and whether it looks for all the speed it has in common with others.
     std::vector<GapPace> paces;
     std::vector<double> gain;
-    bool looksFar = false;  ///< for all the speed that two bodies have in common
+    std::vector<char> looksFar;
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< pair by pair

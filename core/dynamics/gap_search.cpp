@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_lag.h"
+#include "core/dynamics/gap_pace.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/sleep.h"
 
@@ -42,20 +43,41 @@ GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
     return body;
 }
 
-/// Gaps that may close within the step. What both have in common and what pulls both alike count
-/// too: one of them may be stopped in this very step, and the course of a falling wall that was not
-/// told of the one below sank as deep into it as it fell in a step.
-double reachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+/// What a step that nothing changes moves a body by.
+RigidMotion motionOf(const GapBody& body, double dt)
 {
-    const GapBody &bodyA = scratch.bodies[bodies.a], &bodyB = scratch.bodies[bodies.b];
+    return {dt * body.velocity, dt * (body.spin + dt * (body.inverseInertia * body.torque))};
+}
+
+/// How far any points of the bodies move against each other in the step, at most [m].
+double approachAnywhere(const GapScratch& scratch, BodyPair bodies, double dt)
+{
+    const GapPace &a = scratch.paces[bodies.a], &b = scratch.paces[bodies.b];
+    const Vec3 relative = scratch.bodies[bodies.a].velocity - scratch.bodies[bodies.b].velocity;
+    return dt * (relative.norm() + a.bySpin + b.bySpin);
+}
+
+/// The same of those that may meet.
+double approachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+{
+    return farthestApproach(world, bodies, motionOf(scratch.bodies[bodies.a], dt),
+                            motionOf(scratch.bodies[bodies.b], dt));
+}
+
+/// What else may close gaps within the step [m]. What both have in common and what pulls both alike
+/// count too: one of them may be stopped in this very step, and the course of a falling wall that
+/// was not told of the one below sank as deep into it as it fell in a step.
+double reachBesides(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+{
     const GapPace &a = scratch.paces[bodies.a], &b = scratch.paces[bodies.b];
     const double smaller = smallerRadius(world, bodies.a, bodies.b);
-    double inCommon = std::min(a.speed, b.speed);
-    if (!scratch.looksFar) inCommon = std::min(inCommon, kCommonWay * smaller / dt);
-    const double speed = (bodyA.velocity - bodyB.velocity).norm() + inCommon + a.bySpin + b.bySpin;
-    const double pull = std::max({a.pull, b.pull, (bodyA.pull - bodyB.pull).norm()});
+    double inCommon = dt * std::min(a.speed, b.speed);
+    if (!scratch.looksFar[bodies.a] && !scratch.looksFar[bodies.b])
+        inCommon = std::min(inCommon, kCommonWay * smaller);
+    const Vec3 apart = scratch.bodies[bodies.a].pull - scratch.bodies[bodies.b].pull;
+    const double pull = std::max({a.pull, b.pull, apart.norm()});
     const double gain = scratch.gain[bodies.a] + scratch.gain[bodies.b];
-    return dt * (speed + gain + dt * pull) + kLeastReach * smaller;
+    return inCommon + dt * (gain + dt * pull) + kLeastReach * smaller;
 }
 
 /// Everything the body may touch within the step.
@@ -122,8 +144,13 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
     const bool isAnew = isSoughtAnewAt(world.clock);
     for (NearPair& pair : pairs) {
         const auto [a, b] = pair.bodies;
-        const double least = reachOf(world, scratch, pair.bodies, dt);
-        const double reach = least + lookAheadToLag(world, scratch, pair.bodies, dt);
+        const double besides = reachBesides(world, scratch, pair.bodies, dt);
+        const double ahead = lookAheadToLag(world, scratch, pair.bodies, dt);
+        const double apart = pair.farUntil - odometerOf(scratch, pair.bodies);
+        // Most pairs are so far apart that nobody needs to know how they approach.
+        double least = besides + approachAnywhere(scratch, pair.bodies, dt);
+        if (least + ahead >= apart) least = besides + approachOf(world, scratch, pair.bodies, dt);
+        const double reach = least + ahead;
         const bool hasMoved = !isAgain && (scratch.moves[a].hasMoved || scratch.moves[b].hasMoved);
         const bool isKnown = isAnew     ? !hasMoved && !pair.isLagged && reach == pair.foundWithin
                              : hasMoved ? takeContactsAlong(world, scratch, least, pair)
@@ -133,8 +160,7 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
         pair.foundWithin = reach;
         pair.isLagged = false;
         pair.depth = 0.0;
-        if (reach + odometerOf(scratch, pair.bodies) >= pair.farUntil)
-            questions.push_back({&pair, reach});
+        if (reach >= apart) questions.push_back({&pair, reach});
     }
 }
 
@@ -157,18 +183,6 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
 }
 
 }  // namespace
-
-GapPace paceOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
-{
-    const GapBody& b = scratch.bodies[body];
-    const Shape& shape = world.shapeOf(body);
-    GapPace pace{b.velocity.norm(), 0.0, b.pull.norm()};
-    if (!shape.isPlane) {
-        const double spin = b.spin.norm() + dt * (b.inverseInertia * b.torque).norm();
-        pace.bySpin = spin * shape.boundingRadius;
-    }
-    return pace;
-}
 
 bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
 {

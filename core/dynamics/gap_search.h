@@ -9,9 +9,6 @@ namespace scree {
 /// Finds all contacts that may close within dt. Wakes what they are about to disturb.
 void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch);
 
-/// What may close gaps of a body, as scratch.bodies tell.
-GapPace paceOf(const World& world, const GapScratch& scratch, BodyId body, double dt);
-
 /// Whether two bodies may collide, and one of them moves or can be moved.
 bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair);
 

@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_lag.h"
+#include "core/dynamics/gap_pace.h"
 #include "core/dynamics/gap_search.h"
 #include "core/dynamics/integrator.h"
 
@@ -26,17 +27,10 @@ double changeOf(const World& world, const GapScratch& scratch, BodyId body, doub
                world.shapeOf(body).boundingRadius;
 }
 
-/// How far any two points of the bodies move against each other in the step, as solved, at most
-/// [m].
-double approachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
+/// How a body moves in the step, as solved.
+RigidMotion motionOf(const GapBody& body, double dt)
 {
-    const GapBody &a = scratch.bodies[bodies.a], &b = scratch.bodies[bodies.b];
-    const auto byTurn = [&](BodyId id, const GapBody& body) {
-        const Shape& shape = world.shapeOf(id);
-        return shape.isPlane ? 0.0 : (dt * body.spin + body.turn).norm() * shape.boundingRadius;
-    };
-    return (dt * (a.velocity - b.velocity) + a.shift - b.shift).norm() + byTurn(bodies.a, a) +
-           byTurn(bodies.b, b);
+    return {dt * body.velocity + body.shift, dt * body.spin + body.turn};
 }
 
 /// As solved, do the bodies run visibly into each other where they have not been looked at: at gaps
@@ -46,7 +40,9 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
 {
     const auto [a, b] = bodies;
     const double visible = kVisible * smallerRadius(world, a, b);
-    const double within = approachOf(world, scratch, bodies, dt) - visible;
+    const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
+    const double within =
+        farthestApproach(world, bodies, motionOf(bodyA, dt), motionOf(bodyB, dt)) - visible;
     if (within <= seen) return false;
     std::vector<GapContact> contacts;
     near.findContacts(placePair(world, bodies), within, contacts);
@@ -57,7 +53,6 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
         row.rA = contact.rA;
         row.rB = contact.rA + bFromA;
         row.normal = contact.normal;
-        const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
         const double opened =
             shiftAt(row, bodyA, bodyB) + dt * velocityAt(row, bodyA, bodyB).dot(row.normal);
         return contact.gap + opened < -visible;
@@ -138,10 +133,11 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
     const Struck struck = findStruck(world, scratch, dt);
     const std::vector<BodyPair> unseen = findUnseen(world, struck, dt, scratch);
     for (const BodyPair& pair : unseen) {
-        for (const BodyId body : {pair.a, pair.b})
+        for (const BodyId body : {pair.a, pair.b}) {
             scratch.gain[body] = std::max(scratch.gain[body], struck.change[body]);
+            scratch.looksFar[body] = 1;
+        }
     }
-    scratch.looksFar = scratch.looksFar || !unseen.empty();
     return !unseen.empty();
 }
 

@@ -274,7 +274,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
     scratch.gain.assign(world.bodyCount(), 0.0);
-    scratch.looksFar = false;
+    scratch.looksFar.assign(world.bodyCount(), 0);
     GapLevels levels = solveGaps(world, dt, report);
     int looks = 0;
     while (wakeStruck(world, dt, scratch) ||

@@ -1,0 +1,59 @@
+#include "core/dynamics/gap_pace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/sphere_tree.h"
+
+namespace scree {
+namespace {
+
+/// Around the points of either body that may touch the other when nothing moves farther than `way`
+/// before: what their bounding spheres have in common. Nothing bounds a plane.
+Sphere meetingPlace(const World& world, BodyPair bodies, double way)
+{
+    const Shape &shapeA = world.shapeOf(bodies.a), &shapeB = world.shapeOf(bodies.b);
+    const Sphere a{world.motion[bodies.a].position, shapeA.boundingRadius};
+    const Sphere b{world.motion[bodies.b].position, shapeB.boundingRadius};
+    if (shapeA.isPlane) return b;
+    if (shapeB.isPlane) return a;
+    // They meet in a circle, in the plane that divides the line from A to B at this share.
+    const Vec3 fromAToB = b.centre - a.centre;
+    const double square = fromAToB.squaredNorm();
+    const double radiusA = a.radius + way, radiusB = b.radius + way;
+    const double share = 0.5 * (1.0 + (radiusA * radiusA - radiusB * radiusB) / square);
+    if (!(share > 0.0)) return a;
+    if (!(share < 1.0)) return b;
+    const double ofCircle = radiusA * radiusA - share * share * square;
+    return {a.centre + share * fromAToB, std::sqrt(std::max(ofCircle, 0.0))};
+}
+
+}  // namespace
+
+GapPace paceOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
+{
+    const GapBody& b = scratch.bodies[body];
+    const Shape& shape = world.shapeOf(body);
+    GapPace pace{b.velocity.norm(), 0.0, b.pull.norm()};
+    if (!shape.isPlane) {
+        const double spin = b.spin.norm() + dt * (b.inverseInertia * b.torque).norm();
+        pace.bySpin = spin * shape.boundingRadius;
+    }
+    return pace;
+}
+
+double farthestApproach(const World& world, BodyPair bodies, const RigidMotion& ofA,
+                        const RigidMotion& ofB)
+{
+    const Shape &shapeA = world.shapeOf(bodies.a), &shapeB = world.shapeOf(bodies.b);
+    const double byTurns =
+        ofA.turn.norm() * shapeA.boundingRadius + ofB.turn.norm() * shapeB.boundingRadius;
+    const double anywhere = (ofA.shift - ofB.shift).norm() + byTurns;
+    const Sphere place = meetingPlace(world, bodies, anywhere);
+    const Vec3 a = ofA.shift + ofA.turn.cross(place.centre - world.motion[bodies.a].position);
+    const Vec3 b = ofB.shift + ofB.turn.cross(place.centre - world.motion[bodies.b].position);
+    const double there = (a - b).norm() + (ofA.turn - ofB.turn).norm() * place.radius;
+    return shapeA.isPlane || shapeB.isPlane ? there : std::min(anywhere, there);
+}
+
+}  // namespace scree
