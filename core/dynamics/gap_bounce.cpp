@@ -35,19 +35,13 @@ public:
     {
         for (const std::size_t i : first) whole_.visit(i);
         for (int sweep = 0; sweep < state_.settings.collisionIterations && !isOver_; ++sweep) {
-            const std::int64_t before = counts().total();
+            const std::size_t before = count();
             sweepThereAndBack();
-            isOver_ = counts().total() == before;
+            isOver_ = count() == before;
         }
     }
 
     bool isOver() const { return isOver_; }
-    ImpulseCounts counts() const
-    {
-        ImpulseCounts sum = whole_.counts();
-        for (const ImpactVisits& half : halves_) sum += half.counts();
-        return sum;
-    }
     std::vector<GapImpact> impacts() const
     {
         std::vector<GapImpact> all = whole_.impacts();
@@ -57,6 +51,10 @@ public:
     }
 
 private:
+    std::size_t count() const
+    {
+        return whole_.impacts().size() + halves_[0].impacts().size() + halves_[1].impacts().size();
+    }
     /// A blow runs along a row of touching bodies whichever way it lies.
     void sweepThereAndBack()
     {
@@ -105,7 +103,7 @@ std::vector<std::size_t> inOrderOfTime(ImpactState& state)
     const ImpactVisits visits(state, ImpactVisits::Of::all);
     std::vector<double> times(scratch.pairs.size());
     forPairs(scratch, [&](std::size_t p) {
-        times[p] = visits.timeOf(scratch.pairs[p]);
+        times[p] = isKept(scratch, scratch.pairs[p]) ? -1.0 : visits.timeOf(scratch.pairs[p]);
         if (times[p] < 0.0) state.doneAt[p] = kBeforeAll;
     });
     std::vector<std::size_t> hit;
@@ -121,18 +119,14 @@ std::vector<std::size_t> inOrderOfTime(ImpactState& state)
 
 }  // namespace
 
-ImpulseCounts resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
-                             std::int64_t& loopsAtTheirCap)
+void resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
+                    std::int64_t& loopsAtTheirCap)
 {
-    scratch.impacts.clear();
     ImpactState state(settings, dt, scratch);
     const std::vector<std::size_t> hit = inOrderOfTime(state);
-    if (hit.empty()) return {};
+    if (hit.empty()) return;
     state.findPairsOfBodies();
-    const bool mayCut = hit.size() >= kHitsWorthACut && scratch.rows.size() >= kRowsWorthACut;
-
     struct Outcome {
-        ImpulseCounts counts;
         std::vector<GapImpact> impacts;
         bool isOver = true;
     };
@@ -141,20 +135,17 @@ ImpulseCounts resolveImpacts(const StepSettings& settings, double dt, GapScratch
         const auto first = std::ranges::equal_range(
             hit, i, {}, [&](std::size_t p) { return scratch.pairs[p].island; });
         if (first.empty()) return;
-        IslandImpacts island(state, scratch.islands[i], mayCut);
+        IslandImpacts island(state, scratch.islands[i], first.size() >= kHitsWorthACut);
         island.run(first);
-        outcomes[i] = {island.counts(), island.impacts(), island.isOver()};
+        outcomes[i] = {island.impacts(), island.isOver()};
     });
-    ImpulseCounts counts;
     bool isOver = true;
     for (const Outcome& outcome : outcomes) {
-        counts += outcome.counts;
         scratch.impacts.insert(scratch.impacts.end(), outcome.impacts.begin(),
                                outcome.impacts.end());
         isOver = isOver && outcome.isOver;
     }
     if (!isOver) ++loopsAtTheirCap;
-    return counts;
 }
 
 }  // namespace scree

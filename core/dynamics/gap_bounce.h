@@ -8,7 +8,7 @@ namespace scree {
 
 /// Gives every impact of the coming step its impulse. Velocities are those before gravity, and stay
 /// so. Bodies get shifts that let them move with the old velocity up to the impact.
-ImpulseCounts resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
-                             std::int64_t& loopsAtTheirCap);
+void resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
+                    std::int64_t& loopsAtTheirCap);
 
 }  // namespace scree

@@ -192,6 +192,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
     // g dt²/2 too far.
     std::vector<char> stops(scratch.pairs.size(), 0);
     forPairs(scratch, [&](std::size_t i) {
+        if (isKept(scratch, scratch.pairs[i])) return;
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end && !stops[i]; ++r) {
             const GapRow& row = scratch.rows[r];
             const GapBody& a = scratch.bodies[row.a];
@@ -202,7 +203,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
             stops[i] = end < 0.0 || row.impulse.x() > 0.0;
         }
     });
-    for (GapBody& body : scratch.bodies) body.isStopped = false;
+    for (GapBody& body : scratch.bodies) body.isStopped = body.isStopped && body.isKept;
     for (const std::size_t i : scratch.order) {
         if (!stops[i]) continue;
         scratch.bodies[scratch.pairs[i].bodies.a].isStopped = true;
@@ -210,6 +211,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
     }
     forEach(scratch.bodies.size(), kShortWork, [&](std::size_t b) {
         GapBody& body = scratch.bodies[b];
+        if (body.isKept) return;
         body.velocityBefore = body.velocity;
         body.spinBefore = body.spin;
         if (body.inverseMass == 0.0) return;
@@ -222,6 +224,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
         body.turn -= 0.5 * dt * dt * turning;
     });
     forPairs(scratch, [&](std::size_t i) {
+        if (isKept(scratch, scratch.pairs[i])) return;
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
             GapRow& row = scratch.rows[r];
             const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);

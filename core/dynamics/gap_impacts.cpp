@@ -264,8 +264,7 @@ void ImpactVisits::applyOne(Impact& impact)
     const ContactImpulse j =
         contactImpulse(k, impact.velocity, row.normal, row.restitution, row.friction);
     applyImpulses(row, j.impulse, impact.time);
-    note(impact, j.impulse);
-    countImpulse(counts_, j.kind);
+    note(impact, j.impulse, j.kind);
 }
 
 /// A face that lands flat is hit at all its corners at once. One by one they would make it
@@ -279,8 +278,7 @@ void ImpactVisits::applyTogether()
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         const GapRow& row = rows_[i].row;
         applyImpulses(row, row.worldImpulse(), earliest);
-        note(hits_[i], row.worldImpulse());
-        ++counts_.sticking;
+        note(hits_[i], row.worldImpulse(), FrictionCase::sticking);
     }
 }
 
@@ -324,10 +322,10 @@ std::size_t ImpactVisits::placeOf(BodyId body)
     return static_cast<std::size_t>(found - hitBodies_.begin());
 }
 
-void ImpactVisits::note(const Impact& impact, const Vec3& impulse)
+void ImpactVisits::note(const Impact& impact, const Vec3& impulse, FrictionCase kind)
 {
     noted_.push_back(
-        {static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse, impact.slid});
+        {static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse, impact.slid, kind});
 }
 
 void ImpactVisits::applyImpulses(const GapRow& row, const Vec3& impulse, double time)

@@ -90,7 +90,6 @@ public:
     std::int64_t clock() const { return clock_; }
     void setClock(std::int64_t clock) { clock_ = clock; }
 
-    const ImpulseCounts& counts() const { return counts_; }
     const std::vector<GapImpact>& impacts() const { return noted_; }
 
     /// When the first row of a pair will be hit; negative: none will.
@@ -124,7 +123,7 @@ private:
     void applyTogether();
     double solveTogether(bool withFriction);
     std::size_t placeOf(BodyId body);
-    void note(const Impact& impact, const Vec3& impulse);
+    void note(const Impact& impact, const Vec3& impulse, FrictionCase kind);
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time);
     void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts, double time);
 
@@ -133,7 +132,6 @@ private:
     std::int64_t clock_ = kBeforeAll;
     bool isOfHalf_;
     std::vector<std::size_t> left_;
-    ImpulseCounts counts_;
     std::vector<GapImpact> noted_;
     std::vector<BodyId> toSpread_;
     std::vector<Impact> hits_;

@@ -24,8 +24,9 @@ constexpr double kVisibleWhenSolved = 1e-5, kVisibleInHeaps = 1e-3;
 /// The bodies of a level's rows that its solve must not move, as they were.
 class HeldBodies {
 public:
-    explicit HeldBodies(GapScratch& scratch) : scratch_(scratch), isHeld_(scratch.bodies.size(), 0)
+    explicit HeldBodies(GapScratch& scratch) : scratch_(scratch), isHeld_(flags())
     {
+        if (isHeld_.size() < scratch.bodies.size()) isHeld_.resize(scratch.bodies.size(), 0);
     }
     bool isHeld(BodyId body) const { return isHeld_[body] != 0; }
     void hold(BodyId body)
@@ -51,9 +52,15 @@ private:
         BodyId body;
         GapBody before;
     };
+    /// Of this thread, all clear between two uses: most islands hold few of many bodies.
+    static std::vector<char>& flags()
+    {
+        thread_local std::vector<char> flags;
+        return flags;
+    }
     GapScratch& scratch_;
     std::vector<Held> held_;
-    std::vector<char> isHeld_;
+    std::vector<char>& isHeld_;
 };
 
 /// The motion of the bodies that a solve may move, so that it can be undone. Held bodies
@@ -161,6 +168,7 @@ std::vector<char> closingIslands(const World& world, const StepSettings& setting
     std::vector<char> pairCloses(scratch.pairs.size());
     forPairs(scratch, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
+        if (isKept(scratch, pair)) return;
         const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
         pairCloses[i] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
             return closesVisibly(world, settings, dt, scratch, scratch.islands[pair.island], row);
@@ -191,6 +199,13 @@ std::vector<std::size_t> pairsOf(const GapScratch& scratch, const std::vector<st
         if (isChosen[scratch.pairs[i].island]) pairs.push_back(i);
     }
     return pairs;
+}
+
+/// That of its higher body.
+std::size_t levelOf(const GraphLevels& graph, const GapPair& pair)
+{
+    return static_cast<std::size_t>(
+        std::max(graph.level[pair.bodies.a], graph.level[pair.bodies.b]));
 }
 
 /// Rows of a level that share bodies.
@@ -235,61 +250,23 @@ bool shake(const World& world, const StepSettings& settings, double dt, const Cl
     return true;
 }
 
-}  // namespace
-
-GapLevels buildGapLevels(double dt, const GapScratch& scratch)
+void handWeightDown(const StepSettings& settings, double dt, const GraphLevels& graph,
+                    const GapIsland& island, GapScratch& scratch)
 {
-    struct Falls {
-        bool ofA = false, ofB = false;  // onto the other
-    };
-    std::vector<Falls> falls(scratch.pairs.size());
-    forPairs(scratch, [&](std::size_t i) {
-        const auto [idA, idB] = scratch.pairs[i].bodies;
-        const GapBody &a = scratch.bodies[idA], &b = scratch.bodies[idB];
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
-            const GapRow& row = scratch.rows[r];
-            const double drift = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
-                                 dt * velocityAt(row, a, b).dot(row.normal);
-            const double fallOfA = dt * dt * a.pull.dot(row.normal);
-            const double fallOfB = dt * dt * b.pull.dot(row.normal);
-            falls[i].ofA |= a.inverseMass > 0.0 && drift + fallOfA < 0.0;
-            falls[i].ofB |= b.inverseMass > 0.0 && drift - fallOfB < 0.0;
-        }
-    });
-    const std::size_t count = scratch.bodies.size();
-    std::vector<char> isFixed(count);
-    for (std::size_t i = 0; i < count; ++i) isFixed[i] = scratch.bodies[i].inverseMass == 0.0;
-    std::vector<SupportEdge> edges;
-    for (std::size_t i = 0; i < falls.size(); ++i) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        if (falls[i].ofA) edges.push_back({b, a});
-        if (falls[i].ofB) edges.push_back({a, b});
+    std::vector<std::size_t> pairs = island.pairs;
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<std::vector<std::size_t>> byLevel;
+    for (const std::size_t i : pairs) {
+        const std::size_t level = levelOf(graph, scratch.pairs[i]);
+        if (byLevel.size() <= level) byLevel.resize(level + 1);
+        byLevel[level].push_back(i);
     }
-    GapLevels levels;
-    levels.graph = computeLevels(count, edges, isFixed);
-    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        const auto level =
-            static_cast<std::size_t>(std::max(levels.graph.level[a], levels.graph.level[b]));
-        if (levels.pairs.size() <= level) levels.pairs.resize(level + 1);
-        levels.pairs[level].push_back(i);
-    }
-    return levels;
-}
-
-void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
-                    GapScratch& scratch)
-{
-    std::vector<char> isNew(scratch.islands.size());
-    for (std::size_t i = 0; i < isNew.size(); ++i) isNew[i] = !scratch.islands[i].isRemembered;
-    if (std::find(isNew.begin(), isNew.end(), 1) == isNew.end()) return;
     HeldBodies held(scratch);
-    for (std::size_t level = levels.pairs.size(); level-- > 0;) {
-        const std::vector<std::size_t> rows =
-            rowsOf(scratch, pairsOf(scratch, levels.pairs[level], isNew));
+    for (std::size_t level = byLevel.size(); level-- > 0;) {
+        const std::vector<std::size_t> rows = rowsOf(scratch, byLevel[level]);
         const auto hold = [&](BodyId body) {
             GapBody& b = scratch.bodies[body];
-            if (b.inverseMass == 0.0 || levels.graph.level[body] == static_cast<int>(level)) return;
+            if (b.inverseMass == 0.0 || graph.level[body] == static_cast<int>(level)) return;
             held.hold(body);
             b.velocity = b.velocityBefore;
             b.spin = b.spinBefore;
@@ -321,6 +298,52 @@ void handWeightDown(const StepSettings& settings, double dt, const GapLevels& le
             if (wasHeldB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);
         }
     }
+}
+
+}  // namespace
+
+GapLevels buildGapLevels(double dt, GapScratch& scratch)
+{
+    forPairs(scratch, [&](std::size_t i) {
+        GapPair& pair = scratch.pairs[i];
+        if (isKept(scratch, pair)) return;
+        const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            const double drift = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
+                                 dt * velocityAt(row, a, b).dot(row.normal);
+            const double fallOfA = dt * dt * a.pull.dot(row.normal);
+            const double fallOfB = dt * dt * b.pull.dot(row.normal);
+            pair.fallsOnB |= a.inverseMass > 0.0 && drift + fallOfA < 0.0;
+            pair.fallsOnA |= b.inverseMass > 0.0 && drift - fallOfB < 0.0;
+        }
+    });
+    const std::size_t count = scratch.bodies.size();
+    std::vector<char> isFixed(count);
+    for (std::size_t i = 0; i < count; ++i) isFixed[i] = scratch.bodies[i].inverseMass == 0.0;
+    std::vector<SupportEdge> edges;
+    for (const GapPair& pair : scratch.pairs) {
+        const auto [a, b] = pair.bodies;
+        if (pair.fallsOnB) edges.push_back({b, a});
+        if (pair.fallsOnA) edges.push_back({a, b});
+    }
+    GapLevels levels;
+    levels.graph = computeLevels(count, edges, isFixed);
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
+        const std::size_t level = levelOf(levels.graph, scratch.pairs[i]);
+        if (levels.pairs.size() <= level) levels.pairs.resize(level + 1);
+        levels.pairs[level].push_back(i);
+    }
+    return levels;
+}
+
+void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
+                    GapScratch& scratch)
+{
+    forIslands(scratch, [&](std::size_t i) {
+        const GapIsland& island = scratch.islands[i];
+        if (!island.isRemembered) handWeightDown(settings, dt, levels.graph, island, scratch);
+    });
 }
 
 void propagateShockUp(const World& world, const StepSettings& settings, double dt,

@@ -14,8 +14,8 @@ struct GapLevels {
                                                   ///< is in it
 };
 
-/// With the velocities before forces.
-GapLevels buildGapLevels(double dt, const GapScratch& scratch);
+/// With the velocities before forces. Notes who falls on whom.
+GapLevels buildGapLevels(double dt, GapScratch& scratch);
 
 /// Impulses for islands that remember none, level by level from the top: what rests is held up by
 /// what is below as if that could not give way, and hands its weight down. Exact for a stack, and a

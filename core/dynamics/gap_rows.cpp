@@ -324,6 +324,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
         scratch.rows.reserve(count + count / 8);
     }
     scratch.rows.resize(count);
+    scratch.impacts.clear();
 
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
     const Vec3 up = -settings.gravity;

@@ -12,6 +12,7 @@
 
 #include "core/base/parallel.h"
 #include "core/collision/near_features.h"
+#include "core/dynamics/friction.h"
 #include "core/dynamics/scratch.h"
 
 namespace scree {
@@ -30,6 +31,7 @@ struct alignas(64) GapBody {
     Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
     double hitAt;    ///< the first moment at which an impact changed its velocity; 0: none did [s]
     bool isStopped;  ///< something may stop it within the step
+    bool isKept;     ///< as an earlier attempt at the step has solved it
 };
 
 struct GapRow {
@@ -72,16 +74,18 @@ struct NearPair {
     double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
     double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
     bool isLagged = false;      ///< the contacts have gone along with the bodies since
+    bool wasAsked = false;      ///< in this attempt at the step
 };
 
 /// The few of these that have rows.
 struct GapPair {
     BodyPair bodies;
-    std::size_t near;        ///< index into GapScratch::nearPairs
-    std::size_t begin, end;  ///< its rows
-    bool isCarried = false;  ///< it had an impulse in the last step
-    std::size_t island = 0;  ///< index into GapScratch::islands
-    int part = 0;            ///< see PairParts
+    std::size_t near;                         ///< index into GapScratch::nearPairs
+    std::size_t begin, end;                   ///< its rows
+    bool isCarried = false;                   ///< it had an impulse in the last step
+    bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
+    std::size_t island = 0;                   ///< index into GapScratch::islands
+    int part = 0;                             ///< see PairParts
 };
 
 /// Pairs of one half of the bodies, of the other, and those that join the halves. Two threads may
@@ -93,6 +97,7 @@ struct GapImpact {
     std::size_t row;
     Vec3 impulse;  ///< on A, world [N s]
     Vec3 slid;     ///< what its lever arms have allowed for [m]
+    FrictionCase kind;
 };
 
 /// Rows that share bodies, directly or through others: a problem of its own. Islands share no
@@ -101,6 +106,7 @@ struct GapIsland {
     std::vector<std::size_t> pairs;  ///< bottom to top
     std::size_t rowCount = 0;
     bool isRemembered = false;  ///< some of its pairs carried in the last step
+    bool isKept = false;        ///< as an earlier attempt at the step has solved it
 };
 
 /// Below this many rows a cut costs more than a second thread gains.
@@ -161,20 +167,27 @@ void forPairs(const GapScratch& scratch, const Work& work)
     forEach(scratch.pairs.size(), kShortWork, work);
 }
 
-/// Calls work(index) for all islands; they share no movable body. What is most of all rows by
-/// itself may share its loops with all threads, the others are worked on at once, each by one.
+/// Calls work(index) for all islands that are not kept; they share no movable body. What is most of
+/// all rows by itself may share its loops with all threads, the others are worked on at once, each
+/// by one.
 template <class Work>
 void forIslands(const GapScratch& scratch, const Work& work)
 {
     const auto isMost = [&](std::size_t i) {
         return 2 * scratch.islands[i].rowCount >= scratch.rows.size();
     };
+    const auto isSolved = [&](std::size_t i) { return scratch.islands[i].isKept; };
     for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
-        if (isMost(i)) work(i);
+        if (isMost(i) && !isSolved(i)) work(i);
     }
     forEach(scratch.islands.size(), 1, [&](std::size_t i) {
-        if (!isMost(i)) work(i);
+        if (!isMost(i) && !isSolved(i)) work(i);
     });
+}
+
+inline bool isKept(const GapScratch& scratch, const GapPair& pair)
+{
+    return scratch.islands[pair.island].isKept;
 }
 
 /// Those of the pairs together that share movable bodies, directly or through others; pairs without

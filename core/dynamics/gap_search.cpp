@@ -155,6 +155,7 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
         const bool isKnown = isAnew     ? !hasMoved && !pair.isLagged && reach == pair.foundWithin
                              : hasMoved ? takeContactsAlong(world, scratch, least, pair)
                                         : least <= pair.foundWithin;
+        pair.wasAsked = !isKnown || (isAgain && pair.wasAsked);
         if (isKnown) continue;
         pair.contacts.clear();
         pair.foundWithin = reach;

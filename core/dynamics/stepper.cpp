@@ -12,6 +12,7 @@
 #include "core/dynamics/contact_pass.h"
 #include "core/dynamics/gap_bounce.h"
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
@@ -238,21 +239,23 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     return report;
 }
 
-/// New velocities, in the scratch alone: the world is as it was.
-GapLevels Stepper::solveGaps(World& world, double dt, StepReport& report)
+/// New velocities, in the scratch alone: the world is as it was. `solved`: by an earlier attempt.
+GapLevels Stepper::solveGaps(World& world, double dt, const SolvedIslands* solved,
+                             StepReport& report)
 {
     GapScratch& scratch = *gaps_;
     {
         const PhaseTimer timer(report, Phase::contactGraph);
         findGaps(world, settings_, dt, scratch);
         buildRows(world, settings_, dt, scratch);
+        if (solved) solved->handOn(scratch);
     }
     // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
     // never mistaken for what has just landed.
     GapLevels levels;
     {
         const PhaseTimer timer(report, Phase::collision);
-        report.collisionImpulses = resolveImpacts(settings_, dt, scratch, report.loopsAtTheirCap);
+        resolveImpacts(settings_, dt, scratch, report.loopsAtTheirCap);
         levels = buildGapLevels(dt, scratch);
     }
     {
@@ -275,12 +278,15 @@ StepReport Stepper::stepGaps(World& world, double dt)
     aimKeyedBodies(world, dt);
     scratch.gain.assign(world.bodyCount(), 0.0);
     scratch.looksFar.assign(world.bodyCount(), 0);
-    GapLevels levels = solveGaps(world, dt, report);
+    GapLevels levels = solveGaps(world, dt, nullptr, report);
     int looks = 0;
     while (wakeStruck(world, dt, scratch) ||
            (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
-        levels = solveGaps(world, dt, report);
+        const SolvedIslands solved(scratch);
+        levels = solveGaps(world, dt, &solved, report);
     }
+    for (const GapImpact& impact : scratch.impacts)
+        countImpulse(report.collisionImpulses, impact.kind);
     if (observer_) observer_->stepDone(seeGaps(world, scratch, levels.graph, dt));
     {
         const PhaseTimer timer(report, Phase::position);

@@ -14,6 +14,7 @@ namespace scree {
 struct StepScratch;
 struct GapLevels;
 struct GapScratch;
+class SolvedIslands;
 
 /// Serves one world: what it remembers of pairs from step to step is found again by their bodies.
 class Stepper {
@@ -45,7 +46,7 @@ private:
     StepReport stepFoundPairs(World& world, double dt);
     StepReport stepGaps(World& world, double dt);
     bool mayStopAt(const Clock& clock) const;
-    GapLevels solveGaps(World& world, double dt, StepReport& report);
+    GapLevels solveGaps(World& world, double dt, const SolvedIslands* solved, StepReport& report);
 
     StepSettings settings_;
     StepObserver* observer_ = nullptr;

@@ -1,6 +1,7 @@
 // frame/rings: rings on poles, a frame an iteration, and what the independent judge says of it.
 // Prints milliseconds per frame, wall and CPU, and of each phase; sub-steps, contacts, the overlap
-// found and the state hash. Ten thousand rings are ten fields of a thousand side by side.
+// found and the state hash. Ten thousand rings are ten fields of a thousand side by side, or a
+// hundred fields of a hundred: what a ring costs there against one field alone says how cost grows.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -123,9 +124,10 @@ struct Tally {
 void simulateRings(benchmark::State& state)
 {
     const auto rings = static_cast<int>(state.range(0));
-    const int copies = std::max(rings / 1000, 1);
     setThreadCount(static_cast<int>(state.range(1)));
-    const std::string file = "shots/rings_" + std::to_string(rings / copies) + ".toml";
+    const auto ringsOfField = static_cast<int>(state.range(2));
+    const int copies = rings / ringsOfField;
+    const std::string file = "shots/rings_" + std::to_string(ringsOfField) + ".toml";
     Shot shot = parseShot(sourceFile(file).string());
     repeatBeside(shot, copies);
     World world = buildWorld(shot);
@@ -161,8 +163,11 @@ void simulateRings(benchmark::State& state)
 
 BENCHMARK(simulateRings)
     ->Name("frame/rings")
-    ->ArgNames({"rings", "threads"})
-    ->ArgsProduct({{100, 500, 1000, 10000}, {1, 2}})
+    ->ArgNames({"rings", "threads", "field"})
+    ->ArgsProduct({{100}, {1, 2}, {100}})
+    ->ArgsProduct({{500}, {1, 2}, {500}})
+    ->ArgsProduct({{1000}, {1, 2}, {1000}})
+    ->ArgsProduct({{10000}, {1, 2}, {100, 1000}})
     ->Iterations(240)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()

@@ -1,0 +1,170 @@
+// A step that is solved again: islands in which nothing has changed stay as they were solved, and
+// that is as if they had been solved again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/dynamics/gap_bounce.h"
+#include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_kept.h"
+#include "core/dynamics/gap_levels.h"
+#include "core/dynamics/gap_search.h"
+#include "core/dynamics/stepper.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kStep = 1.0 / 96.0;
+constexpr int kStacks = 4, kCubes = 5;
+
+BodyId cubeOf(int stack, int cube)
+{
+    return 1 + kCubes * stack + cube;
+}
+
+BodyId ballOf(int stack)
+{
+    return 1 + kCubes * kStacks + stack;
+}
+
+/// Stacks of cubes side by side that have begun to rest; a ball has just hit each from above.
+World stacksUnderBlows()
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    addPlane(world, material);
+    const auto cube = boxShape(Vec3::Ones(), 1);
+    for (int stack = 0; stack < kStacks; ++stack) {
+        for (int i = 0; i < kCubes; ++i) {
+            addBody(world, cube, material,
+                    {Vec3(8.0 * stack, 0.5 + i, 0.02 * (i % 2)), Quat::Identity()});
+        }
+    }
+    for (int stack = 0; stack < kStacks; ++stack) {
+        addBody(world, exactSphere(0.4), material,
+                {Vec3(8.0 * stack, kCubes + 0.41, 0.0), Quat::Identity()}, 1.0,
+                Vec3(0.0, -1.0 - stack, 0.0));
+    }
+    Stepper stepper(screeSettings());
+    stepper.step(world, kStep);
+    return world;
+}
+
+/// Solves a step without moving anything.
+GapLevels attempt(World& world, const SolvedIslands* solved, GapScratch& scratch)
+{
+    const StepSettings settings = screeSettings();
+    std::int64_t loopsAtTheirCap = 0;
+    findGaps(world, settings, kStep, scratch);
+    buildRows(world, settings, kStep, scratch);
+    if (solved) solved->handOn(scratch);
+    resolveImpacts(settings, kStep, scratch, loopsAtTheirCap);
+    GapLevels levels = buildGapLevels(kStep, scratch);
+    addForcesToGaps(kStep, scratch);
+    resolveGaps(settings, kStep, levels, scratch);
+    propagateShockUp(world, settings, kStep, levels, scratch);
+    return levels;
+}
+
+struct Attempts {
+    World world = stacksUnderBlows();
+    GapScratch scratch;
+    GapLevels levels;
+    std::vector<GapBody> first;
+
+    /// Once, and after `change` once more.
+    template <class Change>
+    void run(bool keeps, const Change& change)
+    {
+        scratch.gain.assign(world.bodyCount(), 0.0);
+        scratch.looksFar.assign(world.bodyCount(), 0);
+        attempt(world, nullptr, scratch);
+        first = scratch.bodies;
+        const SolvedIslands solved(scratch);
+        change(world, scratch);
+        levels = attempt(world, keeps ? &solved : nullptr, scratch);
+    }
+    std::ptrdiff_t islandsKept() const
+    {
+        return std::ranges::count_if(scratch.islands, &GapIsland::isKept);
+    }
+    bool isKept(BodyId body) const { return scratch.bodies[body].isKept; }
+};
+
+void expectEqual(const Attempts& kept, const Attempts& whole)
+{
+    for (std::size_t b = 0; b < kept.scratch.bodies.size(); ++b) {
+        const GapBody &p = kept.scratch.bodies[b], &q = whole.scratch.bodies[b];
+        EXPECT_EQ(p.velocity, q.velocity) << b;
+        EXPECT_EQ(p.spin, q.spin) << b;
+        EXPECT_EQ(p.angularImpulse, q.angularImpulse) << b;
+        EXPECT_EQ(p.shift, q.shift) << b;
+        EXPECT_EQ(p.turn, q.turn) << b;
+        EXPECT_EQ(p.velocityBefore, q.velocityBefore) << b;
+        EXPECT_EQ(p.isStopped, q.isStopped) << b;
+    }
+    ASSERT_EQ(kept.scratch.rows.size(), whole.scratch.rows.size());
+    for (std::size_t r = 0; r < kept.scratch.rows.size(); ++r) {
+        EXPECT_EQ(kept.scratch.rows[r].impulse, whole.scratch.rows[r].impulse) << r;
+        EXPECT_EQ(kept.scratch.rows[r].target, whole.scratch.rows[r].target) << r;
+        EXPECT_EQ(kept.scratch.rows[r].wasHit, whole.scratch.rows[r].wasHit) << r;
+    }
+    const auto blows = [](const Attempts& attempts) {
+        std::vector<std::pair<std::size_t, double>> found;
+        for (const GapImpact& impact : attempts.scratch.impacts)
+            found.push_back({impact.row, impact.impulse.norm()});
+        std::sort(found.begin(), found.end());
+        return found;
+    };
+    EXPECT_EQ(blows(kept), blows(whole));
+    EXPECT_GT(blows(kept).size(), 0u);
+    EXPECT_EQ(kept.levels.pairs, whole.levels.pairs);
+    EXPECT_EQ(kept.levels.graph.isSupported, whole.levels.graph.isSupported);
+}
+
+TEST(GapKept, StacksBesideOneThatIsLookedAtFartherStayAsIfSolvedAgain)
+{
+    const auto gainsSpeed = [](World&, GapScratch& scratch) { scratch.gain[cubeOf(1, 2)] = 3.0; };
+    Attempts kept, whole;
+    kept.run(true, gainsSpeed);
+    whole.run(false, gainsSpeed);
+    EXPECT_EQ(kept.scratch.islands.size(), kStacks);
+    EXPECT_EQ(kept.islandsKept(), kStacks - 1);
+    EXPECT_FALSE(kept.isKept(cubeOf(1, 0)));
+    EXPECT_TRUE(kept.isKept(cubeOf(2, 0)));
+    expectEqual(kept, whole);
+}
+
+TEST(GapKept, AStackOnWhichABallWakesIsSolvedAgain)
+{
+    Attempts kept, whole;
+    for (Attempts* attempts : {&kept, &whole}) {
+        World& world = attempts->world;
+        world.contactMemory.rest.resize(world.bodyCount());
+        BodyRest& rest = world.contactMemory.rest[ballOf(0)];
+        rest.isAsleep = true;
+        rest.pull = screeSettings().gravity;
+        attempts->run(attempts == &kept, [](World& woken, GapScratch&) {
+            woken.contactMemory.rest[ballOf(0)].isAsleep = false;
+        });
+    }
+    EXPECT_EQ(kept.islandsKept(), kStacks - 1);
+    EXPECT_FALSE(kept.isKept(cubeOf(0, 0)));
+    EXPECT_FALSE(kept.isKept(cubeOf(0, 4)));
+    EXPECT_NE(kept.first[cubeOf(0, 4)].velocity, kept.scratch.bodies[cubeOf(0, 4)].velocity);
+    expectEqual(kept, whole);
+}
+
+TEST(GapKept, AllStaysWhereNothingHasChanged)
+{
+    Attempts kept;
+    kept.run(true, [](World&, GapScratch&) {});
+    EXPECT_EQ(kept.islandsKept(), kStacks);
+    for (std::size_t b = 0; b < kept.first.size(); ++b)
+        EXPECT_EQ(kept.first[b].velocity, kept.scratch.bodies[b].velocity) << b;
+}
+
+}  // namespace
+}  // namespace scree::test
