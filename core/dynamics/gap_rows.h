@@ -74,7 +74,7 @@ struct NearPair {
     double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
     double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
     bool isLagged = false;      ///< the contacts have gone along with the bodies since
-    bool wasAsked = false;      ///< in this attempt at the step
+    bool wasAsked = false;      ///< in this attempt at the step, for contacts that were not known
 };
 
 /// The few of these that have rows.
@@ -146,6 +146,7 @@ struct GapScratch {
     std::vector<GapPace> paces;
     std::vector<double> gain;
     std::vector<char> looksFar;
+    std::vector<char> isNews;  ///< per body: pairs with it are not what this step has found before
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< pair by pair

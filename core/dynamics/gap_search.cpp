@@ -91,15 +91,18 @@ Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, doubl
                      kLeastReach * shape.boundingRadius + shape.smooth.bulge());
 }
 
-void readBodies(const World& world, double dt, GapScratch& scratch)
+void readBodies(const World& world, double dt, bool isAgain, GapScratch& scratch)
 {
     scratch.bodies.resize(world.bodyCount());
-    scratch.gain.resize(world.bodyCount(), 0.0);
     scratch.boxes.resize(world.bodyCount());
     scratch.paces.resize(world.bodyCount());
+    scratch.isNews.resize(world.bodyCount());
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
-        scratch.bodies[i] = bodyOf(world, scratch, body);
+        const GapBody now = bodyOf(world, scratch, body);
+        const bool hasWoken = now.inverseMass > 0.0 && scratch.bodies[i].inverseMass == 0.0;
+        scratch.isNews[i] = !isAgain || hasWoken || scratch.gain[i] > 0.0 || scratch.looksFar[i];
+        scratch.bodies[i] = now;
         scratch.paces[i] = paceOf(world, scratch, body, dt);
         scratch.boxes[i] = boxWithin(world, scratch, body, dt);
     });
@@ -136,14 +139,16 @@ struct Question {
     double reach;
 };
 
-/// Notes the pairs whose contacts are not known. A step that is solved again asks again, most of it
-/// the same.
+/// Notes the pairs whose contacts are not known. Those of a pair that has been asked in this step
+/// are, unless there are news of one of its bodies.
 void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scratch,
               std::span<NearPair> pairs, std::vector<Question>& questions)
 {
     const bool isAnew = isSoughtAnewAt(world.clock);
     for (NearPair& pair : pairs) {
         const auto [a, b] = pair.bodies;
+        const bool isOfOld = pair.foundWithin >= 0.0 && !scratch.isNews[a] && !scratch.isNews[b];
+        if (isAgain && isOfOld) continue;
         const double besides = reachBesides(world, scratch, pair.bodies, dt);
         const double ahead = lookAheadToLag(world, scratch, pair.bodies, dt);
         const double apart = pair.farUntil - odometerOf(scratch, pair.bodies);
@@ -155,8 +160,8 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
         const bool isKnown = isAnew     ? !hasMoved && !pair.isLagged && reach == pair.foundWithin
                              : hasMoved ? takeContactsAlong(world, scratch, least, pair)
                                         : least <= pair.foundWithin;
-        pair.wasAsked = !isKnown || (isAgain && pair.wasAsked);
         if (isKnown) continue;
+        pair.wasAsked = true;
         pair.contacts.clear();
         pair.foundWithin = reach;
         pair.isLagged = false;
@@ -183,6 +188,23 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
     }
 }
 
+void seek(World& world, double dt, bool isAgain, GapScratch& scratch)
+{
+    for (NearPair& pair : scratch.nearPairs) pair.wasAsked = false;
+    do {
+        readBodies(world, dt, isAgain, scratch);
+        findGapPairs(world, scratch);
+        parallelFor(scratch.nearPairs.size(), 32, [&](std::size_t begin, std::size_t end) {
+            thread_local std::vector<Question> questions;
+            questions.clear();
+            askPairs(world, dt, isAgain, scratch,
+                     std::span(scratch.nearPairs).subspan(begin, end - begin), questions);
+            answer(world, scratch, questions);
+        });
+        isAgain = true;
+    } while (wakeByTouch(world, dt, scratch));
+}
+
 }  // namespace
 
 bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
@@ -197,19 +219,14 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
     findForces(world, settings, dt, scratch.forces);
     wakeByForces(world, scratch.forces);
     followBodies(world, scratch);
-    bool isAgain = false;
-    do {
-        readBodies(world, dt, scratch);
-        findGapPairs(world, scratch);
-        parallelFor(scratch.nearPairs.size(), 32, [&](std::size_t begin, std::size_t end) {
-            thread_local std::vector<Question> questions;
-            questions.clear();
-            askPairs(world, dt, isAgain, scratch,
-                     std::span(scratch.nearPairs).subspan(begin, end - begin), questions);
-            answer(world, scratch, questions);
-        });
-        isAgain = true;
-    } while (wakeByTouch(world, dt, scratch));
+    scratch.gain.assign(world.bodyCount(), 0.0);
+    scratch.looksFar.assign(world.bodyCount(), 0);
+    seek(world, dt, false, scratch);
+}
+
+void findGapsAgain(World& world, double dt, GapScratch& scratch)
+{
+    seek(world, dt, true, scratch);
 }
 
 }  // namespace scree

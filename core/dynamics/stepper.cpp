@@ -246,7 +246,7 @@ GapLevels Stepper::solveGaps(World& world, double dt, const SolvedIslands* solve
     GapScratch& scratch = *gaps_;
     {
         const PhaseTimer timer(report, Phase::contactGraph);
-        findGaps(world, settings_, dt, scratch);
+        solved ? findGapsAgain(world, dt, scratch) : findGaps(world, settings_, dt, scratch);
         buildRows(world, settings_, dt, scratch);
         if (solved) solved->handOn(scratch);
     }
@@ -276,8 +276,6 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.dt = dt;
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
-    scratch.gain.assign(world.bodyCount(), 0.0);
-    scratch.looksFar.assign(world.bodyCount(), 0);
     GapLevels levels = solveGaps(world, dt, nullptr, report);
     int looks = 0;
     while (wakeStruck(world, dt, scratch) ||

@@ -53,11 +53,11 @@ World stacksUnderBlows()
 }
 
 /// Solves a step without moving anything.
-GapLevels attempt(World& world, const SolvedIslands* solved, GapScratch& scratch)
+GapLevels attempt(World& world, bool isAgain, const SolvedIslands* solved, GapScratch& scratch)
 {
     const StepSettings settings = screeSettings();
     std::int64_t loopsAtTheirCap = 0;
-    findGaps(world, settings, kStep, scratch);
+    isAgain ? findGapsAgain(world, kStep, scratch) : findGaps(world, settings, kStep, scratch);
     buildRows(world, settings, kStep, scratch);
     if (solved) solved->handOn(scratch);
     resolveImpacts(settings, kStep, scratch, loopsAtTheirCap);
@@ -78,13 +78,11 @@ struct Attempts {
     template <class Change>
     void run(bool keeps, const Change& change)
     {
-        scratch.gain.assign(world.bodyCount(), 0.0);
-        scratch.looksFar.assign(world.bodyCount(), 0);
-        attempt(world, nullptr, scratch);
+        attempt(world, false, nullptr, scratch);
         first = scratch.bodies;
         const SolvedIslands solved(scratch);
         change(world, scratch);
-        levels = attempt(world, keeps ? &solved : nullptr, scratch);
+        levels = attempt(world, true, keeps ? &solved : nullptr, scratch);
     }
     std::ptrdiff_t islandsKept() const
     {
