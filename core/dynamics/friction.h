@@ -1,9 +1,8 @@
 // The impulse of one contact: Newton restitution along the normal, Coulomb friction across it.
 // [GBF03 “Collisions”, “Static and Kinetic Friction”], [A29–A35]
 //
-// Symbols: K collision matrix of the pair (3×3), u relative velocity of A's point against B's, n
-// unit
-//          normal from B to A, e restitution, mu friction, j impulse on A (−j on B) [N s].
+// Symbols: K collision matrix of the pair (3×3), u relative velocity of A's point against B's,
+//          n unit normal from B to A, e restitution, mu friction, j impulse on A (−j on B) [N s].
 #pragma once
 
 #include "core/diagnostics/step_report.h"

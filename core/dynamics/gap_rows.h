@@ -146,7 +146,7 @@ struct GapScratch {
     std::vector<GapPace> paces;
     std::vector<double> gain;
     std::vector<char> looksFar;
-    std::vector<char> isNews;  ///< per body: pairs with it are not what this step has found before
+    std::vector<char> hasNews;  ///< per body: this step has not yet found all that is near it
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< pair by pair
@@ -186,6 +186,7 @@ void forIslands(const GapScratch& scratch, const Work& work)
     });
 }
 
+/// Whether the rows of a pair are as an earlier attempt at the step has solved them.
 inline bool isKept(const GapScratch& scratch, const GapPair& pair)
 {
     return scratch.islands[pair.island].isKept;

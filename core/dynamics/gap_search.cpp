@@ -96,12 +96,12 @@ void readBodies(const World& world, double dt, bool isAgain, GapScratch& scratch
     scratch.bodies.resize(world.bodyCount());
     scratch.boxes.resize(world.bodyCount());
     scratch.paces.resize(world.bodyCount());
-    scratch.isNews.resize(world.bodyCount());
+    scratch.hasNews.resize(world.bodyCount());
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         const GapBody now = bodyOf(world, scratch, body);
         const bool hasWoken = now.inverseMass > 0.0 && scratch.bodies[i].inverseMass == 0.0;
-        scratch.isNews[i] = !isAgain || hasWoken || scratch.gain[i] > 0.0 || scratch.looksFar[i];
+        scratch.hasNews[i] = !isAgain || hasWoken || scratch.gain[i] > 0.0 || scratch.looksFar[i];
         scratch.bodies[i] = now;
         scratch.paces[i] = paceOf(world, scratch, body, dt);
         scratch.boxes[i] = boxWithin(world, scratch, body, dt);
@@ -147,7 +147,7 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
     const bool isAnew = isSoughtAnewAt(world.clock);
     for (NearPair& pair : pairs) {
         const auto [a, b] = pair.bodies;
-        const bool isOfOld = pair.foundWithin >= 0.0 && !scratch.isNews[a] && !scratch.isNews[b];
+        const bool isOfOld = pair.foundWithin >= 0.0 && !scratch.hasNews[a] && !scratch.hasNews[b];
         if (isAgain && isOfOld) continue;
         const double besides = reachBesides(world, scratch, pair.bodies, dt);
         const double ahead = lookAheadToLag(world, scratch, pair.bodies, dt);

@@ -246,7 +246,10 @@ GapLevels Stepper::solveGaps(World& world, double dt, const SolvedIslands* solve
     GapScratch& scratch = *gaps_;
     {
         const PhaseTimer timer(report, Phase::contactGraph);
-        solved ? findGapsAgain(world, dt, scratch) : findGaps(world, settings_, dt, scratch);
+        if (solved)
+            findGapsAgain(world, dt, scratch);
+        else
+            findGaps(world, settings_, dt, scratch);
         buildRows(world, settings_, dt, scratch);
         if (solved) solved->handOn(scratch);
     }
