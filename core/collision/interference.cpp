@@ -252,6 +252,38 @@ void Proximity::findTouches(const PlacedPair& pair, double tau, std::vector<Touc
     while (const auto touch = next()) touches.push_back(*touch);
 }
 
+std::optional<Touch> deepestTouch(const PlacedPair& pair, double tau)
+{
+    if (!boundingSpheresMeet(pair, tau)) return std::nullopt;
+    const std::array<OneWay, 2> ways = bothWays(pair);
+    std::optional<Touch> deepest;
+    const auto offer = [&](const Touch& touch) {
+        if (!deepest || isDeeper(touch, *deepest)) deepest = touch;
+    };
+    thread_local std::vector<Touch> moving;
+    moving.clear();
+    findMovingOnes(ways, tau, moving);
+    for (const Touch& touch : moving) offer(touch);
+    for (const OneWay& way : ways) {
+        const SurfaceSamples& samples = way.sampled->samples;
+        const auto isClear = [&](const Vec3& centre, double radius) {
+            return way.field->distance.isClearOf(way.pose * centre, radius + tau);
+        };
+        samples.vertexTree.visit(isClear, [&](std::uint32_t i) {
+            const auto v = static_cast<std::int32_t>(i);
+            if (const auto touch = touchOfVertex(way, v, distanceOfVertex(way, v), tau))
+                offer(*touch);
+        });
+        if (!samplesEdges(way)) continue;
+        samples.edgeTree.visit(isClear, [&](std::uint32_t i) {
+            const auto e = static_cast<std::int32_t>(i);
+            const PlacedEdge edge = placeEdge(way, e, tau);
+            if (edge.lowerBound < edge.limit) touchEdge(way, e, edge, offer);
+        });
+    }
+    return deepest;
+}
+
 void findTouchesPlainly(const PlacedPair& pair, double tau, std::vector<Touch>& touches)
 {
     const std::array<OneWay, 2> ways = bothWays(pair);

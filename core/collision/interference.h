@@ -103,6 +103,10 @@ private:
     std::vector<Touch> found_;  // a heap by depth: not told yet
 };
 
+/// The deepest interference of a pair that is asked about once, for which a Proximity would gather
+/// more than it uses; none when there is none.
+std::optional<Touch> deepestTouch(const PlacedPair& pair, double tau);
+
 /// The interferences of a pair found without any memory: the plain reading of the method.
 void findTouchesPlainly(const PlacedPair& pair, double tau, std::vector<Touch>& touches);
 

@@ -14,12 +14,10 @@ Aabb boxOf(const World& world, BodyId body)
     return boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
 }
 
-bool interfere(const World& world, BodyId a, BodyId b, std::vector<Touch>& touches)
+bool interfere(const World& world, BodyId a, BodyId b)
 {
-    touches.clear();
-    findTouchesPlainly(placePair(world, {a, b}), contourValue(world.shapeOf(a), world.shapeOf(b)),
-                       touches);
-    return !touches.empty();
+    const double tau = contourValue(world.shapeOf(a), world.shapeOf(b));
+    return deepestTouch(placePair(world, {a, b}), tau).has_value();
 }
 
 /// Those who are there, and the boxes they stand in.
@@ -43,7 +41,7 @@ public:
     {
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             if (!box.overlaps(boxes_[i])) continue;
-            if (interfere(world_, newcomer, bodies_[i], touches_)) return bodies_[i];
+            if (interfere(world_, newcomer, bodies_[i])) return bodies_[i];
         }
         return -1;
     }
@@ -52,7 +50,6 @@ private:
     const World& world_;
     std::vector<BodyId> bodies_;
     std::vector<Aabb> boxes_;
-    std::vector<Touch> touches_;
 };
 
 std::vector<PlannedBirth> dueBirths(const World& world)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -32,13 +33,11 @@ std::vector<Aabb> boxesOf(const World& world)
     return boxes;
 }
 
-double depthOf(const PlacedPair& pair)
+/// How deep their surfaces are in each other, if that is deeper than `least`; 0 otherwise [m].
+double depthOf(const PlacedPair& pair, double least)
 {
-    std::vector<Touch> touches;
-    findTouchesPlainly(pair, 0.0, touches);
-    double depth = 0.0;
-    for (const Touch& touch : touches) depth = std::max(depth, -touch.phi);
-    return depth;
+    const std::optional<Touch> deepest = deepestTouch(pair, -least);
+    return deepest ? -deepest->phi : 0.0;
 }
 
 /// Points of a shape half its thickness below every corner of its mesh, in the object frame.
@@ -68,32 +67,53 @@ public:
     explicit InnerDepth(const World& world) : world_(world)
     {
         for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
-            const auto [known, isNew] = points_.try_emplace(&world.shapeOf(body));
-            if (isNew) known->second = pointsInside(*known->first);
+            const auto [known, isNew] = inside_.try_emplace(&world.shapeOf(body));
+            if (isNew) known->second = Inside(*known->first);
         }
     }
 
-    double operator()(BodyId a, BodyId b) const { return std::max(ofFirst(a, b), ofFirst(b, a)); }
+    /// Not less than `known`, how deep their surfaces are in each other.
+    double operator()(BodyId a, BodyId b, double known) const
+    {
+        return ofFirst(b, a, ofFirst(a, b, known));
+    }
 
 private:
-    double ofFirst(BodyId first, BodyId second) const
+    struct Inside {
+        Points points;
+        SphereTree tree;
+
+        Inside() = default;
+        explicit Inside(const Shape& shape) : points(pointsInside(shape))
+        {
+            std::vector<Sphere> spheres;
+            for (const auto& point : points.colwise()) spheres.push_back({point, 0.0});
+            tree = SphereTree(spheres);
+        }
+    };
+
+    double ofFirst(BodyId first, BodyId second, double deepest) const
     {
         const Shape& shape = world_.shapeOf(first);
         const Shape& other = world_.shapeOf(second);
-        const Pose otherFromWorld = inverse(world_.motion[second].worldFromBody());
-        const Pose otherFromFirst = otherFromWorld * world_.motion[first].worldFromBody();
-        double deepest = 0.0;
-        if (other.distance.isClearOf(otherFromFirst.position, shape.boundingRadius)) return deepest;
-        for (const auto& point : points_.at(&shape).colwise()) {
-            const double depth = -other.distance.value(otherFromFirst * Vec3(point));
-            if (depth <= deepest) continue;
-            deepest = std::max(deepest, std::min(depth, -shape.distance.value(point)));
-        }
+        const Inside& inside = inside_.at(&shape);
+        const Pose otherFromFirst =
+            inverse(world_.motion[second].worldFromBody()) * world_.motion[first].worldFromBody();
+        inside.tree.visit(
+            [&](const Vec3& centre, double radius) {
+                return other.distance.isClearOf(otherFromFirst * centre, radius - deepest);
+            },
+            [&](std::uint32_t i) {
+                const Vec3 point = inside.points.col(i);
+                const double depth = -other.distance.value(otherFromFirst * point);
+                if (depth <= deepest) return;
+                deepest = std::max(deepest, std::min(depth, -shape.distance.value(point)));
+            });
         return deepest;
     }
 
     const World& world_;
-    std::map<const Shape*, Points> points_;
+    std::map<const Shape*, Inside> inside_;
 };
 
 double smallerEdge(const World& world, BodyId a, BodyId b)
@@ -114,7 +134,7 @@ void separateOnce(World& world, const StepSettings& settings)
     beginStep(world, settings, kSeparationStep, scratch);
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         PairRecord& pair = scratch.pairs[i];
-        pair.isTouched = depthOf(placePair(world, pair.bodies)) > 0.0;
+        pair.isTouched = depthOf(placePair(world, pair.bodies), 0.0) > 0.0;
     }
     const ContactGraph graph = buildContactGraph(world, settings, kSeparationStep, scratch);
     separateOverlaps(world, graph, settings, scratch);
@@ -227,20 +247,20 @@ std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRati
     const std::vector<BodyPair>& pairs = broadPhase.findPairs(
         boxesOf(world), world.mass, [&](BodyPair pair) { return mayCollide(world, pair); });
     const InnerDepth innerDepth(world);
-    std::vector<double> depths(pairs.size());
+    std::vector<StartOverlap> found(pairs.size());
     parallelFor(pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto [a, b] = pairs[i];
             const PlacedPair pair = placePair(world, pairs[i]);
-            if (apartAtLeast(pair) <= 0.0) depths[i] = std::max(depthOf(pair), innerDepth(a, b));
+            const double edge = smallerEdge(world, a, b), least = leastRatio * edge;
+            if (apartAtLeast(pair) > -least) continue;
+            const double depth = innerDepth(a, b, std::max(depthOf(pair, least), least));
+            if (depth > least) found[i] = {a, b, depth, depth / edge};
         }
     });
     std::vector<StartOverlap> overlaps;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const auto [a, b] = pairs[i];
-        const double ratio = depths[i] / smallerEdge(world, a, b);
-        if (ratio > leastRatio) overlaps.push_back({a, b, depths[i], ratio});
-    }
+    std::copy_if(found.begin(), found.end(), std::back_inserter(overlaps),
+                 [](const StartOverlap& overlap) { return overlap.depth > 0.0; });
     std::stable_sort(overlaps.begin(), overlaps.end(),
                      [](const auto& p, const auto& q) { return p.ratio > q.ratio; });
     return overlaps;

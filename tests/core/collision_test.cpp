@@ -95,6 +95,22 @@ void expectSameTouches(std::vector<Touch> fast, std::vector<Touch> plain, const 
     }
 }
 
+std::vector<Touch> touchesOf(const PlacedPair& pair, double tau)
+{
+    std::vector<Touch> touches;
+    findTouchesPlainly(pair, tau, touches);
+    return touches;
+}
+
+void expectDeepestOf(const PlacedPair& pair, double tau, const std::vector<Touch>& plain)
+{
+    const std::optional<Touch> deepest = deepestTouch(pair, tau);
+    ASSERT_EQ(deepest.has_value(), !plain.empty());
+    if (plain.empty()) return;
+    expectSameTouches({*deepest}, {*std::min_element(plain.begin(), plain.end(), isDeeper)},
+                      pair.shapeA->name + " in " + pair.shapeB->name);
+}
+
 TEST(Interference, RememberedSamplesGiveTheSameTouchesBitForBitAsAllSamples)  // [A7, A12, A13]
 {
     const std::vector<std::shared_ptr<const Shape>> shapes = {
@@ -120,6 +136,8 @@ TEST(Interference, RememberedSamplesGiveTheSameTouchesBitForBitAsAllSamples)  //
             expectSameTouches(fast, plain,
                               a.name + " in " + b.name + ", case " + std::to_string(i));
             EXPECT_EQ(proximity.interferes(pair, tau), !plain.empty());
+            if (move % 6 == 0) expectDeepestOf(pair, tau, plain);
+            if (move % 6 == 3) expectDeepestOf(pair, tau - 0.02, touchesOf(pair, tau - 0.02));
             const double size = std::vector{1e-6, 1e-3, 4e-3, 0.02, 1e-4}[move % 5];
             pair.worldFromA.position += drawVector(i, 10 + move, size);
             pair.worldFromA.orientation =
