@@ -188,6 +188,8 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
     }
 }
 
+/// Who is touched wakes, and then has gaps of his own to look for: until nobody wakes any more.
+/// `isAgain`: in a further attempt at the step.
 void seek(World& world, double dt, bool isAgain, GapScratch& scratch)
 {
     for (NearPair& pair : scratch.nearPairs) pair.wasAsked = false;
