@@ -4,6 +4,9 @@
 // A large island is cut in two: the pairs of either half are visited at once by two threads, those
 // across the cut after them on the way up and before them on the way down. Whether it is cut does
 // not depend on the number of threads, so neither do the bits.
+//
+// All rows are laid out. Of a thousand rings that fall on each other three in ten end without an
+// impulse, but of these only half can be told beforehand, which is not worth a second look.
 #pragma once
 
 #include <array>
