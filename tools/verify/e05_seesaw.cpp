@@ -35,8 +35,8 @@ void exactAndDefaults(const Context& context, Findings& findings)
     if (!context.isFull()) return;
     findings.near(must, "exact solids: on the floor at 2 s", tiltAt(tilt, 2.0), 11.54, 0.2,
                   "degrees");
-    // That the block slides adds 3 % to the tilt of one body, and steps that are few add 2 %: there
-    // would be nothing left of its 5 %.
+    // That the block slides and that acceleration grows adds 3 % to the simple theory, and steps
+    // that are few add 2 %: there would be nothing left of its 5 %.
     ShotRun usual(context, "E05_seesaw", withDefaultSteps());
     const double half = seeSawTilt(0.5, kFine);
     for (const auto& [frames, seconds, angle, tolerance] :
@@ -64,8 +64,11 @@ void runSeeSaw(const Context& context, Findings& findings)
     findings.near(must, "tilt at 0.25 s", tiltAt(first, 0.25), 1.887, 0.05 * 1.887, "degrees");
     findings.near(must, "tilt at 0.5 s", tiltAt(first, 0.5), 7.547, 0.05 * 7.547, "degrees");
     const double sliding = seeSawTilt(0.5, 240.0);
+    // One per cent tells it from a block that does not slide; shock propagation of the paper's
+    // method holds the plank back by more.
+    const double allowed = context.method == "scree" ? 0.01 : 0.025;
     findings.near(must, "tilt at 0.5 s, since the heavy block slides", tiltAt(first, 0.5), sliding,
-                  0.025 * sliding, "degrees");
+                  allowed * sliding, "degrees");
     findings.near(must, "at rest on the floor, heavy side down, 2 s", tiltAt(first, 2.0), 11.54,
                   0.2, "degrees");
     findings.near(must, "the heavy block has slid off, light side down, 6 s", tiltAt(rest, 4.0),
