@@ -37,7 +37,7 @@ struct EdgeSlope {
     double t, phi, slope;
 };
 
-EdgeSlope slopeAt(const SignedDistance& field, const EdgeInField& edge, double t)
+EdgeSlope slopeAt(const KnownField& field, const EdgeInField& edge, double t)
 {
     const SignedDistance::Sloped sloped = field.sloped(edge.at(t));
     return {t, sloped.value, sloped.gradient.dot(edge.alongStep)};
@@ -46,7 +46,7 @@ EdgeSlope slopeAt(const SignedDistance& field, const EdgeInField& edge, double t
 /// The deepest point near lattice point k, where the field is taken as convex along the edge:
 /// tangents from both sides meet below the minimum, and where they meet is the next guess. For a
 /// crossing of two edges, whose depth is piecewise linear, two guesses do.
-EdgeDepth deepestNear(const SignedDistance& field, const EdgeInField& edge, int k, double tolerance)
+EdgeDepth deepestNear(const KnownField& field, const EdgeInField& edge, int k, double tolerance)
 {
     EdgeSlope low = slopeAt(field, edge, k);
     EdgeSlope high = low;
@@ -74,7 +74,7 @@ EdgeDepth deepestNear(const SignedDistance& field, const EdgeInField& edge, int 
 }  // namespace
 
 EdgeInField placeEdge(const SurfaceSamples& samples, std::int32_t edge,
-                      const FieldFromSamples& pose, const SignedDistance& field)
+                      const FieldFromSamples& pose, const KnownField& field)
 {
     const auto [a, b] = samples.edges[edge];
     const Vec3 start = pose * samples.vertices.col(a);
@@ -84,12 +84,12 @@ EdgeInField placeEdge(const SurfaceSamples& samples, std::int32_t edge,
     return {start, (end - start) / steps, steps, length / steps};
 }
 
-double edgeLimit(const SignedDistance& field, double phiStart, double phiEnd, double tau)
+double edgeLimit(const KnownField& field, double phiStart, double phiEnd, double tau)
 {
     return std::min(tau, std::min(phiStart, phiEnd) - kDeeperThanEnds * field.spacing());
 }
 
-void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double phiStart, double limit,
+void sampleEdge(const KnownField& field, const EdgeInField& edge, double phiStart, double limit,
                 std::vector<EdgeDepth>& found)
 {
     double bestPhi = limit + edge.stepLength;
@@ -125,7 +125,7 @@ void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double phi
     }
 }
 
-double lowerBoundAlong(const SignedDistance& field, const EdgeInField& edge, double enough)
+double lowerBoundAlong(const KnownField& field, const EdgeInField& edge, double enough)
 {
     const double finest = 0.125 * field.spacing() / edge.stepLength;  // in lattice steps
     double bound = std::numeric_limits<double>::infinity();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/collision/relative_pose.h"
-#include "core/geometry/signed_distance.h"
+#include "core/geometry/known_field.h"
 #include "core/geometry/surface_samples.h"
 
 namespace scree {
@@ -21,7 +21,7 @@ struct EdgeInField {
 };
 
 EdgeInField placeEdge(const SurfaceSamples& samples, std::int32_t edge,
-                      const FieldFromSamples& pose, const SignedDistance& field);
+                      const FieldFromSamples& pose, const KnownField& field);
 
 /// A sample of an edge: where, in lattice steps, and its distance [m].
 struct EdgeDepth {
@@ -29,16 +29,16 @@ struct EdgeDepth {
 };
 
 /// Below this an edge speaks for itself: tau, and clearly deeper than its nearer end.
-double edgeLimit(const SignedDistance& field, double phiStart, double phiEnd, double tau);
+double edgeLimit(const KnownField& field, double phiStart, double phiEnd, double tau);
 
 /// Appends the samples of an edge below `limit`: its deepest point, or, where the depth is flat,
 /// the middle and the ends of the flat part.
-void sampleEdge(const SignedDistance& field, const EdgeInField& edge, double phiStart, double limit,
+void sampleEdge(const KnownField& field, const EdgeInField& edge, double phiStart, double limit,
                 std::vector<EdgeDepth>& found);
 
 /// A lower bound of the field along the edge, exact to h/8 or at least half of it or above
 /// `enough`: where two points at distance s have values p and q, nothing between them is below
 /// (p + q − s)/2.
-double lowerBoundAlong(const SignedDistance& field, const EdgeInField& edge, double enough);
+double lowerBoundAlong(const KnownField& field, const EdgeInField& edge, double enough);
 
 }  // namespace scree

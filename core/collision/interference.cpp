@@ -33,9 +33,9 @@ std::optional<Touch> touchOfVertex(const OneWay& way, std::int32_t v, double phi
     return Touch{phi, v, way.sampleOnA, way.sampled->samples.vertices.col(v)};
 }
 
-double distanceOfVertex(const OneWay& way, std::int32_t v)
+double distanceOfVertex(const OneWay& way, std::int32_t v, const KnownField& field)
 {
-    return way.field->distance.value(way.pose * way.sampled->samples.vertices.col(v));
+    return field.value(way.pose * way.sampled->samples.vertices.col(v));
 }
 
 double lowerBoundOfVertex(const OneWay& way, std::int32_t v)
@@ -45,19 +45,19 @@ double lowerBoundOfVertex(const OneWay& way, std::int32_t v)
 
 /// An edge of one body placed in the field of the other.
 struct PlacedEdge {
+    KnownField field;
     EdgeInField line;
     double phiStart;
     double limit;       // below it a point of the edge is a sample
     double lowerBound;  // of the whole edge, from its ends alone
 };
 
-PlacedEdge placeEdge(const OneWay& way, std::int32_t e, double tau)
+PlacedEdge placeEdge(const OneWay& way, std::int32_t e, double tau, const KnownField& field)
 {
-    const SignedDistance& field = way.field->distance;
     const EdgeInField line = placeEdge(way.sampled->samples, e, way.pose, field);
     const double phiStart = field.value(line.start), phiEnd = field.value(line.at(line.steps));
     // Distance is 1-Lipschitz along the edge.
-    return {line, phiStart, edgeLimit(field, phiStart, phiEnd, tau),
+    return {field, line, phiStart, edgeLimit(field, phiStart, phiEnd, tau),
             0.5 * (phiStart + phiEnd - line.length())};
 }
 
@@ -68,7 +68,7 @@ void touchEdge(const OneWay& way, std::int32_t e, const PlacedEdge& edge, Add&& 
     const SurfaceSamples& samples = way.sampled->samples;
     thread_local std::vector<EdgeDepth> found;
     found.clear();
-    sampleEdge(way.field->distance, edge.line, edge.phiStart, edge.limit, found);
+    sampleEdge(edge.field, edge.line, edge.phiStart, edge.limit, found);
     const auto [a, b] = samples.edges[e];
     const auto firstId = static_cast<std::int32_t>(samples.vertices.cols()) + 3 * e;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -144,7 +144,7 @@ void Proximity::lookAt(const OneWay& way, double clearance)
     const auto consider = [&](double atLeast, std::uint32_t index, bool isEdge) {
         if (atLeast >= clearance) return;
         candidates_.push_back(
-            {atLeast, -1.0, 0.0, static_cast<std::int32_t>(index), 0, isEdge, way.sampleOnA});
+            {atLeast, -1.0, 0.0, static_cast<std::int32_t>(index), -1, 0, isEdge, way.sampleOnA});
     };
     samples.vertexTree.visit(isClear, [&](std::uint32_t v) {
         consider(lowerBoundOfVertex(way, static_cast<std::int32_t>(v)), v, false);
@@ -177,6 +177,7 @@ void Proximity::place(const PlacedPair& pair, double tau)
     lookedAt_ = ways_[smaller].pose;
     way_ = 0.0;
     candidates_.clear();
+    known_.clear();
     if (boundingSpheresMeet(pair, tau + margin_)) {
         for (const OneWay& way : ways_) lookAt(way, tau + margin_);
     }
@@ -190,10 +191,19 @@ void Proximity::add(const Touch& touch)
     std::push_heap(found_.begin(), found_.end(), isShallower);
 }
 
+KnownField Proximity::fieldAround(const OneWay& way, Candidate& candidate)
+{
+    if (candidate.known < 0) {
+        candidate.known = static_cast<std::int32_t>(known_.size());
+        known_.emplace_back();
+    }
+    return {way.field->distance, &known_[candidate.known]};
+}
+
 void Proximity::evaluateEdge(const OneWay& way, Candidate& candidate)
 {
     if (way_ <= candidate.silentUntil) return;
-    const PlacedEdge edge = placeEdge(way, candidate.index, tau_);
+    const PlacedEdge edge = placeEdge(way, candidate.index, tau_, fieldAround(way, candidate));
     double atLeast = std::max(candidate.key - way_, edge.lowerBound);
     const SignedDistance& field = way.field->distance;
     if (atLeast < edge.limit && way_ > candidate.boundAt + kStale * field.spacing()) {
@@ -211,7 +221,7 @@ void Proximity::evaluate(Candidate& candidate)
 {
     const OneWay& way = ways_[candidate.isOfA ? 0 : 1];
     if (candidate.isEdge) return evaluateEdge(way, candidate);
-    const double phi = distanceOfVertex(way, candidate.index);
+    const double phi = distanceOfVertex(way, candidate.index, fieldAround(way, candidate));
     const SignedDistance& field = way.field->distance;
     const bool isExact = field.solid() || std::abs(phi) < field.refinementBand();
     candidate.key = way_ + (isExact ? phi : lowerBoundOfVertex(way, candidate.index));
@@ -271,13 +281,14 @@ std::optional<Touch> deepestTouch(const PlacedPair& pair, double tau)
         };
         samples.vertexTree.visit(isClear, [&](std::uint32_t i) {
             const auto v = static_cast<std::int32_t>(i);
-            if (const auto touch = touchOfVertex(way, v, distanceOfVertex(way, v), tau))
+            if (const auto touch =
+                    touchOfVertex(way, v, distanceOfVertex(way, v, way.field->distance), tau))
                 offer(*touch);
         });
         if (!samplesEdges(way)) continue;
         samples.edgeTree.visit(isClear, [&](std::uint32_t i) {
             const auto e = static_cast<std::int32_t>(i);
-            const PlacedEdge edge = placeEdge(way, e, tau);
+            const PlacedEdge edge = placeEdge(way, e, tau, way.field->distance);
             if (edge.lowerBound < edge.limit) touchEdge(way, e, edge, offer);
         });
     }
@@ -291,12 +302,12 @@ void findTouchesPlainly(const PlacedPair& pair, double tau, std::vector<Touch>& 
     for (const OneWay& way : ways) {
         const SurfaceSamples& samples = way.sampled->samples;
         for (std::int32_t v = 0; v < samples.vertices.cols(); ++v) {
-            const double phi = distanceOfVertex(way, v);
+            const double phi = distanceOfVertex(way, v, way.field->distance);
             if (const auto touch = touchOfVertex(way, v, phi, tau)) touches.push_back(*touch);
         }
         if (!samplesEdges(way)) continue;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(samples.edges.size()); ++e) {
-            const PlacedEdge edge = placeEdge(way, e, tau);
+            const PlacedEdge edge = placeEdge(way, e, tau, way.field->distance);
             if (edge.lowerBound >= edge.limit) continue;
             touchEdge(way, e, edge, [&](const Touch& touch) { touches.push_back(touch); });
         }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/collision/relative_pose.h"
+#include "core/geometry/known_field.h"
 #include "core/geometry/shape.h"
 
 namespace scree {
@@ -79,12 +80,14 @@ private:
         double silentUntil;  // the way up to which an edge has no sample [m]
         double boundAt;      // the way at which the bound of an edge was found [m]
         std::int32_t index;
+        std::int32_t known;    // of known_, once it has been looked at; or negative
         std::uint32_t seenIn;  // the placing in which it was last looked at
         bool isEdge, isOfA;
     };
 
     void lookAt(const OneWay& way, double clearance);
     void evaluate(Candidate& candidate);
+    KnownField fieldAround(const OneWay& way, Candidate& candidate);
     void evaluateEdge(const OneWay& way, Candidate& candidate);
     void add(const Touch& touch);
 
@@ -99,8 +102,9 @@ private:
     double tau_ = 0.0;
     std::uint32_t placing_ = 0;  // counts since the candidates were chosen
     std::vector<Candidate> candidates_;
-    double lowestKey_ = 0.0;    // of the candidates; or below
-    std::vector<Touch> found_;  // a heap by depth: not told yet
+    std::vector<KnownFaces> known_;  // around candidates
+    double lowestKey_ = 0.0;         // of the candidates; or below
+    std::vector<Touch> found_;       // a heap by depth: not told yet
 };
 
 /// The deepest interference of a pair that is asked about once, for which a Proximity would gather

@@ -107,8 +107,7 @@ double SignedDistance::gridValue(const Vec3& point) const
 double SignedDistance::value(const Vec3& point) const
 {
     const double phi = gridValue(point);
-    if (solid_ || std::abs(phi) >= band_) return phi;
-    return exact(point);
+    return isRefined(phi) ? exact(point) : phi;
 }
 
 double SignedDistance::lowerBound(const Vec3& point, double gridValue) const
@@ -138,8 +137,14 @@ SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point, const V
 {
     const std::span<const std::uint32_t> candidates = facesOfCell(place);
     SCREE_CHECK(!candidates.empty(), "a cell near the surface has no triangles");
-    Closest best{candidates.front(), TriangleFeature::face, Vec3::Zero(), 1e300};
-    for (const std::uint32_t f : candidates) {
+    return closestAmong(candidates, point);
+}
+
+SignedDistance::Closest SignedDistance::closestAmong(std::span<const std::uint32_t> faces,
+                                                     const Vec3& point) const
+{
+    Closest best{faces.front(), TriangleFeature::face, Vec3::Zero(), 1e300};
+    for (const std::uint32_t f : faces) {
         const Face& face = faces_[f];
         // Nothing of a triangle is closer than its plane.
         const double height = face.normal.dot(point - face.corner[0]);
@@ -213,14 +218,72 @@ SignedDistance::Sloped SignedDistance::sloped(const Vec3& point) const
 {
     if (solid_) return {solid_->value(point), solid_->gradient(point)};
     const double grid = gridValue(point);
-    if (std::abs(grid) >= band_) return {grid, gridGradient(point)};
-    const Closest closest = closestInCell(point, point);
+    if (!isRefined(grid)) return {grid, gridGradient(point)};
+    return slopedAt(closestInCell(point, point), point);
+}
+
+SignedDistance::Sloped SignedDistance::slopedAt(const Closest& closest, const Vec3& point) const
+{
     const double phi = signedValue(closest, point);
     const Vec3& normal = normalAt(closest);
     const bool onSurface = std::abs(phi) < 1e-9 * spacing();
     if (closest.feature == TriangleFeature::face) return {phi, normal};
     if (onSurface) return {phi, normal.normalized()};
     return {phi, (point - closest.point) / phi};
+}
+
+FacePlace SignedDistance::placeAround(const Vec3& point, double gridValue) const
+{
+    struct Near {
+        double distance = 1e150;
+        std::uint32_t face = 0;
+    };
+    std::array<Near, 3> nearest;  // ascending
+    for (const std::uint32_t f : facesOfCell(point)) {
+        const Face& face = faces_[f];
+        const Vec3 closest =
+            closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]).point;
+        Near next{(point - closest).norm(), f};
+        for (Near& other : nearest) {
+            if (next.distance < other.distance) std::swap(next, other);
+        }
+    }
+    // From the centre of the cell a face that it does not list is farther away than the closest by
+    // a diagonal. Beyond the band the grid answers: along each axis it rises no faster than the
+    // way.
+    const double h = spacing(), root3 = 2.0 * kHalfDiagonal;
+    const Vec3 fromCentre = field_.nodes.placeOf(point).fraction - Vec3::Constant(0.5);
+    const double unlisted = nearest[0].distance + h * (root3 - 2.0 * fromCentre.norm());
+    const double inBand = (band_ - std::abs(gridValue)) / root3;
+    const auto reachUpTo = [&](double other) {
+        // The closest may fall back by the way that the other comes nearer.
+        const double way = 0.5 * (std::min(other, unlisted) - nearest[0].distance);
+        return std::min(way, inBand) - 1e-6 * h;
+    };
+    // Two faces are equally near an edge of theirs: only within a face one is the closest by
+    // itself.
+    const double ofOne = reachUpTo(nearest[1].distance);
+    const double ofTwo = reachUpTo(nearest[2].distance);
+    const bool isOne = ofOne > 0.5 * ofTwo;
+    const double reach = isOne ? ofOne : ofTwo;
+    if (reach <= 0.0) return {};
+    std::array<std::uint32_t, 2> faces = {nearest[0].face, nearest[1].face};
+    if (!isOne) std::sort(faces.begin(), faces.end());
+    return {point, reach * reach, faces, isOne ? 1u : 2u};
+}
+
+double SignedDistance::value(const Vec3& point, const FacePlace& place) const
+{
+    const Face& face = faces_[place.faces[0]];
+    if (place.faceCount == 1) return face.normal.dot(point - face.corner[0]);
+    return signedValue(closestAmong(place.faces, point), point);
+}
+
+SignedDistance::Sloped SignedDistance::sloped(const Vec3& point, const FacePlace& place) const
+{
+    const Face& face = faces_[place.faces[0]];
+    if (place.faceCount == 1) return {face.normal.dot(point - face.corner[0]), face.normal};
+    return slopedAt(closestAmong(place.faces, point), point);
 }
 
 void SignedDistance::facesNear(const Vec3& point, double tolerance,

@@ -13,6 +13,8 @@
 // refined 23 ns anywhere in its box and 74 ns at the surface.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -24,6 +26,16 @@
 #include "core/math/aabb.h"
 
 namespace scree {
+
+/// Around here the closest point of the surface lies within one face, or on one of two.
+struct FacePlace {
+    Vec3 centre = Vec3::Zero();               ///< [m]
+    double squaredRadius = -1.0;              ///< negative: nowhere [m²]
+    std::array<std::uint32_t, 2> faces = {};  ///< ascending
+    std::uint32_t faceCount = 0;
+
+    bool holds(const Vec3& point) const { return (point - centre).squaredNorm() < squaredRadius; }
+};
 
 class SignedDistance {
 public:
@@ -78,6 +90,13 @@ public:
     };
     Sloped sloped(const Vec3& point) const;
 
+    /// Where around a point the faces closest to it are the closest; only where
+    /// isRefined(gridValue).
+    FacePlace placeAround(const Vec3& point, double gridValue) const;
+    /// The same bits as without the place, which must hold the point.
+    double value(const Vec3& point, const FacePlace& place) const;
+    Sloped sloped(const Vec3& point, const FacePlace& place) const;
+
     /// The closest point of the surface and what it lies on.
     struct Nearest {
         double value;  ///< signed distance [m]
@@ -100,6 +119,8 @@ public:
     /// < refinementBand().
     double exact(const Vec3& point) const;
     double refinementBand() const { return band_; }
+    /// Whether value() is exact() where the grid says this.
+    bool isRefined(double gridValue) const { return !solid_ && std::abs(gridValue) < band_; }
 
     /// Appends the faces of the cell that pass within `tolerance` of the point (at most a few).
     void facesNear(const Vec3& point, double tolerance, std::vector<NearFace>& faces) const;
@@ -130,6 +151,8 @@ private:
     std::span<const std::uint32_t> facesOfCell(const Vec3& pointInDomain) const;
     /// Of the faces that can be closest to some point of the cell that `place` is in.
     Closest closestInCell(const Vec3& point, const Vec3& place) const;
+    Closest closestAmong(std::span<const std::uint32_t> faces, const Vec3& point) const;
+    Sloped slopedAt(const Closest& closest, const Vec3& point) const;
     const Vec3& normalAt(const Closest& closest) const;
     double signedValue(const Closest& closest, const Vec3& point) const;
     Nearest nearestOf(const Closest& closest, double value) const;

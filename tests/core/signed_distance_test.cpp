@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/random.h"
+#include "core/geometry/known_field.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/surface_normal.h"
@@ -122,6 +123,39 @@ TEST(E21SignedDistance, ANonconvexMeshAgreesWithEveryTriangleAskedOneByOne)  // 
         ASSERT_EQ(phi < 0.0, exact < 0.0) << p.transpose();
         ASSERT_LE(shape->distance.lowerBound(p), exact + 1e-9) << p.transpose();
     }
+}
+
+TEST(E21SignedDistance, WhatIsKnownOfFacesNearbyAnswersWithTheBitsOfTheField)  // [A4]
+{
+    const std::vector<std::shared_ptr<const Shape>> shapes = {
+        buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10})),
+        buildMeshShape("cube", makeBox(Vec3::Ones(), {1, 1, 1})),
+        buildMeshShape("blade", makeBox({1.0, 0.04, 0.3}, {3, 1, 1})),
+        buildMeshShape("ball", makeSphere(0.6, 3))};
+    int held = 0, refined = 0;
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+        const Shape& shape = *shapes[i % shapes.size()];
+        const SignedDistance& field = shape.distance;
+        KnownFaces known;
+        const KnownField remembering(field, &known);
+        Vec3 p = randomPoint(i, shape.box);
+        for (int k = 0; k < 2; ++k) p -= field.sloped(p).value * field.sloped(p).gradient;
+        // Steps from a thousandth of the spacing to half of it, each from where the last one led.
+        for (std::uint64_t step = 0; step < 60; ++step) {
+            const double size = field.spacing() * std::pow(500.0, -randomUnit(22, i, step));
+            for (int k = 0; k < 3; ++k) p[k] += size * (randomUnit(23 + k, i, step) - 0.5);
+            refined += field.isRefined(field.gridValue(p));
+            held += known.holding(p) != nullptr;
+            if (step % 2 == 0) {
+                ASSERT_EQ(remembering.value(p), field.value(p)) << shape.name;
+                continue;
+            }
+            const SignedDistance::Sloped told = remembering.sloped(p), plain = field.sloped(p);
+            ASSERT_EQ(told.value, plain.value) << shape.name;
+            ASSERT_EQ(told.gradient, plain.gradient) << shape.name;
+        }
+    }
+    EXPECT_GT(held, 0.5 * refined);
 }
 
 TEST(E21SignedDistance, APointThatCrossesAFaceGetsThatFaceHoweverNearTheEdge)  // [A6]
