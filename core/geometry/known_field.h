@@ -2,8 +2,9 @@
 //
 // Impulses move a pair by micrometres, so a sample meets the face that it met before. As long as it
 // is sure to, only that face is asked (SignedDistance::placeAround), and the answer is the field's
-// own, to the bit. A frame of method paper with a thousand rings in a heap takes two thirds of the
-// time, since in five of six questions near the surface nothing is searched.
+// own, to the bit. A frame of method paper with a thousand rings in a heap takes a quarter less
+// time, since in five of six questions near the surface nothing is searched; with five hundred
+// bones, whose faces are small, a sixteenth.
 #pragma once
 
 #include <array>
