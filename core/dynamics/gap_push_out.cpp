@@ -48,10 +48,27 @@ struct alignas(64) Displacement {
     Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
 };
 
+/// Of a row what sweeps look at, in two cache lines of six.
 struct RowPush {
-    const GapRow* row;
-    double wanted;  // separation [m]; negative: how far it may close
+    BodyId a, b;
+    bool movesA, movesB;
+    Vec3 rA, rB, normal;
+    double inverseMass;  // of its separation
+    double wanted;       // separation [m]; negative: how far it may close
     double impulse = 0.0;
+
+    RowPush(const GapRow& row, double separation)
+        : a(row.a),
+          b(row.b),
+          movesA(row.movesA),
+          movesB(row.movesB),
+          rA(row.rA),
+          rB(row.rB),
+          normal(row.normal),
+          inverseMass(row.inverseNormalMass),
+          wanted(separation)
+    {
+    }
 };
 
 double excessOf(const World& world, const GapRow& row, double gap, double left = kSlop)
@@ -59,7 +76,7 @@ double excessOf(const World& world, const GapRow& row, double gap, double left =
     return -gap - left * smallerRadius(world, row.a, row.b);
 }
 
-double separationAt(const GapRow& row, const Displacement& a, const Displacement& b)
+double separationAt(const RowPush& row, const Displacement& a, const Displacement& b)
 {
     return row.normal.dot(a.shift + a.turn.cross(row.rA) - b.shift - b.turn.cross(row.rB));
 }
@@ -69,15 +86,14 @@ double sweep(const GapScratch& scratch, double give, std::vector<RowPush>& pushe
              std::vector<Displacement>& displacements)
 {
     double largest = 0.0;
-    for (RowPush& push : pushes) {
-        const GapRow& row = *push.row;
+    for (RowPush& row : pushes) {
         Displacement &a = displacements[row.a], &b = displacements[row.b];
-        const double k = row.inverseNormalMass;
-        const double missing = push.wanted - separationAt(row, a, b) - give * k * push.impulse;
-        const double impulse = std::max(0.0, push.impulse + missing / (k * (1.0 + give)));
-        const Vec3 change = (impulse - push.impulse) * row.normal;
-        largest = std::max(largest, k * std::abs(impulse - push.impulse));
-        push.impulse = impulse;
+        const double k = row.inverseMass;
+        const double missing = row.wanted - separationAt(row, a, b) - give * k * row.impulse;
+        const double impulse = std::max(0.0, row.impulse + missing / (k * (1.0 + give)));
+        const Vec3 change = (impulse - row.impulse) * row.normal;
+        largest = std::max(largest, k * std::abs(impulse - row.impulse));
+        row.impulse = impulse;
         if (row.movesA) {
             a.shift += scratch.bodies[row.a].inverseMass * change;
             a.turn += scratch.bodies[row.a].inverseInertia * row.rA.cross(change);
@@ -195,7 +211,7 @@ private:
         pushes_.clear();
         for (const RowToPush& one : rows_) {
             const double excess = excessOf(world_, one.row, one.row.gap, one.left);
-            pushes_.push_back({&one.row, excess > 0.0 ? fraction * excess : excess});
+            pushes_.emplace_back(one.row, excess > 0.0 ? fraction * excess : excess);
             tally_.pushes += excess > 0.0;
         }
         for (int n = 0; n < kMostSweeps; ++n) {
@@ -287,7 +303,7 @@ PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratc
     for (const std::size_t i : scratch.order) {
         const GapPair& pair = scratch.pairs[i];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            if (wanted[r] > 0.0) pushes[pair.part].push_back({&scratch.rows[r], wanted[r]});
+            if (wanted[r] > 0.0) pushes[pair.part].emplace_back(scratch.rows[r], wanted[r]);
         }
     }
     const std::size_t count = pushes[0].size() + pushes[1].size() + pushes[2].size();
