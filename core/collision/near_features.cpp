@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/fetch.h"
 #include "core/collision/ball_contacts.h"
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
@@ -183,12 +184,6 @@ std::pair<Eight&, std::size_t> nextLane(std::vector<Eight>& eights, std::size_t&
     const std::size_t lane = filled++ % kFloatLanes;
     if (lane == 0) eights.emplace_back();
     return {eights.back(), lane};
-}
-
-void fetchLines(const void* begin, const void* end)
-{
-    constexpr std::ptrdiff_t kLine = 64;
-    for (auto p = static_cast<const char*>(begin); p < end; p += kLine) __builtin_prefetch(p);
 }
 
 }  // namespace
@@ -489,10 +484,9 @@ double NearFeatures::Memory::farFor(const RelativePair& pair) const
 
 void NearFeatures::Memory::prefetchLists() const
 {
-    const auto fetch = [](const auto& list) { fetchLines(list.data(), list.data() + list.size()); };
-    fetch(cornersOfA_);
-    fetch(cornersOfB_);
-    fetch(edges_);
+    fetchItems(cornersOfA_);
+    fetchItems(cornersOfB_);
+    fetchItems(edges_);
 }
 
 NearFeatures::NearFeatures() = default;

@@ -163,7 +163,7 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
     kept.resize(first.back());
     forPairs(scratch, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
-        const std::vector<GapContact>& contacts = scratch.nearPairs[pair.near].contacts;
+        const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
         const Quat aFromWorld = world.motion[pair.bodies.a].orientation.conjugate();
         std::size_t place = first[i];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {

@@ -154,6 +154,11 @@ struct GapScratch {
     std::vector<GapIsland> islands;
     std::vector<GapImpact> impacts;                 ///< of this step
     std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember
+
+    const std::vector<GapContact>& contactsOf(const GapPair& pair) const
+    {
+        return nearPairs[pair.near].contacts;
+    }
 };
 
 /// Lays the contacts that findGaps has found out as rows, with the impulses that the world

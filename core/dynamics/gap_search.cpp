@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/base/fetch.h"
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_pace.h"
@@ -25,6 +26,9 @@ constexpr double kCommonWay = 1e-3;
 
 /// Near pairs that one thread lays out together.
 constexpr std::size_t kPairsTogether = 512;
+
+/// How many pairs ahead contacts are fetched. Only time depends on it.
+constexpr std::size_t kPairsAhead = 6;
 
 GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
 {
@@ -145,7 +149,9 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
               std::span<NearPair> pairs, std::vector<Question>& questions)
 {
     const bool isAnew = isSoughtAnewAt(world.clock);
-    for (NearPair& pair : pairs) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (i + kPairsAhead < pairs.size()) fetchItems(pairs[i + kPairsAhead].contacts);
+        NearPair& pair = pairs[i];
         const auto [a, b] = pair.bodies;
         const bool isOfOld = pair.foundWithin >= 0.0 && !scratch.hasNews[a] && !scratch.hasNews[b];
         if (isAgain && isOfOld) continue;
