@@ -10,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_impacts.h"
+#include "core/dynamics/gap_pairs.h"
 
 namespace scree {
 namespace {

@@ -9,6 +9,7 @@ std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
     };
     std::vector<OfPair> ofPairs(scratch.pairs.size());
     forPairs(scratch, [&](std::size_t p) {
+        if (isKept(scratch, scratch.pairs[p])) return;
         for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
             const GapRow& row = scratch.rows[r];
             if (row.impulse.x() == 0.0) continue;
@@ -20,6 +21,7 @@ std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
     });
     std::vector<Held> held(scratch.bodies.size());
     for (const std::size_t p : scratch.order) {
+        if (isKept(scratch, scratch.pairs[p])) continue;
         const GapRow& any = scratch.rows[scratch.pairs[p].begin];
         if (any.movesA) {
             held[any.a].acceleration += ofPairs[p].impulse;

@@ -1,76 +1,124 @@
 #include "core/dynamics/gap_kept.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace scree {
+namespace {
+
+std::size_t rowCount(const GapPair& pair)
+{
+    return pair.end - pair.begin;
+}
+
+/// Room for so many rows. It is the largest list there is: while it grows, neither the old one is
+/// kept beside the new for nothing, nor is there room for twice as many.
+void makeRoom(std::size_t count, std::size_t taken, std::vector<GapRow>& rows)
+{
+    if (count > rows.capacity()) {
+        if (taken == 0) {
+            rows.clear();
+            rows.shrink_to_fit();
+        }
+        rows.reserve(count + count / 8);
+    }
+    rows.resize(count);
+}
+
+}  // namespace
 
 SolvedIslands::SolvedIslands(const GapScratch& scratch)
     : pairs_(scratch.pairs), bodies_(scratch.bodies), impacts_(scratch.impacts)
 {
     for (const GapIsland& island : scratch.islands) pairsOfIsland_.push_back(island.pairs.size());
-    rows_.reserve(scratch.rows.size());
-    for (const GapRow& row : scratch.rows)
-        rows_.push_back({row.impulse, row.couple, row.target, row.wasHit});
 }
 
-const GapPair* SolvedIslands::find(BodyPair bodies) const
+/// Per pair what it was; null where it was not, or has other rows now. Both lists are sorted.
+std::vector<const GapPair*> SolvedIslands::pairsBefore(const GapScratch& scratch) const
 {
-    const auto found = std::ranges::lower_bound(pairs_, bodies, {}, &GapPair::bodies);
-    return found != pairs_.end() && found->bodies == bodies ? &*found : nullptr;
+    std::vector<const GapPair*> before(scratch.pairs.size(), nullptr);
+    auto old = pairs_.begin();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const GapPair& pair = scratch.pairs[i];
+        while (old != pairs_.end() && old->bodies < pair.bodies) ++old;
+        if (old == pairs_.end()) break;
+        if (old->bodies == pair.bodies && rowCount(*old) == rowCount(pair)) before[i] = &*old;
+    }
+    return before;
 }
 
 /// The same pairs with the same contacts, between bodies that can be moved as before.
-bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& island) const
+bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& island,
+                               const std::vector<const GapPair*>& before) const
 {
-    const GapPair* any = find(scratch.pairs[island.pairs.front()].bodies);
+    const GapPair* any = before[island.pairs.front()];
     if (!any || pairsOfIsland_[any->island] != island.pairs.size()) return false;
+    const auto isMovableAsBefore = [&](BodyId body) {
+        return (scratch.bodies[body].inverseMass > 0.0) == (bodies_[body].inverseMass > 0.0);
+    };
     return std::ranges::all_of(island.pairs, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
-        if (scratch.nearPairs[pair.near].wasAsked) return false;
-        const auto [a, b] = pair.bodies;
-        const auto isMovableAsBefore = [&](BodyId body) {
-            return (scratch.bodies[body].inverseMass > 0.0) == (bodies_[body].inverseMass > 0.0);
-        };
-        if (!isMovableAsBefore(a) || !isMovableAsBefore(b)) return false;
-        const GapPair* before = find(pair.bodies);
-        return before && before->island == any->island;
+        return before[i] && before[i]->island == any->island &&
+               !scratch.nearPairs[pair.near].wasAsked && isMovableAsBefore(pair.bodies.a) &&
+               isMovableAsBefore(pair.bodies.b);
     });
+}
+
+/// Where they were, as far as they had any; of others behind those that are taken.
+void SolvedIslands::placeRows(const std::vector<const GapPair*>& before, std::size_t taken,
+                              GapScratch& scratch)
+{
+    std::size_t end = taken;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        GapPair& pair = scratch.pairs[i];
+        const std::size_t count = rowCount(pair);
+        pair.begin = before[i] ? before[i]->begin : end;
+        pair.end = pair.begin + count;
+        if (!before[i]) end += count;
+    }
+    makeRoom(end, taken, scratch.rows);
+}
+
+/// Those of pairs that are no more, or have other rows now.
+void SolvedIslands::clearRowsOfOthers(const std::vector<const GapPair*>& before,
+                                      GapScratch& scratch) const
+{
+    auto still = before.begin();
+    for (const GapPair& pair : pairs_) {
+        while (still != before.end() && (!*still || *still < &pair)) ++still;
+        if (still != before.end() && *still == &pair) continue;
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            scratch.rows[r].impulse = Vec3::Zero();
+            scratch.rows[r].couple = Vec3::Zero();
+        }
+    }
 }
 
 void SolvedIslands::handOn(GapScratch& scratch) const
 {
-    constexpr std::size_t kGone = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> rowNow(rows_.size(), kGone);
+    const std::vector<const GapPair*> before = pairsBefore(scratch);
+    clearRowsOfOthers(before, scratch);
+    placeRows(before, isNone() ? 0 : scratch.rows.size(), scratch);
     for (GapIsland& island : scratch.islands) {
-        island.isKept = isAsBefore(scratch, island);
+        island.isKept = isAsBefore(scratch, island, before);
         if (!island.isKept) continue;
         for (const std::size_t i : island.pairs) {
             GapPair& pair = scratch.pairs[i];
-            const GapPair& before = *find(pair.bodies);
-            pair.fallsOnB = before.fallsOnB;
-            pair.fallsOnA = before.fallsOnA;
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                const std::size_t then = before.begin + (r - pair.begin);
-                rowNow[then] = r;
-                const RowSolution& solved = rows_[then];
-                GapRow& row = scratch.rows[r];
-                row.impulse = solved.impulse;
-                row.couple = solved.couple;
-                row.target = solved.target;
-                row.wasHit = solved.wasHit;
-            }
+            pair.isCarried = before[i]->isCarried;
+            pair.fallsOnB = before[i]->fallsOnB;
+            pair.fallsOnA = before[i]->fallsOnA;
             for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
-                if (scratch.bodies[body].inverseMass == 0.0) continue;
-                scratch.bodies[body] = bodies_[body];
-                scratch.bodies[body].isKept = true;
+                GapBody& now = scratch.bodies[body];
+                if (now.inverseMass == 0.0 || now.isKept) continue;
+                now = bodies_[body];
+                now.isKept = true;
             }
         }
     }
+    scratch.impacts.clear();
     for (const GapImpact& blow : impacts_) {
-        if (rowNow[blow.row] == kGone) continue;
-        scratch.impacts.push_back(blow);
-        scratch.impacts.back().row = rowNow[blow.row];
+        const GapRow& row = scratch.rows[blow.row];
+        if (scratch.bodies[row.a].isKept || scratch.bodies[row.b].isKept)
+            scratch.impacts.push_back(blow);
     }
 }
 

@@ -133,126 +133,7 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
     }
 }
 
-/// Two halves at once.
-template <class Item>
-void sortInHalves(std::vector<Item>& items)
-{
-    const auto middle = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
-    forEach(2, 1, [&](std::size_t half) {
-        std::sort(half == 0 ? items.begin() : middle, half == 0 ? middle : items.end());
-    });
-    std::inplace_merge(items.begin(), middle, items.end());
-}
-
-/// Islands in the order of their lowest pairs.
-void cutIntoIslands(GapScratch& scratch)
-{
-    scratch.islands.clear();
-    for (std::vector<std::size_t>& pairs : pairsByBodies(scratch, scratch.order)) {
-        const std::size_t index = scratch.islands.size();
-        GapIsland& island = scratch.islands.emplace_back();
-        island.pairs = std::move(pairs);
-        for (const std::size_t i : island.pairs) {
-            GapPair& pair = scratch.pairs[i];
-            pair.island = index;
-            island.rowCount += pair.end - pair.begin;
-            island.isRemembered = island.isRemembered || pair.isCarried;
-        }
-    }
-    // What one island needs is in the cache until it is done with.
-    scratch.order.clear();
-    for (const GapIsland& island : scratch.islands)
-        scratch.order.insert(scratch.order.end(), island.pairs.begin(), island.pairs.end());
-}
-
-/// Cuts an island where its bodies spread most, across gravity or not.
-void cutInTwo(const GapIsland& island, GapScratch& scratch)
-{
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
-    const auto place = [&](BodyId body) -> const Vec3& { return scratch.seenAt[body].position; };
-    std::vector<BodyId> bodies;
-    Aabb box;
-    for (const std::size_t i : island.pairs) {
-        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (!isMovable(body)) continue;
-            bodies.push_back(body);
-            box.include(place(body));
-        }
-    }
-    Eigen::Index axis;
-    (box.max - box.min).maxCoeff(&axis);
-    const auto middle = bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size() / 2);
-    std::nth_element(bodies.begin(), middle, bodies.end(),
-                     [&](BodyId p, BodyId q) { return place(p)[axis] < place(q)[axis]; });
-    const double cut = place(*middle)[axis];
-    for (const std::size_t i : island.pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        const auto half = [&](BodyId body) { return place(body)[axis] < cut ? 0 : 1; };
-        const int ofA = half(isMovable(a) ? a : b), ofB = half(isMovable(b) ? b : a);
-        scratch.pairs[i].part = ofA == ofB ? ofA : 2;
-    }
-}
-
-/// Large islands are cut, small ones belong to one half as a whole.
-void shareOut(GapScratch& scratch)
-{
-    if (scratch.rows.size() < kRowsWorthACut) return;
-    std::array<std::size_t, 2> rows{};
-    for (const GapIsland& island : scratch.islands) {
-        if (island.rowCount >= kRowsWorthACut) {
-            cutInTwo(island, scratch);
-            continue;
-        }
-        const int lighter = rows[1] < rows[0] ? 1 : 0;
-        rows[lighter] += island.rowCount;
-        for (const std::size_t i : island.pairs) scratch.pairs[i].part = lighter;
-    }
-}
-
 }  // namespace
-
-std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
-                                                    const std::vector<std::size_t>& pairs)
-{
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
-    // Few bodies of a large world may be in these pairs: what is done for each is done for those.
-    thread_local std::vector<std::int32_t> placeOf;
-    placeOf.resize(scratch.bodies.size(), -1);
-    std::vector<BodyId> met;
-    for (const std::size_t i : pairs) {
-        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (!isMovable(body) || placeOf[body] >= 0) continue;
-            placeOf[body] = static_cast<std::int32_t>(met.size());
-            met.push_back(body);
-        }
-    }
-    DisjointSets sets(met.size());
-    for (const std::size_t i : pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        if (isMovable(a) && isMovable(b)) sets.join(placeOf[a], placeOf[b]);
-    }
-    std::vector<std::int32_t> listOf(met.size(), -1);
-    std::vector<std::vector<std::size_t>> together;
-    for (const std::size_t i : pairs) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        if (!isMovable(a) && !isMovable(b)) continue;
-        std::int32_t& list = listOf[sets.find(placeOf[isMovable(a) ? a : b])];
-        if (list < 0) {
-            list = static_cast<std::int32_t>(together.size());
-            together.emplace_back();
-        }
-        together[list].push_back(i);
-    }
-    for (const BodyId body : met) placeOf[body] = -1;
-    return together;
-}
-
-PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs)
-{
-    PairParts parts;
-    for (const std::size_t i : pairs) parts[scratch.pairs[i].part].push_back(i);
-    return parts;
-}
 
 bool isHeldBy(const World& world, BodyId body, BodyId other)
 {
@@ -304,42 +185,16 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
 
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
-    std::size_t count = 0;
-    scratch.pairs.clear();
-    for (std::size_t i = 0; i < scratch.nearPairs.size(); ++i) {
-        NearPair& near = scratch.nearPairs[i];
-        if (near.contacts.empty()) continue;
-        // A keyed body beside a sleeping one moves nothing.
-        const auto [a, b] = near.bodies;
-        if (scratch.bodies[a].inverseMass == 0.0 && scratch.bodies[b].inverseMass == 0.0) {
-            near.contacts.clear();
-            near.foundWithin = -1.0;
-            near.depth = 0.0;
-            continue;
-        }
-        const std::size_t begin = count;
-        count += near.contacts.size();
-        scratch.pairs.push_back({.bodies = near.bodies, .near = i, .begin = begin, .end = count});
-    }
-    // The largest list there is: neither the old one beside the new, nor room for twice as many.
-    if (count > scratch.rows.capacity()) {
-        scratch.rows.clear();
-        scratch.rows.shrink_to_fit();
-        scratch.rows.reserve(count + count / 8);
-    }
-    scratch.rows.resize(count);
-    scratch.impacts.clear();
-
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
-    const Vec3 up = -settings.gravity;
-    std::vector<std::pair<double, std::size_t>> byHeight(scratch.pairs.size());
     parallelFor(scratch.pairs.size(), 32, [&](std::size_t begin, std::size_t end) {
         // Both lists are sorted.
         auto known =
             std::lower_bound(memory.begin(), memory.end(), scratch.pairs[begin].bodies, isBefore);
         for (std::size_t i = begin; i < end; ++i) {
-            if (i + kPairsAhead < end) fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
+            if (i + kPairsAhead < end)
+                fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
             GapPair& pair = scratch.pairs[i];
+            if (isKept(scratch, pair)) continue;
             const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
@@ -368,20 +223,16 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                 prepareRow(scratch, row);
                 resistRolling(world, scratch, surface.rolling, row);
             }
-            GapRow* rows = &scratch.rows[pair.begin];
-            byHeight[i] = {up.dot(world.motion[a].position + rows->rA), i};
             if (!pair.isCarried) continue;
+            GapRow* rows = &scratch.rows[pair.begin];
             warmStart(world, dt, &*firstKnown, &*firstKnown + (known - firstKnown), rows,
                       rows + (pair.end - pair.begin), contacts);
         }
     });
-
-    // Bottom to top: what carries is solved before what is carried.
-    sortInHalves(byHeight);
-    scratch.order.clear();
-    for (const auto& [height, pair] : byHeight) scratch.order.push_back(pair);
-    cutIntoIslands(scratch);
-    shareOut(scratch);
+    for (const GapPair& pair : scratch.pairs) {
+        GapIsland& island = scratch.islands[pair.island];
+        island.isRemembered = island.isRemembered || pair.isCarried;
+    }
 }
 
 }  // namespace scree

@@ -81,7 +81,7 @@ struct NearPair {
 struct GapPair {
     BodyPair bodies;
     std::size_t near;                         ///< index into GapScratch::nearPairs
-    std::size_t begin, end;                   ///< its rows
+    std::size_t begin = 0, end = 0;           ///< its rows
     bool isCarried = false;                   ///< it had an impulse in the last step
     bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
     std::size_t island = 0;                   ///< index into GapScratch::islands
@@ -149,7 +149,8 @@ struct GapScratch {
     std::vector<char> hasNews;  ///< per body: this step has not yet found all that is near it
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
-    std::vector<GapRow> rows;        ///< pair by pair
+    std::vector<GapRow> rows;        ///< of each pair together; what is between them bears nothing
+    std::size_t rowCount = 0;        ///< of the pairs
     std::vector<std::size_t> order;  ///< of the pairs: island by island, bottom to top
     std::vector<GapIsland> islands;
     std::vector<GapImpact> impacts;                 ///< of this step
@@ -161,8 +162,8 @@ struct GapScratch {
     }
 };
 
-/// Lays the contacts that findGaps has found out as rows, with the impulses that the world
-/// remembers. Keyed bodies must have been aimed.
+/// Fills the rows of all islands that are not kept from the contacts of their pairs, with the
+/// impulses that the world remembers. Keyed bodies must have been aimed.
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
 
 /// Calls work(i) for every pair, shared by threads: it may write to what belongs to that pair
@@ -180,7 +181,7 @@ template <class Work>
 void forIslands(const GapScratch& scratch, const Work& work)
 {
     const auto isMost = [&](std::size_t i) {
-        return 2 * scratch.islands[i].rowCount >= scratch.rows.size();
+        return 2 * scratch.islands[i].rowCount >= scratch.rowCount;
     };
     const auto isSolved = [&](std::size_t i) { return scratch.islands[i].isKept; };
     for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
@@ -196,14 +197,6 @@ inline bool isKept(const GapScratch& scratch, const GapPair& pair)
 {
     return scratch.islands[pair.island].isKept;
 }
-
-/// Those of the pairs together that share movable bodies, directly or through others; pairs without
-/// any are left out. In the order of the first of each.
-std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
-                                                    const std::vector<std::size_t>& pairs);
-
-/// The pairs by their parts, in their order.
-PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs);
 
 /// Cannot be moved by impulses, and moves.
 inline bool isDriven(const GapBody& body)

@@ -53,13 +53,15 @@ StepSeen seeGaps(const World& world, const GapScratch& scratch, const GraphLevel
     step.overlap.assign(levels.level.size(), 0.0);
     std::vector<Vec3> blows(scratch.rows.size(), Vec3::Zero());
     for (const GapImpact& impact : scratch.impacts) blows[impact.row] += impact.impulse;
-    for (std::size_t r = 0; r < scratch.rows.size(); ++r) {
-        const GapRow& row = scratch.rows[r];
-        deepen(step, row.a, row.b, -row.gap);
-        const Vec3 impulse = row.worldImpulse() + blows[r];
-        if (impulse.isZero(0.0)) continue;
-        step.contacts.push_back(
-            {row.a, row.b, world.motion[row.a].position + row.rA, row.normal, impulse});
+    for (const GapPair& pair : scratch.pairs) {
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            deepen(step, row.a, row.b, -row.gap);
+            const Vec3 impulse = row.worldImpulse() + blows[r];
+            if (impulse.isZero(0.0)) continue;
+            step.contacts.push_back(
+                {row.a, row.b, world.motion[row.a].position + row.rA, row.normal, impulse});
+        }
     }
     return step;
 }

@@ -16,6 +16,7 @@
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
+#include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_search.h"
 #include "core/dynamics/gap_unseen.h"
@@ -240,18 +241,19 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
 }
 
 /// New velocities, in the scratch alone: the world is as it was. `solved`: by an earlier attempt.
-GapLevels Stepper::solveGaps(World& world, double dt, const SolvedIslands* solved,
+GapLevels Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved,
                              StepReport& report)
 {
     GapScratch& scratch = *gaps_;
     {
         const PhaseTimer timer(report, Phase::contactGraph);
-        if (solved)
-            findGapsAgain(world, dt, scratch);
-        else
+        if (solved.isNone())
             findGaps(world, settings_, dt, scratch);
+        else
+            findGapsAgain(world, dt, scratch);
+        layPairs(world, settings_, scratch);
+        solved.handOn(scratch);
         buildRows(world, settings_, dt, scratch);
-        if (solved) solved->handOn(scratch);
     }
     // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
     // never mistaken for what has just landed.
@@ -279,12 +281,11 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.dt = dt;
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
-    GapLevels levels = solveGaps(world, dt, nullptr, report);
+    GapLevels levels = solveGaps(world, dt, SolvedIslands(), report);
     int looks = 0;
     while (wakeStruck(world, dt, scratch) ||
            (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
-        const SolvedIslands solved(scratch);
-        levels = solveGaps(world, dt, &solved, report);
+        levels = solveGaps(world, dt, SolvedIslands(scratch), report);
     }
     for (const GapImpact& impact : scratch.impacts)
         countImpulse(report.collisionImpulses, impact.kind);
@@ -312,7 +313,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.levels = static_cast<int>(levels.pairs.size());
     report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
     report.touchingPairs = static_cast<std::int64_t>(scratch.pairs.size());
-    report.contactPairs = static_cast<std::int64_t>(scratch.rows.size());
+    report.contactPairs = static_cast<std::int64_t>(scratch.rowCount);
     ++world.clock.subStep;
     return report;
 }

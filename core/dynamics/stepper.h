@@ -46,7 +46,7 @@ private:
     StepReport stepFoundPairs(World& world, double dt);
     StepReport stepGaps(World& world, double dt);
     bool mayStopAt(const Clock& clock) const;
-    GapLevels solveGaps(World& world, double dt, const SolvedIslands* solved, StepReport& report);
+    GapLevels solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report);
 
     StepSettings settings_;
     StepObserver* observer_ = nullptr;

@@ -1,0 +1,183 @@
+#include "core/dynamics/gap_pairs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/fetch.h"
+#include "core/base/parallel.h"
+#include "core/dynamics/disjoint_sets.h"
+
+namespace scree {
+namespace {
+
+/// How many pairs ahead contacts are fetched. Only time depends on it.
+constexpr std::size_t kPairsAhead = 8;
+
+/// A keyed body beside a sleeping one moves nothing.
+bool movesSomething(const GapScratch& scratch, BodyPair bodies)
+{
+    return scratch.bodies[bodies.a].inverseMass > 0.0 || scratch.bodies[bodies.b].inverseMass > 0.0;
+}
+
+void collectPairs(GapScratch& scratch)
+{
+    scratch.pairs.clear();
+    scratch.rowCount = 0;
+    for (std::size_t i = 0; i < scratch.nearPairs.size(); ++i) {
+        NearPair& near = scratch.nearPairs[i];
+        if (near.contacts.empty()) continue;
+        if (!movesSomething(scratch, near.bodies)) {
+            near.contacts.clear();
+            near.foundWithin = -1.0;
+            near.depth = 0.0;
+            continue;
+        }
+        scratch.pairs.push_back({.bodies = near.bodies, .near = i, .end = near.contacts.size()});
+        scratch.rowCount += near.contacts.size();
+    }
+}
+
+/// Two halves at once.
+template <class Item>
+void sortInHalves(std::vector<Item>& items)
+{
+    const auto middle = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
+    forEach(2, 1, [&](std::size_t half) {
+        std::sort(half == 0 ? items.begin() : middle, half == 0 ? middle : items.end());
+    });
+    std::inplace_merge(items.begin(), middle, items.end());
+}
+
+/// Bottom to top: what carries is solved before what is carried.
+void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
+{
+    const std::vector<GapPair>& pairs = scratch.pairs;
+    std::vector<std::pair<double, std::size_t>> byHeight(pairs.size());
+    forEach(pairs.size(), kShortWork, [&](std::size_t i) {
+        if (i + kPairsAhead < pairs.size()) fetchItems(scratch.contactsOf(pairs[i + kPairsAhead]));
+        const Vec3& centreOfA = world.motion[pairs[i].bodies.a].position;
+        byHeight[i] = {up.dot(centreOfA + scratch.contactsOf(pairs[i]).front().rA), i};
+    });
+    sortInHalves(byHeight);
+    scratch.order.clear();
+    for (const auto& [height, pair] : byHeight) scratch.order.push_back(pair);
+}
+
+/// Islands in the order of their lowest pairs.
+void cutIntoIslands(GapScratch& scratch)
+{
+    scratch.islands.clear();
+    for (std::vector<std::size_t>& pairs : pairsByBodies(scratch, scratch.order)) {
+        const std::size_t index = scratch.islands.size();
+        GapIsland& island = scratch.islands.emplace_back();
+        island.pairs = std::move(pairs);
+        for (const std::size_t i : island.pairs) {
+            GapPair& pair = scratch.pairs[i];
+            pair.island = index;
+            island.rowCount += pair.end - pair.begin;
+        }
+    }
+    // What one island needs is in the cache until it is done with.
+    scratch.order.clear();
+    for (const GapIsland& island : scratch.islands)
+        scratch.order.insert(scratch.order.end(), island.pairs.begin(), island.pairs.end());
+}
+
+/// Cuts an island where its bodies spread most, across gravity or not.
+void cutInTwo(const GapIsland& island, GapScratch& scratch)
+{
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    const auto place = [&](BodyId body) -> const Vec3& { return scratch.seenAt[body].position; };
+    std::vector<BodyId> bodies;
+    Aabb box;
+    for (const std::size_t i : island.pairs) {
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (!isMovable(body)) continue;
+            bodies.push_back(body);
+            box.include(place(body));
+        }
+    }
+    Eigen::Index axis;
+    (box.max - box.min).maxCoeff(&axis);
+    const auto middle = bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size() / 2);
+    std::nth_element(bodies.begin(), middle, bodies.end(),
+                     [&](BodyId p, BodyId q) { return place(p)[axis] < place(q)[axis]; });
+    const double cut = place(*middle)[axis];
+    for (const std::size_t i : island.pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        const auto half = [&](BodyId body) { return place(body)[axis] < cut ? 0 : 1; };
+        const int ofA = half(isMovable(a) ? a : b), ofB = half(isMovable(b) ? b : a);
+        scratch.pairs[i].part = ofA == ofB ? ofA : 2;
+    }
+}
+
+/// Large islands are cut, small ones belong to one half as a whole.
+void shareOut(GapScratch& scratch)
+{
+    if (scratch.rowCount < kRowsWorthACut) return;
+    std::array<std::size_t, 2> rows{};
+    for (const GapIsland& island : scratch.islands) {
+        if (island.rowCount >= kRowsWorthACut) {
+            cutInTwo(island, scratch);
+            continue;
+        }
+        const int lighter = rows[1] < rows[0] ? 1 : 0;
+        rows[lighter] += island.rowCount;
+        for (const std::size_t i : island.pairs) scratch.pairs[i].part = lighter;
+    }
+}
+
+}  // namespace
+
+void layPairs(const World& world, const StepSettings& settings, GapScratch& scratch)
+{
+    collectPairs(scratch);
+    orderByHeight(world, -settings.gravity, scratch);
+    cutIntoIslands(scratch);
+    shareOut(scratch);
+}
+
+std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
+                                                    const std::vector<std::size_t>& pairs)
+{
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    // Few bodies of a large world may be in these pairs: what is done for each is done for those.
+    thread_local std::vector<std::int32_t> placeOf;
+    placeOf.resize(scratch.bodies.size(), -1);
+    std::vector<BodyId> met;
+    for (const std::size_t i : pairs) {
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (!isMovable(body) || placeOf[body] >= 0) continue;
+            placeOf[body] = static_cast<std::int32_t>(met.size());
+            met.push_back(body);
+        }
+    }
+    DisjointSets sets(met.size());
+    for (const std::size_t i : pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (isMovable(a) && isMovable(b)) sets.join(placeOf[a], placeOf[b]);
+    }
+    std::vector<std::int32_t> listOf(met.size(), -1);
+    std::vector<std::vector<std::size_t>> together;
+    for (const std::size_t i : pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (!isMovable(a) && !isMovable(b)) continue;
+        std::int32_t& list = listOf[sets.find(placeOf[isMovable(a) ? a : b])];
+        if (list < 0) {
+            list = static_cast<std::int32_t>(together.size());
+            together.emplace_back();
+        }
+        together[list].push_back(i);
+    }
+    for (const BodyId body : met) placeOf[body] = -1;
+    return together;
+}
+
+PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs)
+{
+    PairParts parts;
+    for (const std::size_t i : pairs) parts[scratch.pairs[i].part].push_back(i);
+    return parts;
+}
+
+}  // namespace scree
