@@ -20,18 +20,19 @@ std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
         }
     });
     std::vector<Held> held(scratch.bodies.size());
-    for (const std::size_t p : scratch.order) {
-        if (isKept(scratch, scratch.pairs[p])) continue;
-        const GapRow& any = scratch.rows[scratch.pairs[p].begin];
-        if (any.movesA) {
-            held[any.a].acceleration += ofPairs[p].impulse;
-            held[any.a].turning += ofPairs[p].turnOfA;
+    forIslands(scratch, [&](std::size_t i) {
+        for (const std::size_t p : scratch.islands[i].pairs) {
+            const GapRow& any = scratch.rows[scratch.pairs[p].begin];
+            if (any.movesA) {
+                held[any.a].acceleration += ofPairs[p].impulse;
+                held[any.a].turning += ofPairs[p].turnOfA;
+            }
+            if (any.movesB) {
+                held[any.b].acceleration -= ofPairs[p].impulse;
+                held[any.b].turning += ofPairs[p].turnOfB;
+            }
         }
-        if (any.movesB) {
-            held[any.b].acceleration -= ofPairs[p].impulse;
-            held[any.b].turning += ofPairs[p].turnOfB;
-        }
-    }
+    });
     forEach(held.size(), kShortWork, [&](std::size_t b) {
         held[b].acceleration *= scratch.bodies[b].inverseMass / dt;
         held[b].turning = scratch.bodies[b].inverseInertia * held[b].turning / dt;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.h"
+
 namespace scree {
 namespace {
 
@@ -98,9 +100,10 @@ void SolvedIslands::handOn(GapScratch& scratch) const
     const std::vector<const GapPair*> before = pairsBefore(scratch);
     clearRowsOfOthers(before, scratch);
     placeRows(before, isNone() ? 0 : scratch.rows.size(), scratch);
-    for (GapIsland& island : scratch.islands) {
+    forEach(scratch.islands.size(), 1, [&](std::size_t n) {
+        GapIsland& island = scratch.islands[n];
         island.isKept = isAsBefore(scratch, island, before);
-        if (!island.isKept) continue;
+        if (!island.isKept) return;
         for (const std::size_t i : island.pairs) {
             GapPair& pair = scratch.pairs[i];
             pair.isCarried = before[i]->isCarried;
@@ -113,7 +116,7 @@ void SolvedIslands::handOn(GapScratch& scratch) const
                 now.isKept = true;
             }
         }
-    }
+    });
     scratch.impacts.clear();
     for (const GapImpact& blow : impacts_) {
         const GapRow& row = scratch.rows[blow.row];

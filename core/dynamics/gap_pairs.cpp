@@ -1,6 +1,7 @@
 #include "core/dynamics/gap_pairs.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/base/fetch.h"
@@ -38,36 +39,23 @@ void collectPairs(GapScratch& scratch)
 }
 
 /// Two halves at once.
-template <class Item>
-void sortInHalves(std::vector<Item>& items)
+template <class Item, class Before>
+void sortInHalves(std::vector<Item>& items, const Before& before)
 {
     const auto middle = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
     forEach(2, 1, [&](std::size_t half) {
-        std::sort(half == 0 ? items.begin() : middle, half == 0 ? middle : items.end());
+        std::sort(half == 0 ? items.begin() : middle, half == 0 ? middle : items.end(), before);
     });
-    std::inplace_merge(items.begin(), middle, items.end());
+    std::inplace_merge(items.begin(), middle, items.end(), before);
 }
 
-/// Bottom to top: what carries is solved before what is carried.
-void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
-{
-    const std::vector<GapPair>& pairs = scratch.pairs;
-    std::vector<std::pair<double, std::size_t>> byHeight(pairs.size());
-    forEach(pairs.size(), kShortWork, [&](std::size_t i) {
-        if (i + kPairsAhead < pairs.size()) fetchItems(scratch.contactsOf(pairs[i + kPairsAhead]));
-        const Vec3& centreOfA = world.motion[pairs[i].bodies.a].position;
-        byHeight[i] = {up.dot(centreOfA + scratch.contactsOf(pairs[i]).front().rA), i};
-    });
-    sortInHalves(byHeight);
-    scratch.order.clear();
-    for (const auto& [height, pair] : byHeight) scratch.order.push_back(pair);
-}
-
-/// Islands in the order of their lowest pairs.
+/// In the order of the first of their pairs.
 void cutIntoIslands(GapScratch& scratch)
 {
+    std::vector<std::size_t> all(scratch.pairs.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
     scratch.islands.clear();
-    for (std::vector<std::size_t>& pairs : pairsByBodies(scratch, scratch.order)) {
+    for (std::vector<std::size_t>& pairs : pairsByBodies(scratch, all)) {
         const std::size_t index = scratch.islands.size();
         GapIsland& island = scratch.islands.emplace_back();
         island.pairs = std::move(pairs);
@@ -77,6 +65,23 @@ void cutIntoIslands(GapScratch& scratch)
             island.rowCount += pair.end - pair.begin;
         }
     }
+}
+
+/// Bottom to top: what carries is solved before what is carried.
+void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
+{
+    std::vector<double> heights(scratch.pairs.size());
+    forEach(heights.size(), kShortWork, [&](std::size_t i) {
+        const std::vector<GapPair>& pairs = scratch.pairs;
+        if (i + kPairsAhead < pairs.size()) fetchItems(scratch.contactsOf(pairs[i + kPairsAhead]));
+        const Vec3& centreOfA = world.motion[pairs[i].bodies.a].position;
+        heights[i] = up.dot(centreOfA + scratch.contactsOf(pairs[i]).front().rA);
+    });
+    forIslands(scratch, [&](std::size_t i) {
+        sortInHalves(scratch.islands[i].pairs, [&](std::size_t p, std::size_t q) {
+            return std::pair(heights[p], p) < std::pair(heights[q], q);
+        });
+    });
     // What one island needs is in the cache until it is done with.
     scratch.order.clear();
     for (const GapIsland& island : scratch.islands)
@@ -115,12 +120,13 @@ void cutInTwo(const GapIsland& island, GapScratch& scratch)
 void shareOut(GapScratch& scratch)
 {
     if (scratch.rowCount < kRowsWorthACut) return;
+    const auto isLarge = [](const GapIsland& island) { return island.rowCount >= kRowsWorthACut; };
+    forEach(scratch.islands.size(), 1, [&](std::size_t i) {
+        if (isLarge(scratch.islands[i])) cutInTwo(scratch.islands[i], scratch);
+    });
     std::array<std::size_t, 2> rows{};
     for (const GapIsland& island : scratch.islands) {
-        if (island.rowCount >= kRowsWorthACut) {
-            cutInTwo(island, scratch);
-            continue;
-        }
+        if (isLarge(island)) continue;
         const int lighter = rows[1] < rows[0] ? 1 : 0;
         rows[lighter] += island.rowCount;
         for (const std::size_t i : island.pairs) scratch.pairs[i].part = lighter;
@@ -132,8 +138,8 @@ void shareOut(GapScratch& scratch)
 void layPairs(const World& world, const StepSettings& settings, GapScratch& scratch)
 {
     collectPairs(scratch);
-    orderByHeight(world, -settings.gravity, scratch);
     cutIntoIslands(scratch);
+    orderByHeight(world, -settings.gravity, scratch);
     shareOut(scratch);
 }
 
