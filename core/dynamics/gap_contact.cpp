@@ -117,14 +117,21 @@ void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
     lanes.store(scratch);
 }
 
-ImpulseCounts countImpulses(const GapScratch& scratch)
+/// Of all rows, and of each pair.
+ImpulseCounts countImpulses(GapScratch& scratch)
 {
     std::atomic<std::int64_t> sliding = 0, sticking = 0;
-    parallelFor(scratch.rows.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    parallelFor(scratch.pairs.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::int64_t slide = 0, stick = 0;
-        for (std::size_t r = begin; r < end; ++r) {
-            const GapRow& row = scratch.rows[r];
-            if (row.impulse.x() > 0.0) ++(sticks(row) ? stick : slide);
+        for (std::size_t i = begin; i < end; ++i) {
+            GapPair& pair = scratch.pairs[i];
+            pair.bearing = 0;
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                const GapRow& row = scratch.rows[r];
+                if (row.impulse.x() == 0.0) continue;
+                ++pair.bearing;
+                ++(sticks(row) ? stick : slide);
+            }
         }
         sliding += slide;
         sticking += stick;

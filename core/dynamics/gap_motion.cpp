@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "core/base/fetch.h"
 #include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
 
@@ -14,6 +14,9 @@ namespace {
 /// Slip and opening of a contact that lasts, as a share of the smaller body: what the solver
 /// leaves.
 constexpr double kLasting = 1e-6;
+
+/// How many pairs ahead contacts are fetched. Only time depends on it.
+constexpr std::size_t kPairsAhead = 4;
 
 /// What a body moves less than with its final velocity when what accelerated it did so for the
 /// whole step.
@@ -40,9 +43,11 @@ bool lasts(const GapRow& row, const Vec3& s, double gapAtEnd, double blind)
     return slides || (s - apart * row.normal).norm() <= blind;
 }
 
-/// What the impulses of a pair add to the angular momenta of its bodies [kg m²/s].
+/// What the impulses of a pair add to the angular momenta of its bodies, if they are moved
+/// [kg m²/s].
 struct PairTurn {
     Vec3 ofA = Vec3::Zero(), ofB = Vec3::Zero();
+    bool movesA = false, movesB = false;
 };
 
 /// Impulses have the lever arms of the beginning of the step. A body that moves for a while without
@@ -134,7 +139,6 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
 void writeVelocities(World& world, double dt, GapScratch& scratch)
 {
     const auto isStepped = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
-    const auto bears = [](const GapRow& row) { return row.impulse.x() != 0.0; };
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         if (!isStepped(static_cast<BodyId>(i))) return;
         world.motion[i].velocity = scratch.bodies[i].velocity;
@@ -152,23 +156,22 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
     }
     std::vector<PairTurn> turns(scratch.pairs.size());
     std::vector<std::size_t> first(scratch.pairs.size() + 1, ofSleepers);  // of a pair in `kept`
-    forPairs(scratch, [&](std::size_t i) {
-        const auto rows = scratch.rows.begin();
-        const GapPair& pair = scratch.pairs[i];
-        first[i + 1] = static_cast<std::size_t>(
-            std::count_if(rows + static_cast<std::ptrdiff_t>(pair.begin),
-                          rows + static_cast<std::ptrdiff_t>(pair.end), bears));
-    });
-    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i)
+        first[i + 1] = first[i] + scratch.pairs[i].bearing;
     kept.resize(first.back());
     forPairs(scratch, [&](std::size_t i) {
+        if (i + kPairsAhead < scratch.pairs.size())
+            fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
         const GapPair& pair = scratch.pairs[i];
+        if (pair.bearing == 0) return;
         const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
         const Quat aFromWorld = world.motion[pair.bodies.a].orientation.conjugate();
         std::size_t place = first[i];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
-            if (!bears(row)) continue;
+            if (row.impulse.x() == 0.0) continue;
+            turns[i].movesA = row.movesA;
+            turns[i].movesB = row.movesB;
             const Vec3 impulse = row.worldImpulse();
             // What changes the angular momentum is the impulse itself: a product with an inertia
             // and its inverse would lose bits every step.
@@ -180,10 +183,9 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
         }
     });
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        if (first[i] == first[i + 1]) continue;
-        const GapRow& any = scratch.rows[scratch.pairs[i].begin];
-        if (any.movesA) world.motion[any.a].angularMomentum += turns[i].ofA;
-        if (any.movesB) world.motion[any.b].angularMomentum += turns[i].ofB;
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (turns[i].movesA) world.motion[a].angularMomentum += turns[i].ofA;
+        if (turns[i].movesB) world.motion[b].angularMomentum += turns[i].ofB;
     }
     // Both parts are sorted: the memory is, and so are the pairs.
     std::inplace_merge(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(ofSleepers),

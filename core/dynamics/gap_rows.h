@@ -82,6 +82,7 @@ struct GapPair {
     BodyPair bodies;
     std::size_t near;                         ///< index into GapScratch::nearPairs
     std::size_t begin = 0, end = 0;           ///< its rows
+    std::size_t bearing = 0;                  ///< how many of them have an impulse, once solved
     bool isCarried = false;                   ///< it had an impulse in the last step
     bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
     std::size_t island = 0;                   ///< index into GapScratch::islands
