@@ -4,7 +4,7 @@
 // was not looked at for. In a large world that is so somewhere in every step, and all of it was
 // solved twice: a hundred fields of rings took half as long again as a hundred times one. Islands
 // share no movable body, so those in which nothing has changed stay, and their rows where they are:
-// laid out anew, those of ten fields of a thousand rings took as long as solving what had changed.
+// laying these out anew, in ten fields of a thousand, took longer than solving what had changed.
 #pragma once
 
 #include <vector>

@@ -6,7 +6,6 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_contact.h"
-#include "core/dynamics/gap_pairs.h"
 
 namespace scree {
 

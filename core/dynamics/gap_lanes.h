@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_pairs.h"
 #include "core/math/lanes.h"
 
 namespace scree {

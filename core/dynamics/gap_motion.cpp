@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/fetch.h"
 #include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
 
@@ -14,9 +13,6 @@ namespace {
 /// Slip and opening of a contact that lasts, as a share of the smaller body: what the solver
 /// leaves.
 constexpr double kLasting = 1e-6;
-
-/// How many pairs ahead contacts are fetched. Only time depends on it.
-constexpr std::size_t kPairsAhead = 4;
 
 /// What a body moves less than with its final velocity when what accelerated it did so for the
 /// whole step.
@@ -160,8 +156,7 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
         first[i + 1] = first[i] + scratch.pairs[i].bearing;
     kept.resize(first.back());
     forPairs(scratch, [&](std::size_t i) {
-        if (i + kPairsAhead < scratch.pairs.size())
-            fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
+        fetchContactsAfter(scratch, i);
         const GapPair& pair = scratch.pairs[i];
         if (pair.bearing == 0) return;
         const std::vector<GapContact>& contacts = scratch.contactsOf(pair);

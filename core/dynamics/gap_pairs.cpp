@@ -4,15 +4,11 @@
 #include <numeric>
 #include <utility>
 
-#include "core/base/fetch.h"
 #include "core/base/parallel.h"
 #include "core/dynamics/disjoint_sets.h"
 
 namespace scree {
 namespace {
-
-/// How many pairs ahead contacts are fetched. Only time depends on it.
-constexpr std::size_t kPairsAhead = 8;
 
 /// A keyed body beside a sleeping one moves nothing.
 bool movesSomething(const GapScratch& scratch, BodyPair bodies)
@@ -72,10 +68,10 @@ void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
 {
     std::vector<double> heights(scratch.pairs.size());
     forEach(heights.size(), kShortWork, [&](std::size_t i) {
-        const std::vector<GapPair>& pairs = scratch.pairs;
-        if (i + kPairsAhead < pairs.size()) fetchItems(scratch.contactsOf(pairs[i + kPairsAhead]));
-        const Vec3& centreOfA = world.motion[pairs[i].bodies.a].position;
-        heights[i] = up.dot(centreOfA + scratch.contactsOf(pairs[i]).front().rA);
+        fetchContactsAfter(scratch, i);
+        const GapPair& pair = scratch.pairs[i];
+        const Vec3& centreOfA = world.motion[pair.bodies.a].position;
+        heights[i] = up.dot(centreOfA + scratch.contactsOf(pair).front().rA);
     });
     forIslands(scratch, [&](std::size_t i) {
         sortInHalves(scratch.islands[i].pairs, [&](std::size_t p, std::size_t q) {

@@ -2,11 +2,19 @@
 // visited.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/dynamics/gap_rows.h"
 
 namespace scree {
+
+/// Pairs of one half of the bodies, of the other, and those that join the halves. Two threads may
+/// work on the halves at once, and one on the rest before or after them.
+using PairParts = std::array<std::vector<std::size_t>, 3>;
+
+/// Below this many rows a cut costs more than a second thread gains.
+constexpr std::size_t kRowsWorthACut = 1000;
 
 /// Collects the pairs for which contacts have been found, bottom to top and by islands, cut for two
 /// threads where they are large. Of their rows it says how many there are, not yet where.

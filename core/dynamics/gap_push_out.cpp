@@ -48,7 +48,7 @@ struct alignas(64) Displacement {
     Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
 };
 
-/// Of a row what sweeps look at, in two cache lines of six.
+/// Of a row what sweeps look at: less than half of it.
 struct RowPush {
     BodyId a, b;
     bool movesA, movesB;

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
-#include "core/base/fetch.h"
 #include "core/base/parallel.h"
-#include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/rolling_friction.h"
 #include "core/geometry/surface_curvature.h"
 #include "core/math/lanes.h"
@@ -18,9 +14,6 @@ namespace {
 /// A place that has moved less than this share of the smaller body since the last step may take
 /// over an impulse although its features have changed.
 constexpr double kSamePlace = 0.05;
-
-/// How many pairs ahead contacts are fetched. Only time depends on it.
-constexpr std::size_t kPairsAhead = 4;
 
 bool isBefore(const RememberedContact& contact, const BodyPair& bodies)
 {
@@ -191,8 +184,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
         auto known =
             std::lower_bound(memory.begin(), memory.end(), scratch.pairs[begin].bodies, isBefore);
         for (std::size_t i = begin; i < end; ++i) {
-            if (i + kPairsAhead < end)
-                fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
+            fetchContactsAfter(scratch, i);
             GapPair& pair = scratch.pairs[i];
             if (isKept(scratch, pair)) continue;
             const std::vector<GapContact>& contacts = scratch.contactsOf(pair);

@@ -6,10 +6,10 @@
 // stay in the second-level cache.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/base/fetch.h"
 #include "core/base/parallel.h"
 #include "core/collision/near_features.h"
 #include "core/dynamics/friction.h"
@@ -86,12 +86,8 @@ struct GapPair {
     bool isCarried = false;                   ///< it had an impulse in the last step
     bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
     std::size_t island = 0;                   ///< index into GapScratch::islands
-    int part = 0;                             ///< see PairParts
+    int part = 0;                             ///< gap_pairs.h
 };
-
-/// Pairs of one half of the bodies, of the other, and those that join the halves. Two threads may
-/// work on the halves at once, and one on the rest before or after them.
-using PairParts = std::array<std::vector<std::size_t>, 3>;
 
 /// A blow.
 struct GapImpact {
@@ -109,9 +105,6 @@ struct GapIsland {
     bool isRemembered = false;  ///< some of its pairs carried in the last step
     bool isKept = false;        ///< as an earlier attempt at the step has solved it
 };
-
-/// Below this many rows a cut costs more than a second thread gains.
-constexpr std::size_t kRowsWorthACut = 1000;
 
 /// What of a body's motion may close gaps within a step.
 struct GapPace {
@@ -191,6 +184,14 @@ void forIslands(const GapScratch& scratch, const Work& work)
     forEach(scratch.islands.size(), 1, [&](std::size_t i) {
         if (!isMost(i) && !isSolved(i)) work(i);
     });
+}
+
+/// Fetches the contacts of a pair that follows the i-th soon, for loops that read them.
+inline void fetchContactsAfter(const GapScratch& scratch, std::size_t i)
+{
+    constexpr std::size_t kPairsAhead = 4;
+    if (i + kPairsAhead >= scratch.pairs.size()) return;
+    fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
 }
 
 /// Whether the rows of a pair are as an earlier attempt at the step has solved them.
