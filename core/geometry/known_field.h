@@ -2,10 +2,9 @@
 //
 // Impulses move a pair by micrometres, so a sample meets the face that it met before. As long as it
 // is sure to, only that face is asked (SignedDistance::placeAround), and the answer is the field's
-// own, to the bit: 16 ns instead of 77 on the ring (tests/benchmarks/distance_benchmark.cpp). A
-// frame of method paper with a thousand rings in a heap takes a quarter less time, since in five of
-// six questions near the surface nothing is searched; with five hundred bones, whose faces are
-// small, a sixteenth.
+// own, to the bit: 16 ns instead of 77 on the ring (tests/benchmarks/distance_benchmark.cpp). In a
+// heap of a thousand rings by method paper all but three in a thousand questions near the surface
+// are answered so, and a frame takes a quarter less time; with five hundred bones a sixteenth.
 #pragma once
 
 #include <array>
