@@ -22,6 +22,9 @@ constexpr std::size_t kEntriesTogether = 512, kMeetingsTogether = 1024;  // by o
 
 constexpr double kMostCells = 64.0;  // a body over more cells goes to the list of large ones
 
+/// One in so many bodies, or fewer, is looked for by itself. Only time depends on it.
+constexpr std::size_t kFewAmong = 32;
+
 struct CellRange {
     std::array<std::int64_t, 3> first, last;
     double count() const
@@ -73,6 +76,10 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
                                                    const Filter& counts,
                                                    std::span<const char> isAsked)
 {
+    if (!isAsked.empty() && areFew(boxes, isAsked)) {
+        pairFew(boxes, mass, counts);
+        return pairs_;
+    }
     if (findMoved(boxes, mass)) {
         forEach(2, 1, [&](std::size_t list) {
             if (list == 0)
@@ -104,6 +111,69 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
     for (const std::vector<BodyPair>& found : found_)
         pairs_.insert(pairs_.end(), found.begin(), found.end());
     return pairs_;
+}
+
+/// Lists the bodies that are asked, and those that no longer are where they have been entered;
+/// answers whether they are few.
+bool BroadPhase::areFew(const std::vector<Aabb>& boxes, std::span<const char> isAsked)
+{
+    if (roomy_.size() != boxes.size()) return false;
+    asked_.clear();
+    outgrown_.clear();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (isAsked[i]) asked_.push_back(static_cast<BodyId>(i));
+        if (!roomy_[i].contains(boxes[i])) outgrown_.push_back(static_cast<BodyId>(i));
+    }
+    return kFewAmong * std::max(asked_.size(), outgrown_.size()) <= boxes.size();
+}
+
+/// The pairs of those that are asked: in the cells that their boxes cover, and among those that are
+/// in none. Nobody is entered anew.
+void BroadPhase::pairFew(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass,
+                         const Filter& counts)
+{
+    found_.resize(asked_.size());
+    forEach(asked_.size(), 1, [&](std::size_t n) {
+        const BodyId asked = asked_[n];
+        std::vector<BodyPair>& found = found_[n];
+        found.clear();
+        const auto meetBoxOf = [&](BodyId other) {
+            if (other == asked || !boxes[asked].overlaps(boxes[other])) return;
+            if (!mass[asked].isMovable() && !mass[other].isMovable()) return;
+            const BodyPair pair{std::min(asked, other), std::max(asked, other)};
+            if (counts(pair)) found.push_back(pair);
+        };
+        for (const BodyId other : large_) meetBoxOf(other);
+        for (const BodyId other : outgrown_) meetBoxOf(other);
+        forThoseWithin(boxes[asked], meetBoxOf);
+    });
+    pairs_.clear();
+    for (const std::vector<BodyPair>& found : found_)
+        pairs_.insert(pairs_.end(), found.begin(), found.end());
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+}
+
+/// Calls visit(body) for those that have been entered in the cells of a box, or for all where these
+/// are many; for some again and again.
+template <class Visit>
+void BroadPhase::forThoseWithin(const Aabb& box, const Visit& visit) const
+{
+    if (box.isEmpty()) return;
+    const CellRange range = cellsOf(box, cellSize_);
+    if (range.count() > kMostCells) {
+        for (BodyId body = 0; body < static_cast<BodyId>(roomy_.size()); ++body) visit(body);
+        return;
+    }
+    for (std::int64_t x = range.first[0]; x <= range.last[0]; ++x) {
+        for (std::int64_t y = range.first[1]; y <= range.last[1]; ++y) {
+            for (std::int64_t z = range.first[2]; z <= range.last[2]; ++z) {
+                const auto inCell =
+                    std::ranges::equal_range(entries_, keyOf(x, y, z), {}, &Entry::cell);
+                for (const Entry& entry : inCell) visit(entry.body);
+            }
+        }
+    }
 }
 
 /// Marks the bodies that no longer fit their boxes; where cells no longer fit the bodies, all.

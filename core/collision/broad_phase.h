@@ -2,8 +2,8 @@
 // [A14]
 //
 // Boxes move little from step to step, so what is searched are boxes that are somewhat larger, and
-// only those of bodies that have left theirs are searched anew. The answer never depends on when
-// that was.
+// only those of bodies that have left theirs are searched anew. Who is asked for with few others is
+// looked up and not entered. The answer never depends on when that was.
 #pragma once
 
 #include <array>
@@ -42,6 +42,11 @@ private:
         BodyId body;
         friend auto operator<=>(const Entry&, const Entry&) = default;
     };
+    bool areFew(const std::vector<Aabb>& boxes, std::span<const char> isAsked);
+    void pairFew(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass,
+                 const Filter& counts);
+    template <class Visit>
+    void forThoseWithin(const Aabb& box, const Visit& visit) const;
     bool findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass);
     void forgetMeetings();
     void enterMoved(const std::vector<Aabb>& boxes);
@@ -61,6 +66,7 @@ private:
     std::vector<BodyPair> pairs_;
     // While searching.
     std::vector<double> edges_;
+    std::vector<BodyId> asked_, outgrown_;
     std::vector<std::vector<BodyPair>> found_;  // by several threads
 };
 

@@ -102,9 +102,9 @@ std::vector<std::size_t> inOrderOfTime(ImpactState& state)
 {
     const GapScratch& scratch = state.scratch;
     const ImpactVisits visits(state, ImpactVisits::Of::all);
-    std::vector<double> times(scratch.pairs.size());
-    forPairs(scratch, [&](std::size_t p) {
-        times[p] = isKept(scratch, scratch.pairs[p]) ? -1.0 : visits.timeOf(scratch.pairs[p]);
+    std::vector<double> times(scratch.pairs.size(), -1.0);
+    forOpenPairs(scratch, [&](std::size_t p) {
+        times[p] = visits.timeOf(scratch.pairs[p]);
         if (times[p] < 0.0) state.doneAt[p] = kBeforeAll;
     });
     std::vector<std::size_t> hit;

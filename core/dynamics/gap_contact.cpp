@@ -117,31 +117,6 @@ void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
     lanes.store(scratch);
 }
 
-/// Of all rows, and of each pair.
-ImpulseCounts countImpulses(GapScratch& scratch)
-{
-    std::atomic<std::int64_t> sliding = 0, sticking = 0;
-    parallelFor(scratch.pairs.size(), 256, [&](std::size_t begin, std::size_t end) {
-        std::int64_t slide = 0, stick = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            GapPair& pair = scratch.pairs[i];
-            pair.bearing = 0;
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                const GapRow& row = scratch.rows[r];
-                if (row.impulse.x() == 0.0) continue;
-                ++pair.bearing;
-                ++(sticks(row) ? stick : slide);
-            }
-        }
-        sliding += slide;
-        sticking += stick;
-    });
-    ImpulseCounts counts;
-    counts.sliding = sliding;
-    counts.sticking = sticking;
-    return counts;
-}
-
 }  // namespace
 
 int mostSweeps(const StepSettings& settings, const GapIsland& island)
@@ -198,8 +173,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
     // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
     // g dt²/2 too far.
     std::vector<char> stops(scratch.pairs.size(), 0);
-    forPairs(scratch, [&](std::size_t i) {
-        if (isKept(scratch, scratch.pairs[i])) return;
+    forOpenPairs(scratch, [&](std::size_t i) {
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end && !stops[i]; ++r) {
             const GapRow& row = scratch.rows[r];
             const GapBody& a = scratch.bodies[row.a];
@@ -210,7 +184,6 @@ void addForcesToGaps(double dt, GapScratch& scratch)
             stops[i] = end < 0.0 || row.impulse.x() > 0.0;
         }
     });
-    for (GapBody& body : scratch.bodies) body.isStopped = body.isStopped && body.isKept;
     for (const std::size_t i : scratch.order) {
         if (!stops[i]) continue;
         scratch.bodies[scratch.pairs[i].bodies.a].isStopped = true;
@@ -230,8 +203,7 @@ void addForcesToGaps(double dt, GapScratch& scratch)
         body.shift -= 0.5 * dt * dt * body.pull;
         body.turn -= 0.5 * dt * dt * turning;
     });
-    forPairs(scratch, [&](std::size_t i) {
-        if (isKept(scratch, scratch.pairs[i])) return;
+    forOpenPairs(scratch, [&](std::size_t i) {
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
             GapRow& row = scratch.rows[r];
             const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
@@ -240,13 +212,36 @@ void addForcesToGaps(double dt, GapScratch& scratch)
     });
 }
 
-ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
-                          GapScratch& scratch)
+void resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+                 GapScratch& scratch)
 {
     handWeightDown(settings, dt, levels, scratch);
     forIslands(scratch,
                [&](std::size_t i) { solveIsland(settings, dt, scratch, scratch.islands[i]); });
-    return countImpulses(scratch);
+}
+
+ImpulseCounts countImpulses(GapScratch& scratch)
+{
+    std::atomic<std::int64_t> sliding = 0, sticking = 0;
+    parallelFor(scratch.pairs.size(), 256, [&](std::size_t begin, std::size_t end) {
+        std::int64_t slide = 0, stick = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            GapPair& pair = scratch.pairs[i];
+            pair.bearing = 0;
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                const GapRow& row = scratch.rows[r];
+                if (row.impulse.x() == 0.0) continue;
+                ++pair.bearing;
+                ++(sticks(row) ? stick : slide);
+            }
+        }
+        sliding += slide;
+        sticking += stick;
+    });
+    ImpulseCounts counts;
+    counts.sliding = sliding;
+    counts.sticking = sticking;
+    return counts;
 }
 
 }  // namespace scree

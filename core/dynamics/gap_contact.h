@@ -35,7 +35,10 @@ void addForcesToGaps(double dt, GapScratch& scratch);
 /// Sweeps over the rows of every island until velocities stay as they are, or its sweeps are used
 /// up. Begins with the impulses that rows remember, or, on an island that remembers nothing, with
 /// the weights of the levels.
-ImpulseCounts resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
-                          GapScratch& scratch);
+void resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+                 GapScratch& scratch);
+
+/// Counts the impulses of all rows, and those of each pair.
+ImpulseCounts countImpulses(GapScratch& scratch);
 
 }  // namespace scree

@@ -8,8 +8,7 @@ std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
         Vec3 impulse = Vec3::Zero(), turnOfA = Vec3::Zero(), turnOfB = Vec3::Zero();  // on A, on B
     };
     std::vector<OfPair> ofPairs(scratch.pairs.size());
-    forPairs(scratch, [&](std::size_t p) {
-        if (isKept(scratch, scratch.pairs[p])) return;
+    forOpenPairs(scratch, [&](std::size_t p) {
         for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
             const GapRow& row = scratch.rows[r];
             if (row.impulse.x() == 0.0) continue;

@@ -60,7 +60,7 @@ bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& islan
     return std::ranges::all_of(island.pairs, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
         return before[i] && before[i]->island == any->island &&
-               !scratch.nearPairs[pair.near].wasAsked && isMovableAsBefore(pair.bodies.a) &&
+               scratch.nearPairs[pair.near].soughtIn != scratch.attempt && isMovableAsBefore(pair.bodies.a) &&
                isMovableAsBefore(pair.bodies.b);
     });
 }
@@ -117,6 +117,10 @@ void SolvedIslands::handOn(GapScratch& scratch) const
             }
         }
     });
+    scratch.openPairs.clear();
+    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
+        if (!scratch.islands[scratch.pairs[i].island].isKept) scratch.openPairs.push_back(i);
+    }
     scratch.impacts.clear();
     for (const GapImpact& blow : impacts_) {
         const GapRow& row = scratch.rows[blow.row];

@@ -166,18 +166,16 @@ bool closesVisibly(const World& world, const StepSettings& settings, double dt,
 std::vector<char> closingIslands(const World& world, const StepSettings& settings, double dt,
                                  const GapScratch& scratch)
 {
-    std::vector<char> pairCloses(scratch.pairs.size());
-    forPairs(scratch, [&](std::size_t i) {
+    std::vector<char> pairCloses(scratch.pairs.size(), 0);
+    forOpenPairs(scratch, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
-        if (isKept(scratch, pair)) return;
         const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
         pairCloses[i] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
             return closesVisibly(world, settings, dt, scratch, scratch.islands[pair.island], row);
         });
     });
     std::vector<char> closes(scratch.islands.size(), 0);
-    for (std::size_t i = 0; i < scratch.pairs.size(); ++i)
-        closes[scratch.pairs[i].island] |= pairCloses[i];
+    for (const std::size_t i : scratch.openPairs) closes[scratch.pairs[i].island] |= pairCloses[i];
     return closes;
 }
 
@@ -305,9 +303,8 @@ void handWeightDown(const StepSettings& settings, double dt, const GraphLevels& 
 
 GapLevels buildGapLevels(double dt, GapScratch& scratch)
 {
-    forPairs(scratch, [&](std::size_t i) {
+    forOpenPairs(scratch, [&](std::size_t i) {
         GapPair& pair = scratch.pairs[i];
-        if (isKept(scratch, pair)) return;
         const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];

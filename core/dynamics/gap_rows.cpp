@@ -179,14 +179,14 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
 void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
-    parallelFor(scratch.pairs.size(), 32, [&](std::size_t begin, std::size_t end) {
+    const std::vector<std::size_t>& open = scratch.openPairs;
+    parallelFor(open.size(), 32, [&](std::size_t begin, std::size_t end) {
         // Both lists are sorted.
-        auto known =
-            std::lower_bound(memory.begin(), memory.end(), scratch.pairs[begin].bodies, isBefore);
+        auto known = std::lower_bound(memory.begin(), memory.end(),
+                                      scratch.pairs[open[begin]].bodies, isBefore);
         for (std::size_t i = begin; i < end; ++i) {
-            fetchContactsAfter(scratch, i);
-            GapPair& pair = scratch.pairs[i];
-            if (isKept(scratch, pair)) continue;
+            fetchContactsAfter(scratch, open[i]);
+            GapPair& pair = scratch.pairs[open[i]];
             const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
@@ -221,7 +221,8 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                       rows + (pair.end - pair.begin), contacts);
         }
     });
-    for (const GapPair& pair : scratch.pairs) {
+    for (const std::size_t i : open) {
+        const GapPair& pair = scratch.pairs[i];
         GapIsland& island = scratch.islands[pair.island];
         island.isRemembered = island.isRemembered || pair.isCarried;
     }

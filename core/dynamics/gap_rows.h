@@ -74,7 +74,7 @@ struct NearPair {
     double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
     double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
     bool isLagged = false;      ///< the contacts have gone along with the bodies since
-    bool wasAsked = false;      ///< in this attempt at the step, for contacts that were not known
+    int soughtIn = 0;           ///< the last attempt at a step for which contacts were sought
 };
 
 /// The few of these that have rows.
@@ -141,12 +141,15 @@ struct GapScratch {
     std::vector<double> gain;
     std::vector<char> looksFar;
     std::vector<char> hasNews;  ///< per body: this step has not yet found all that is near it
+    std::vector<std::size_t> toAsk;  ///< the near pairs that this look is about
+    int attempt = 0;                 ///< at a step, of all
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< of each pair together; what is between them bears nothing
     std::size_t rowCount = 0;        ///< of the pairs
     std::vector<std::size_t> order;  ///< of the pairs: island by island, bottom to top
     std::vector<GapIsland> islands;
+    std::vector<std::size_t> openPairs;             ///< those of islands that are not kept, sorted
     std::vector<GapImpact> impacts;                 ///< of this step
     std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember
 
@@ -166,6 +169,14 @@ template <class Work>
 void forPairs(const GapScratch& scratch, const Work& work)
 {
     forEach(scratch.pairs.size(), kShortWork, work);
+}
+
+/// The same for the pairs of islands that are not kept.
+template <class Work>
+void forOpenPairs(const GapScratch& scratch, const Work& work)
+{
+    forEach(scratch.openPairs.size(), kShortWork,
+            [&](std::size_t i) { work(scratch.openPairs[i]); });
 }
 
 /// Calls work(index) for all islands that are not kept; they share no movable body. What is most of
@@ -192,12 +203,6 @@ inline void fetchContactsAfter(const GapScratch& scratch, std::size_t i)
     constexpr std::size_t kPairsAhead = 4;
     if (i + kPairsAhead >= scratch.pairs.size()) return;
     fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
-}
-
-/// Whether the rows of a pair are as an earlier attempt at the step has solved them.
-inline bool isKept(const GapScratch& scratch, const GapPair& pair)
-{
-    return scratch.islands[pair.island].isKept;
 }
 
 /// Cannot be moved by impulses, and moves.

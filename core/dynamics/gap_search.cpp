@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "core/base/fetch.h"
@@ -107,18 +108,19 @@ void readBodies(const World& world, double dt, bool isAgain, GapScratch& scratch
         const bool hasWoken = now.inverseMass > 0.0 && scratch.bodies[i].inverseMass == 0.0;
         scratch.hasNews[i] = !isAgain || hasWoken || scratch.gain[i] > 0.0 || scratch.looksFar[i];
         scratch.bodies[i] = now;
+        if (!scratch.hasNews[i]) return;
         scratch.paces[i] = paceOf(world, scratch, body, dt);
         scratch.boxes[i] = boxWithin(world, scratch, body, dt);
     });
 }
 
+/// The pairs of this step, to be asked one and all. Both lists are sorted: pairs that stay keep
+/// what they know.
 void findGapPairs(const World& world, GapScratch& scratch)
 {
     const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(
         scratch.boxes, world.mass,
         [&](BodyPair pair) { return isMovedPair(world, scratch, pair); });
-
-    // Both lists are sorted: pairs that stay keep what they know.
     std::vector<NearPair>& former = scratch.formerNearPairs;
     std::swap(scratch.nearPairs, former);
     scratch.nearPairs.resize(found.size());
@@ -135,6 +137,45 @@ void findGapPairs(const World& world, GapScratch& scratch)
             }
         }
     });
+    scratch.toAsk.resize(found.size());
+    std::iota(scratch.toAsk.begin(), scratch.toAsk.end(), std::size_t{0});
+}
+
+/// Puts those among the near pairs that are not there yet.
+void addNearPairs(const std::vector<BodyPair>& found, std::vector<NearPair>& nearPairs)
+{
+    std::vector<BodyPair> missing;
+    for (const BodyPair& bodies : found) {
+        if (!std::ranges::binary_search(nearPairs, bodies, {}, &NearPair::bodies))
+            missing.push_back(bodies);
+    }
+    std::size_t from = nearPairs.size(), to = from + missing.size();
+    nearPairs.resize(to);
+    while (!missing.empty()) {
+        NearPair& place = nearPairs[--to];
+        if (from > 0 && missing.back() < nearPairs[from - 1].bodies) {
+            place = std::move(nearPairs[--from]);
+        } else {
+            place = NearPair{};
+            place.bodies = missing.back();
+            missing.pop_back();
+        }
+    }
+}
+
+/// For another attempt: the pairs of bodies of which there are news. What nobody needs to look at
+/// again is not looked at, or in a large world all of it would be in every step.
+void findNewGapPairs(const World& world, GapScratch& scratch)
+{
+    const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(
+        scratch.boxes, world.mass, [&](BodyPair pair) { return isMovedPair(world, scratch, pair); },
+        scratch.hasNews);
+    addNearPairs(found, scratch.nearPairs);
+    scratch.toAsk.clear();
+    for (const BodyPair& bodies : found) {
+        const auto pair = std::ranges::lower_bound(scratch.nearPairs, bodies, {}, &NearPair::bodies);
+        scratch.toAsk.push_back(static_cast<std::size_t>(pair - scratch.nearPairs.begin()));
+    }
 }
 
 /// What is asked of a pair.
@@ -143,18 +184,16 @@ struct Question {
     double reach;
 };
 
-/// Notes the pairs whose contacts are not known. Those of a pair that has been asked in this step
-/// are, unless there are news of one of its bodies.
-void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scratch,
-              std::span<NearPair> pairs, std::vector<Question>& questions)
+/// Notes the pairs whose contacts are not known, of those to ask.
+void askPairs(const World& world, double dt, bool isAgain, std::span<const std::size_t> toAsk,
+              GapScratch& scratch, std::vector<Question>& questions)
 {
     const bool isAnew = isSoughtAnewAt(world.clock);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (i + kPairsAhead < pairs.size()) fetchItems(pairs[i + kPairsAhead].contacts);
-        NearPair& pair = pairs[i];
+    for (std::size_t i = 0; i < toAsk.size(); ++i) {
+        if (i + kPairsAhead < toAsk.size())
+            fetchItems(scratch.nearPairs[toAsk[i + kPairsAhead]].contacts);
+        NearPair& pair = scratch.nearPairs[toAsk[i]];
         const auto [a, b] = pair.bodies;
-        const bool isOfOld = pair.foundWithin >= 0.0 && !scratch.hasNews[a] && !scratch.hasNews[b];
-        if (isAgain && isOfOld) continue;
         const double besides = reachBesides(world, scratch, pair.bodies, dt);
         const double ahead = lookAheadToLag(world, scratch, pair.bodies, dt);
         const double apart = pair.farUntil - odometerOf(scratch, pair.bodies);
@@ -167,7 +206,7 @@ void askPairs(const World& world, double dt, bool isAgain, const GapScratch& scr
                              : hasMoved ? takeContactsAlong(world, scratch, least, pair)
                                         : least <= pair.foundWithin;
         if (isKnown) continue;
-        pair.wasAsked = true;
+        pair.soughtIn = scratch.attempt;
         pair.contacts.clear();
         pair.foundWithin = reach;
         pair.isLagged = false;
@@ -198,15 +237,18 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
 /// `isAgain`: in a further attempt at the step.
 void seek(World& world, double dt, bool isAgain, GapScratch& scratch)
 {
-    for (NearPair& pair : scratch.nearPairs) pair.wasAsked = false;
+    ++scratch.attempt;
     do {
         readBodies(world, dt, isAgain, scratch);
-        findGapPairs(world, scratch);
-        parallelFor(scratch.nearPairs.size(), 32, [&](std::size_t begin, std::size_t end) {
+        if (isAgain)
+            findNewGapPairs(world, scratch);
+        else
+            findGapPairs(world, scratch);
+        parallelFor(scratch.toAsk.size(), 32, [&](std::size_t begin, std::size_t end) {
             thread_local std::vector<Question> questions;
             questions.clear();
-            askPairs(world, dt, isAgain, scratch,
-                     std::span(scratch.nearPairs).subspan(begin, end - begin), questions);
+            askPairs(world, dt, isAgain, std::span(scratch.toAsk).subspan(begin, end - begin),
+                     scratch, questions);
             answer(world, scratch, questions);
         });
         isAgain = true;

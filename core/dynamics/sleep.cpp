@@ -388,7 +388,8 @@ bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
         if (!contact.force.isZero(0.0)) bears[contact.a] = bears[contact.b] = 1;
     }
     std::vector<BodyId> roots;
-    for (const NearPair& pair : scratch.nearPairs) {
+    for (const std::size_t i : scratch.toAsk) {
+        const NearPair& pair = scratch.nearPairs[i];
         const auto [a, b] = pair.bodies;
         const bool aSleeps = world.contactMemory.isAsleep(a);
         if (aSleeps == world.contactMemory.isAsleep(b)) continue;

@@ -266,7 +266,7 @@ GapLevels Stepper::solveGaps(World& world, double dt, const SolvedIslands& solve
     {
         const PhaseTimer timer(report, Phase::contact);
         addForcesToGaps(dt, scratch);
-        report.contactImpulses = resolveGaps(settings_, dt, levels, scratch);
+        resolveGaps(settings_, dt, levels, scratch);
     }
     if (settings_.shockPropagation) {
         const PhaseTimer timer(report, Phase::shock);
@@ -286,6 +286,10 @@ StepReport Stepper::stepGaps(World& world, double dt)
     while (wakeStruck(world, dt, scratch) ||
            (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
         levels = solveGaps(world, dt, SolvedIslands(scratch), report);
+    }
+    {
+        const PhaseTimer timer(report, Phase::contact);
+        report.contactImpulses = countImpulses(scratch);
     }
     for (const GapImpact& impact : scratch.impacts)
         countImpulse(report.collisionImpulses, impact.kind);
