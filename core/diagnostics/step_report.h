@@ -37,6 +37,7 @@ enum class Phase : std::uint8_t {
     count
 };
 const char* nameOf(Phase phase);
+using PhaseSeconds = std::array<double, static_cast<int>(Phase::count)>;  ///< wall time by phase [s]
 
 struct StepReport {
     double dt = 0.0;  ///< [s]
@@ -57,7 +58,7 @@ struct StepReport {
     double pushOutWork = 0.0;             ///< potential energy that push-out added [J]
     std::vector<BodyId> nonFinite;  ///< bodies that are no longer numbers: the run must stop  [A59]
     Phase nonFinitePhase = Phase::position;  ///< the phase after which they were found
-    std::array<double, static_cast<int>(Phase::count)> seconds = {};  ///< wall time by phase [s]
+    PhaseSeconds seconds = {};
 };
 
 /// Who came into the world at a frame, and who could not.

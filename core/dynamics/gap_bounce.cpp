@@ -102,28 +102,27 @@ std::vector<std::size_t> inOrderOfTime(ImpactState& state)
 {
     const GapScratch& scratch = state.scratch;
     const ImpactVisits visits(state, ImpactVisits::Of::all);
-    std::vector<double> times(scratch.pairs.size(), -1.0);
-    forOpenPairs(scratch, [&](std::size_t p) {
-        times[p] = visits.timeOf(scratch.pairs[p]);
-        if (times[p] < 0.0) state.doneAt[p] = kBeforeAll;
+    std::vector<double> times(state.block.pairs.size());
+    const auto timeOf = [&](std::size_t p) -> double& { return times[scratch.pairs[p].place]; };
+    forPairs(state.block, [&](std::size_t p) {
+        timeOf(p) = visits.timeOf(scratch.pairs[p]);
+        if (timeOf(p) < 0.0) state.doneAt[scratch.pairs[p].place] = kBeforeAll;
     });
     std::vector<std::size_t> hit;
-    for (const std::size_t p : scratch.order) {
-        if (times[p] >= 0.0) hit.push_back(p);
+    for (const std::size_t island : state.block.islands) {
+        const auto first = static_cast<std::ptrdiff_t>(hit.size());
+        std::ranges::copy_if(scratch.islands[island].pairs, std::back_inserter(hit),
+                             [&](std::size_t p) { return timeOf(p) >= 0.0; });
+        std::ranges::stable_sort(hit.begin() + first, hit.end(), {}, timeOf);
     }
-    std::stable_sort(hit.begin(), hit.end(), [&](std::size_t p, std::size_t q) {
-        return std::pair(scratch.pairs[p].island, times[p]) <
-               std::pair(scratch.pairs[q].island, times[q]);
-    });
     return hit;
 }
 
 }  // namespace
 
-void resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
-                    std::int64_t& loopsAtTheirCap)
+void resolveImpacts(const StepSettings& settings, double dt, GapBlock& block, GapScratch& scratch)
 {
-    ImpactState state(settings, dt, scratch);
+    ImpactState state(settings, dt, block, scratch);
     const std::vector<std::size_t> hit = inOrderOfTime(state);
     if (hit.empty()) return;
     state.findPairsOfBodies();
@@ -131,22 +130,20 @@ void resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch
         std::vector<GapImpact> impacts;
         bool isOver = true;
     };
-    std::vector<Outcome> outcomes(scratch.islands.size());
-    forIslands(scratch, [&](std::size_t i) {
+    const std::size_t firstIsland = block.islands.front();
+    std::vector<Outcome> outcomes(block.islands.back() + 1 - firstIsland);
+    forIslands(scratch, block, [&](std::size_t i) {
         const auto first = std::ranges::equal_range(
             hit, i, {}, [&](std::size_t p) { return scratch.pairs[p].island; });
         if (first.empty()) return;
         IslandImpacts island(state, scratch.islands[i], first.size() >= kHitsWorthACut);
         island.run(first);
-        outcomes[i] = {island.impacts(), island.isOver()};
+        outcomes[i - firstIsland] = {island.impacts(), island.isOver()};
     });
-    bool isOver = true;
     for (const Outcome& outcome : outcomes) {
-        scratch.impacts.insert(scratch.impacts.end(), outcome.impacts.begin(),
-                               outcome.impacts.end());
-        isOver = isOver && outcome.isOver;
+        block.impacts.insert(block.impacts.end(), outcome.impacts.begin(), outcome.impacts.end());
+        block.isAtItsCap = block.isAtItsCap || !outcome.isOver;
     }
-    if (!isOver) ++loopsAtTheirCap;
 }
 
 }  // namespace scree

@@ -6,9 +6,8 @@
 
 namespace scree {
 
-/// Gives every impact of the coming step its impulse. Velocities are those before gravity, and stay
-/// so. Bodies get shifts that let them move with the old velocity up to the impact.
-void resolveImpacts(const StepSettings& settings, double dt, GapScratch& scratch,
-                    std::int64_t& loopsAtTheirCap);
+/// Gives every impact that is to come to a block in the step its impulse. Velocities are those before
+/// gravity, and stay so. Bodies get shifts that let them move with the old velocity up to the impact.
+void resolveImpacts(const StepSettings& settings, double dt, GapBlock& block, GapScratch& scratch);
 
 }  // namespace scree

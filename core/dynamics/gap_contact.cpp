@@ -60,6 +60,21 @@ bool sticks(const GapRow& row)
     return row.impulse.y() * row.impulse.y() + row.impulse.z() * row.impulse.z() < limit * limit;
 }
 
+/// What pulls a body throughout the step, and how far that does not move it if nothing stops it.
+void addForces(double dt, GapBody& body)
+{
+    body.velocityBefore = body.velocity;
+    body.spinBefore = body.spin;
+    if (body.inverseMass == 0.0) return;
+    const Vec3 turning = body.inverseInertia * body.torque;
+    body.velocity += dt * body.pull;
+    body.spin += dt * turning;
+    body.angularImpulse += dt * body.torque;
+    if (body.isStopped) return;
+    body.shift -= 0.5 * dt * dt * body.pull;
+    body.turn -= 0.5 * dt * dt * turning;
+}
+
 /// Resistance to rolling and spinning: a couple that stops relative spin, as far as the normal
 /// impulse and its lever arms allow. Answers by how much it changed the speed of A's surface there
 /// [m/s].  [A49]
@@ -168,42 +183,34 @@ double visitRow(GapRow& row, GapBody& a, GapBody& b)
     return std::max(changed, std::max(std::abs(d1), std::abs(d2)) / row.slideMass);
 }
 
-void addForcesToGaps(double dt, GapScratch& scratch)
+void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
 {
     // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
     // g dt²/2 too far.
-    std::vector<char> stops(scratch.pairs.size(), 0);
-    forOpenPairs(scratch, [&](std::size_t i) {
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end && !stops[i]; ++r) {
+    std::vector<char> stops(block.pairs.size(), 0);
+    forPairs(block, [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        char& stopsAny = stops[pair.place];
+        for (std::size_t r = pair.begin; r < pair.end && !stopsAny; ++r) {
             const GapRow& row = scratch.rows[r];
             const GapBody& a = scratch.bodies[row.a];
             const GapBody& b = scratch.bodies[row.b];
             const double g = (a.pull - b.pull).dot(row.normal);
             const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
                                dt * (velocityAt(row, a, b).dot(row.normal) + 0.5 * dt * g);
-            stops[i] = end < 0.0 || row.impulse.x() > 0.0;
+            stopsAny = end < 0.0 || row.impulse.x() > 0.0;
         }
     });
-    for (const std::size_t i : scratch.order) {
-        if (!stops[i]) continue;
-        scratch.bodies[scratch.pairs[i].bodies.a].isStopped = true;
-        scratch.bodies[scratch.pairs[i].bodies.b].isStopped = true;
+    for (std::size_t n = 0; n < stops.size(); ++n) {
+        if (!stops[n]) continue;
+        const BodyPair bodies = scratch.pairs[block.pairs[n]].bodies;
+        for (const BodyId body : {bodies.a, bodies.b}) {
+            if (scratch.placeInBlock[body] > 0) scratch.bodies[body].isStopped = true;
+        }
     }
-    forEach(scratch.bodies.size(), kShortWork, [&](std::size_t b) {
-        GapBody& body = scratch.bodies[b];
-        if (body.isKept) return;
-        body.velocityBefore = body.velocity;
-        body.spinBefore = body.spin;
-        if (body.inverseMass == 0.0) return;
-        const Vec3 turning = body.inverseInertia * body.torque;
-        body.velocity += dt * body.pull;
-        body.spin += dt * turning;
-        body.angularImpulse += dt * body.torque;
-        if (body.isStopped) return;
-        body.shift -= 0.5 * dt * dt * body.pull;
-        body.turn -= 0.5 * dt * dt * turning;
-    });
-    forOpenPairs(scratch, [&](std::size_t i) {
+    forEach(block.bodies.size(), kShortWork,
+            [&](std::size_t n) { addForces(dt, scratch.bodies[block.bodies[n]]); });
+    forPairs(block, [&](std::size_t i) {
         for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
             GapRow& row = scratch.rows[r];
             const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
@@ -212,11 +219,19 @@ void addForcesToGaps(double dt, GapScratch& scratch)
     });
 }
 
-void resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+void addForcesToOthers(double dt, GapScratch& scratch)
+{
+    forEach(scratch.bodies.size(), kShortWork, [&](std::size_t b) {
+        if (scratch.placeInBlock[b] == 0 && !scratch.bodies[b].isKept)
+            addForces(dt, scratch.bodies[b]);
+    });
+}
+
+void resolveGaps(const StepSettings& settings, double dt, const GapBlock& block,
                  GapScratch& scratch)
 {
-    handWeightDown(settings, dt, levels, scratch);
-    forIslands(scratch,
+    handWeightDown(settings, dt, block, scratch);
+    forIslands(scratch, block,
                [&](std::size_t i) { solveIsland(settings, dt, scratch, scratch.islands[i]); });
 }
 

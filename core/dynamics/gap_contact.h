@@ -29,13 +29,17 @@ inline double shareOfLastWay(double energy, double energyBefore)
 /// problem.
 int mostSweeps(const StepSettings& settings, const GapIsland& island);
 
-/// Sets the targets of all rows from their gaps and what impacts have shifted, and adds the forces.
-void addForcesToGaps(double dt, GapScratch& scratch);
+/// Sets the targets of the rows of a block from their gaps and what impacts have shifted, and adds
+/// the forces to its bodies.
+void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch);
 
-/// Sweeps over the rows of every island until velocities stay as they are, or its sweeps are used
+/// The forces of all that is in no block, nor kept.
+void addForcesToOthers(double dt, GapScratch& scratch);
+
+/// Sweeps over the rows of every island of a block until velocities stay as they are, or its sweeps are used
 /// up. Begins with the impulses that rows remember, or, on an island that remembers nothing, with
 /// the weights of the levels.
-void resolveGaps(const StepSettings& settings, double dt, const GapLevels& levels,
+void resolveGaps(const StepSettings& settings, double dt, const GapBlock& block,
                  GapScratch& scratch);
 
 /// Counts the impulses of all rows, and those of each pair.

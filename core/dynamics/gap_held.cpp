@@ -2,39 +2,45 @@
 
 namespace scree {
 
-std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch)
+std::vector<Held> heldAsBefore(double dt, const GapBlock& block, const GapScratch& scratch)
 {
     struct OfPair {
         Vec3 impulse = Vec3::Zero(), turnOfA = Vec3::Zero(), turnOfB = Vec3::Zero();  // on A, on B
     };
-    std::vector<OfPair> ofPairs(scratch.pairs.size());
-    forOpenPairs(scratch, [&](std::size_t p) {
-        for (std::size_t r = scratch.pairs[p].begin; r < scratch.pairs[p].end; ++r) {
+    std::vector<OfPair> ofPairs(block.pairs.size());
+    forPairs(block, [&](std::size_t p) {
+        const GapPair& pair = scratch.pairs[p];
+        OfPair& sum = ofPairs[pair.place];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
             if (row.impulse.x() == 0.0) continue;
             const Vec3 impulse = row.worldImpulse();
-            ofPairs[p].impulse += impulse;
-            ofPairs[p].turnOfA += row.rA.cross(impulse) + row.couple;
-            ofPairs[p].turnOfB -= row.rB.cross(impulse) + row.couple;
+            sum.impulse += impulse;
+            sum.turnOfA += row.rA.cross(impulse) + row.couple;
+            sum.turnOfB -= row.rB.cross(impulse) + row.couple;
         }
     });
-    std::vector<Held> held(scratch.bodies.size());
-    forIslands(scratch, [&](std::size_t i) {
+    std::vector<Held> held(block.bodies.size() + 1);
+    forIslands(scratch, block, [&](std::size_t i) {
         for (const std::size_t p : scratch.islands[i].pairs) {
             const GapRow& any = scratch.rows[scratch.pairs[p].begin];
+            const OfPair& sum = ofPairs[scratch.pairs[p].place];
             if (any.movesA) {
-                held[any.a].acceleration += ofPairs[p].impulse;
-                held[any.a].turning += ofPairs[p].turnOfA;
+                Held& a = held[scratch.placeInBlock[any.a]];
+                a.acceleration += sum.impulse;
+                a.turning += sum.turnOfA;
             }
             if (any.movesB) {
-                held[any.b].acceleration -= ofPairs[p].impulse;
-                held[any.b].turning += ofPairs[p].turnOfB;
+                Held& b = held[scratch.placeInBlock[any.b]];
+                b.acceleration -= sum.impulse;
+                b.turning += sum.turnOfB;
             }
         }
     });
-    forEach(held.size(), kShortWork, [&](std::size_t b) {
-        held[b].acceleration *= scratch.bodies[b].inverseMass / dt;
-        held[b].turning = scratch.bodies[b].inverseInertia * held[b].turning / dt;
+    forEach(block.bodies.size(), kShortWork, [&](std::size_t n) {
+        const GapBody& body = scratch.bodies[block.bodies[n]];
+        held[n + 1].acceleration *= body.inverseMass / dt;
+        held[n + 1].turning = body.inverseInertia * held[n + 1].turning / dt;
     });
     return held;
 }

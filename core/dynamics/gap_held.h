@@ -12,8 +12,8 @@ struct Held {
     Vec3 acceleration = Vec3::Zero(), turning = Vec3::Zero();  ///< [m/s²], [rad/s²]
 };
 
-/// Per body, if all that carried it in the last step does so again: rows begin with the impulses
-/// that are remembered.
-std::vector<Held> heldAsBefore(double dt, const GapScratch& scratch);
+/// By their places in the block, if all that carried its bodies in the last step does so again: rows
+/// begin with the impulses that are remembered.
+std::vector<Held> heldAsBefore(double dt, const GapBlock& block, const GapScratch& scratch);
 
 }  // namespace scree

@@ -40,31 +40,36 @@ bool arrives(const Impact& hit)
 
 }  // namespace
 
-PairsOfBodies::PairsOfBodies(const GapScratch& scratch) : begin_(scratch.bodies.size() + 1, 0)
+PairsOfBodies::PairsOfBodies(const GapBlock& block, const GapScratch& scratch)
+    : begin_(block.bodies.size() + 2, 0)
 {
     const auto forBodies = [&](const auto& visit) {
-        for (const std::size_t i : scratch.order) {
-            for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-                if (scratch.bodies[body].inverseMass > 0.0) visit(body, i);
+        for (const std::size_t island : block.islands) {
+            for (const std::size_t i : scratch.islands[island].pairs) {
+                for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+                    if (const std::int32_t place = scratch.placeInBlock[body]) visit(place, i);
+                }
             }
         }
     };
-    forBodies([&](BodyId body, std::size_t) { ++begin_[body + 1]; });
+    forBodies([&](std::int32_t place, std::size_t) { ++begin_[place + 1]; });
     for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
     pairs_.resize(begin_.back());
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-    forBodies([&](BodyId body, std::size_t i) { pairs_[next[body]++] = i; });
+    forBodies([&](std::int32_t place, std::size_t i) { pairs_[next[place]++] = i; });
 }
 
-ImpactState::ImpactState(const StepSettings& chosen, double step, GapScratch& rows)
+ImpactState::ImpactState(const StepSettings& chosen, double step, const GapBlock& islands,
+                         GapScratch& rows)
     : settings(chosen),
       dt(step),
       slowest(slowestApproach(chosen, step)),
+      block(islands),
       scratch(rows),
-      held(heldAsBefore(step, rows)),
-      impacts(rows.bodies.size()),
-      doneAt(rows.pairs.size(), 0),
-      gatheredAt(rows.pairs.size(), 0)
+      held(heldAsBefore(step, islands, rows)),
+      impacts(islands.bodies.size() + 1),
+      doneAt(islands.pairs.size(), 0),
+      gatheredAt(islands.pairs.size(), 0)
 {
 }
 
@@ -88,7 +93,7 @@ Vec3 ImpactVisits::gravityAt(const GapRow& row) const
     const Vec3 free = scratch_.bodies[row.a].pull - scratch_.bodies[row.b].pull;
     const double g = free.dot(row.normal);
     if (g >= 0.0) return free;
-    const Held &a = state_.held[row.a], &b = state_.held[row.b];
+    const Held &a = state_.held[state_.placeOf(row.a)], &b = state_.held[state_.placeOf(row.b)];
     const Vec3 held =
         a.acceleration + a.turning.cross(row.rA) - b.acceleration - b.turning.cross(row.rB);
     return free + std::clamp(held.dot(row.normal), 0.0, -g) * row.normal;
@@ -167,22 +172,23 @@ bool ImpactVisits::gather(std::size_t p)
     const double time = gatherFirst(p);
     if (hits_.empty() || !arrives(hits_[0])) return true;
     ++clock_;
-    state_.gatheredAt[p] = clock_;
+    state_.gatheredAt[scratch_.pairs[p].place] = clock_;
     toSpread_ = {scratch_.pairs[p].bodies.a, scratch_.pairs[p].bodies.b};
     while (!toSpread_.empty()) {
         const BodyId body = toSpread_.back();
         toSpread_.pop_back();
-        for (const std::size_t q : state_.pairsOfBodies().of(body)) {
-            if (scratch_.pairs[q].isCarried) continue;
-            if (isOfHalf_ && scratch_.pairs[q].part == 2) return false;
-            if (state_.gatheredAt[q] == clock_) continue;
-            state_.gatheredAt[q] = clock_;
+        for (const std::size_t q : state_.pairsOfBodies().of(state_.placeOf(body))) {
+            const GapPair& pair = scratch_.pairs[q];
+            if (pair.isCarried) continue;
+            if (isOfHalf_ && pair.part == 2) return false;
+            if (state_.gatheredAt[pair.place] == clock_) continue;
+            state_.gatheredAt[pair.place] = clock_;
             const std::size_t before = hits_.size();
             gatherFirst(q);
             dropHits(before, [&](const Impact& hit) {
                 return !arrives(hit) || std::abs(hit.time - time) > kTogether * state_.dt;
             });
-            const auto [a, b] = scratch_.pairs[q].bodies;
+            const auto [a, b] = pair.bodies;
             if (hits_.size() > before) toSpread_.push_back(a == body ? b : a);
         }
     }
@@ -330,8 +336,8 @@ void ImpactVisits::note(const Impact& impact, const Vec3& impulse, FrictionCase 
 
 void ImpactVisits::applyImpulses(const GapRow& row, const Vec3& impulse, double time)
 {
-    if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, state_.impacts[row.a], time);
-    if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, state_.impacts[row.b], time);
+    if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, impactsOf(row.a), time);
+    if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, impactsOf(row.b), time);
 }
 
 void ImpactVisits::applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts,

@@ -35,30 +35,32 @@ struct Impact {
     Vec3 slid = Vec3::Zero();  // what its lever arms have allowed for
 };
 
-/// The pairs that have rows, by movable body, in the order of visits.
+/// The pairs of a block by the places of their movable bodies, in the order of visits.
 class PairsOfBodies {
 public:
-    explicit PairsOfBodies(const GapScratch& scratch);
+    PairsOfBodies(const GapBlock& block, const GapScratch& scratch);
 
-    std::span<const std::size_t> of(BodyId body) const
+    std::span<const std::size_t> of(std::int32_t place) const
     {
-        return std::span(pairs_).subspan(begin_[body], begin_[body + 1] - begin_[body]);
+        return std::span(pairs_).subspan(begin_[place], begin_[place + 1] - begin_[place]);
     }
 
 private:
     std::vector<std::size_t> begin_, pairs_;
 };
 
-/// What is known of the impacts of a step, by body, row and pair. Visits of pairs that share no
-/// movable body read and write different parts of it.
+/// What is known of the impacts of a block, by the places of bodies and pairs in it. Visits of pairs
+/// that share no movable body read and write different parts of it.
 struct ImpactState {
-    ImpactState(const StepSettings& chosen, double step, GapScratch& rows);
+    ImpactState(const StepSettings& chosen, double step, const GapBlock& islands, GapScratch& rows);
 
-    void findPairsOfBodies() { pairsOf_.emplace(scratch); }
+    std::int32_t placeOf(BodyId body) const { return scratch.placeInBlock[body]; }
+    void findPairsOfBodies() { pairsOf_.emplace(block, scratch); }
     const PairsOfBodies& pairsOfBodies() const { return *pairsOf_; }
 
     const StepSettings& settings;
     double dt, slowest;
+    const GapBlock& block;
     GapScratch& scratch;
     std::vector<Held> held;
     std::vector<Impacts> impacts;
@@ -97,11 +99,11 @@ public:
 
     void visit(std::size_t p)
     {
-        const auto [a, b] = scratch_.pairs[p].bodies;
-        const std::int64_t changedAt =
-            std::max(state_.impacts[a].changedAt, state_.impacts[b].changedAt);
-        if (state_.doneAt[p] > changedAt) return;
-        if (resolvePair(p)) state_.doneAt[p] = ++clock_;
+        const GapPair& pair = scratch_.pairs[p];
+        const std::int64_t changedAt = std::max(impactsOf(pair.bodies.a).changedAt,
+                                                impactsOf(pair.bodies.b).changedAt);
+        if (state_.doneAt[pair.place] > changedAt) return;
+        if (resolvePair(p)) state_.doneAt[pair.place] = ++clock_;
     }
 
 private:
@@ -110,6 +112,7 @@ private:
         std::size_t a, b;  // in after_
     };
 
+    Impacts& impactsOf(BodyId body) { return state_.impacts[state_.placeOf(body)]; }
     Vec3 gravityAt(const GapRow& row) const;
     bool impactOf(const GapPair& pair, GapRow& row, Impact& impact) const;
     bool resolvePair(std::size_t p);

@@ -117,9 +117,10 @@ void SolvedIslands::handOn(GapScratch& scratch) const
             }
         }
     });
-    scratch.openPairs.clear();
-    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        if (!scratch.islands[scratch.pairs[i].island].isKept) scratch.openPairs.push_back(i);
+    scratch.isSolvedAnew.resize(scratch.bodies.size(), 0);
+    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
+        const GapBody& body = scratch.bodies[i];
+        if (body.inverseMass > 0.0 && !body.isKept) scratch.isSolvedAnew[i] = 1;
     }
     scratch.impacts.clear();
     for (const GapImpact& blow : impacts_) {

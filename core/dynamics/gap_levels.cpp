@@ -30,11 +30,12 @@ public:
         if (isHeld_.size() < scratch.bodies.size()) isHeld_.resize(scratch.bodies.size(), 0);
     }
     bool isHeld(BodyId body) const { return isHeld_[body] != 0; }
+    /// What cannot be moved needs no holding; other threads look at it too.
     void hold(BodyId body)
     {
-        if (isHeld_[body]) return;
-        isHeld_[body] = 1;
         GapBody& b = scratch_.bodies[body];
+        if (isHeld_[body] || b.inverseMass == 0.0) return;
+        isHeld_[body] = 1;
         held_.push_back({body, b});
         b.inverseMass = 0.0;
         b.inverseInertia.setZero();
@@ -162,21 +163,25 @@ bool closesVisibly(const World& world, const StepSettings& settings, double dt,
     return row.target - u > visibleSpeed(world, settings, dt, island, row);
 }
 
-/// Per island: whether a row of it still closes visibly.
-std::vector<char> closingIslands(const World& world, const StepSettings& settings, double dt,
-                                 const GapScratch& scratch)
+/// The pairs of those islands of a block of which a row still closes visibly.
+std::vector<std::size_t> pairsToShake(const World& world, const StepSettings& settings, double dt,
+                                      const GapBlock& block, const GapScratch& scratch)
 {
-    std::vector<char> pairCloses(scratch.pairs.size(), 0);
-    forOpenPairs(scratch, [&](std::size_t i) {
+    std::vector<char> pairCloses(block.pairs.size());
+    forPairs(block, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
         const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
-        pairCloses[i] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
+        pairCloses[pair.place] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
             return closesVisibly(world, settings, dt, scratch, scratch.islands[pair.island], row);
         });
     });
-    std::vector<char> closes(scratch.islands.size(), 0);
-    for (const std::size_t i : scratch.openPairs) closes[scratch.pairs[i].island] |= pairCloses[i];
-    return closes;
+    std::vector<std::size_t> pairs;
+    for (const std::size_t island : block.islands) {
+        const std::vector<std::size_t>& all = scratch.islands[island].pairs;
+        if (std::ranges::any_of(all, [&](std::size_t i) { return pairCloses[scratch.pairs[i].place]; }))
+            pairs.insert(pairs.end(), all.begin(), all.end());
+    }
+    return pairs;
 }
 
 std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs)
@@ -189,22 +194,19 @@ std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std
     return rows;
 }
 
-/// The pairs of a level that belong to the chosen islands.
-std::vector<std::size_t> pairsOf(const GapScratch& scratch, const std::vector<std::size_t>& level,
-                                 const std::vector<char>& isChosen)
+/// Sorted within each level.
+std::vector<std::vector<std::size_t>> pairsByLevel(const GapScratch& scratch,
+                                                   std::vector<std::size_t> pairs)
 {
-    std::vector<std::size_t> pairs;
-    for (const std::size_t i : level) {
-        if (isChosen[scratch.pairs[i].island]) pairs.push_back(i);
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<std::vector<std::size_t>> byLevel;
+    for (const std::size_t i : pairs) {
+        const auto level =
+            static_cast<std::size_t>(levelOf(scratch.levels, scratch.pairs[i].bodies));
+        if (byLevel.size() <= level) byLevel.resize(level + 1);
+        byLevel[level].push_back(i);
     }
-    return pairs;
-}
-
-/// That of its higher body.
-std::size_t levelOf(const GraphLevels& graph, const GapPair& pair)
-{
-    return static_cast<std::size_t>(
-        std::max(graph.level[pair.bodies.a], graph.level[pair.bodies.b]));
+    return byLevel;
 }
 
 /// Rows of a level that share bodies.
@@ -249,23 +251,17 @@ bool shake(const World& world, const StepSettings& settings, double dt, const Cl
     return true;
 }
 
-void handWeightDown(const StepSettings& settings, double dt, const GraphLevels& graph,
-                    const GapIsland& island, GapScratch& scratch)
+void handWeightDown(const StepSettings& settings, double dt, const GapIsland& island,
+                    GapScratch& scratch)
 {
-    std::vector<std::size_t> pairs = island.pairs;
-    std::sort(pairs.begin(), pairs.end());
-    std::vector<std::vector<std::size_t>> byLevel;
-    for (const std::size_t i : pairs) {
-        const std::size_t level = levelOf(graph, scratch.pairs[i]);
-        if (byLevel.size() <= level) byLevel.resize(level + 1);
-        byLevel[level].push_back(i);
-    }
+    const std::vector<std::vector<std::size_t>> byLevel = pairsByLevel(scratch, island.pairs);
     HeldBodies held(scratch);
     for (std::size_t level = byLevel.size(); level-- > 0;) {
         const std::vector<std::size_t> rows = rowsOf(scratch, byLevel[level]);
         const auto hold = [&](BodyId body) {
             GapBody& b = scratch.bodies[body];
-            if (b.inverseMass == 0.0 || graph.level[body] == static_cast<int>(level)) return;
+            if (b.inverseMass == 0.0 || scratch.levels.level[body] == static_cast<int>(level))
+                return;
             held.hold(body);
             b.velocity = b.velocityBefore;
             b.spin = b.spinBefore;
@@ -301,9 +297,14 @@ void handWeightDown(const StepSettings& settings, double dt, const GraphLevels& 
 
 }  // namespace
 
-GapLevels buildGapLevels(double dt, GapScratch& scratch)
+int levelOf(const GapLevels& levels, BodyPair bodies)
 {
-    forOpenPairs(scratch, [&](std::size_t i) {
+    return std::max(levels.level[bodies.a], levels.level[bodies.b]);
+}
+
+void findLevels(double dt, const GapBlock& block, GapScratch& scratch)
+{
+    forPairs(block, [&](std::size_t i) {
         GapPair& pair = scratch.pairs[i];
         const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
@@ -316,46 +317,56 @@ GapLevels buildGapLevels(double dt, GapScratch& scratch)
             pair.fallsOnA |= b.inverseMass > 0.0 && drift - fallOfB < 0.0;
         }
     });
-    const std::size_t count = scratch.bodies.size();
-    std::vector<char> isFixed(count);
-    for (std::size_t i = 0; i < count; ++i) isFixed[i] = scratch.bodies[i].inverseMass == 0.0;
+    // Node 0 is all that cannot be moved: nothing of it rests on anything.
+    std::vector<char> isFixed(block.bodies.size() + 1, 0);
+    isFixed[0] = 1;
     std::vector<SupportEdge> edges;
-    for (const GapPair& pair : scratch.pairs) {
-        const auto [a, b] = pair.bodies;
+    for (const std::size_t i : block.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        const BodyId a = scratch.placeInBlock[pair.bodies.a];
+        const BodyId b = scratch.placeInBlock[pair.bodies.b];
         if (pair.fallsOnB) edges.push_back({b, a});
         if (pair.fallsOnA) edges.push_back({a, b});
     }
-    GapLevels levels;
-    levels.graph = computeLevels(count, edges, isFixed);
-    for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
-        const std::size_t level = levelOf(levels.graph, scratch.pairs[i]);
-        if (levels.pairs.size() <= level) levels.pairs.resize(level + 1);
-        levels.pairs[level].push_back(i);
+    const GraphLevels graph = computeLevels(isFixed.size(), edges, isFixed);
+    for (std::size_t n = 0; n < block.bodies.size(); ++n) {
+        scratch.levels.level[block.bodies[n]] = graph.level[n + 1];
+        scratch.levels.isSupported[block.bodies[n]] = graph.isSupported[n + 1];
     }
-    return levels;
 }
 
-void handWeightDown(const StepSettings& settings, double dt, const GapLevels& levels,
+void levelOthers(GapScratch& scratch)
+{
+    scratch.levels.level.resize(scratch.bodies.size());
+    scratch.levels.isSupported.resize(scratch.bodies.size());
+    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
+        if (scratch.placeInBlock[i] > 0 || scratch.bodies[i].isKept) continue;
+        scratch.levels.level[i] = 0;
+        scratch.levels.isSupported[i] = scratch.bodies[i].inverseMass == 0.0;
+    }
+}
+
+void handWeightDown(const StepSettings& settings, double dt, const GapBlock& block,
                     GapScratch& scratch)
 {
-    forIslands(scratch, [&](std::size_t i) {
+    forIslands(scratch, block, [&](std::size_t i) {
         const GapIsland& island = scratch.islands[i];
-        if (!island.isRemembered) handWeightDown(settings, dt, levels.graph, island, scratch);
+        if (!island.isRemembered) handWeightDown(settings, dt, island, scratch);
     });
 }
 
 void propagateShockUp(const World& world, const StepSettings& settings, double dt,
-                      const GapLevels& levels, GapScratch& scratch)
+                      const GapBlock& block, GapScratch& scratch)
 {
-    const std::vector<char> closes = closingIslands(world, settings, dt, scratch);
-    if (std::find(closes.begin(), closes.end(), 1) == closes.end()) return;
+    const std::vector<std::vector<std::size_t>> byLevel =
+        pairsByLevel(scratch, pairsToShake(world, settings, dt, block, scratch));
     HeldBodies held(scratch);
-    for (std::size_t level = 0; level < levels.pairs.size(); ++level) {
-        const std::vector<std::size_t> pairs = pairsOf(scratch, levels.pairs[level], closes);
+    for (std::size_t level = 0; level < byLevel.size(); ++level) {
+        const std::vector<std::size_t>& pairs = byLevel[level];
         for (const std::size_t i : pairs) {
             for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-                if (levels.graph.isSupported[body] &&
-                    levels.graph.level[body] != static_cast<int>(level))
+                if (scratch.levels.isSupported[body] &&
+                    scratch.levels.level[body] != static_cast<int>(level))
                     held.hold(body);
             }
         }

@@ -73,7 +73,9 @@ void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
         const Vec3& centreOfA = world.motion[pair.bodies.a].position;
         heights[i] = up.dot(centreOfA + scratch.contactsOf(pair).front().rA);
     });
-    forIslands(scratch, [&](std::size_t i) {
+    std::vector<std::size_t> all(scratch.islands.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    forIslands(scratch, all, scratch.rowCount, [&](std::size_t i) {
         sortInHalves(scratch.islands[i].pairs, [&](std::size_t p, std::size_t q) {
             return std::pair(heights[p], p) < std::pair(heights[q], q);
         });

@@ -129,11 +129,9 @@ std::int64_t displace(World& world, std::vector<Displacement>& displacements)
 /// Draws deep overlaps apart, level by level.
 class DeepPass {
 public:
-    DeepPass(World& world, const StepSettings& settings, const GapLevels& levels,
-             GapScratch& scratch)
+    DeepPass(World& world, const StepSettings& settings, GapScratch& scratch)
         : world_(world),
           settings_(settings),
-          graph_(levels.graph),
           scratch_(scratch),
           isLookedAt_(scratch.nearPairs.size(), 0),
           isPushed_(scratch.bodies.size(), 0)
@@ -146,7 +144,8 @@ public:
         if (reach_ == 0.0) return {};
         std::vector<std::vector<std::size_t>> byLevel;
         for (std::size_t i = 0; i < scratch_.nearPairs.size(); ++i) {
-            const auto level = static_cast<std::size_t>(levelOf(scratch_.nearPairs[i].bodies));
+            const auto level = static_cast<std::size_t>(
+                levelOf(scratch_.levels, scratch_.nearPairs[i].bodies));
             if (byLevel.size() <= level) byLevel.resize(level + 1);
             byLevel[level].push_back(i);
         }
@@ -169,10 +168,6 @@ private:
         double left;  // for the steps to remove, as a share of the smaller body
     };
 
-    int levelOf(BodyPair pair) const
-    {
-        return std::max(graph_.level[pair.a], graph_.level[pair.b]);
-    }
     bool isDeep(BodyPair pair, double depth) const
     {
         return depth > kDeep * smallerRadius(world_, pair.a, pair.b);
@@ -235,7 +230,7 @@ private:
             isLookedAt_[i] = 0;  // the rows had seen it deeper than it is
             return;
         }
-        const int level = levelOf(pair.bodies);
+        const int level = levelOf(scratch_.levels, pair.bodies);
         for (const GapContact& contact : contacts_) {
             GapRow row{};
             row.a = a;
@@ -253,7 +248,7 @@ private:
 
     bool isFrozen(BodyId body, int level) const
     {
-        return graph_.isSupported[body] && graph_.level[body] < level;
+        return scratch_.levels.isSupported[body] && scratch_.levels.level[body] < level;
     }
 
     /// Fills contacts_ where the bodies are now; answers the depth of the deepest.
@@ -274,7 +269,6 @@ private:
 
     World& world_;
     const StepSettings& settings_;
-    const GraphLevels& graph_;
     GapScratch& scratch_;
     PushOutTally tally_;
     double reach_ = 0.0;  // of contacts that pushes may close: the deepest overlap [m]
@@ -319,10 +313,9 @@ PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratc
 
 }  // namespace
 
-PushOutTally separateGaps(World& world, const StepSettings& settings, const GapLevels& levels,
-                          GapScratch& scratch)
+PushOutTally separateGaps(World& world, const StepSettings& settings, GapScratch& scratch)
 {
-    DeepPass deep(world, settings, levels, scratch);
+    DeepPass deep(world, settings, scratch);
     PushOutTally tally = deep.run();
     tally += separateShallow(world, deep, scratch);
     return tally;

@@ -9,8 +9,7 @@ namespace scree {
 
 /// Draws overlaps apart: those that steps leave bit by bit, deeper ones at once. The shifts of the
 /// bodies must be their displacements of this step. Leaves in every pair the depth that is left.
-PushOutTally separateGaps(World& world, const StepSettings& settings, const GapLevels& levels,
-                          GapScratch& scratch);
+PushOutTally separateGaps(World& world, const StepSettings& settings, GapScratch& scratch);
 
 /// The deepest overlap of any pair as last seen: at the beginning of the step, or, where deep ones
 /// were drawn apart, since.

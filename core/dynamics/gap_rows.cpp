@@ -176,17 +176,17 @@ void prepareRow(const GapScratch& scratch, GapRow& row)
     row.slideMass = 1.0 / largestEigenvalue(tt, ts, ss);
 }
 
-void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+void buildRows(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
+               GapScratch& scratch)
 {
     const std::vector<RememberedContact>& memory = world.contactMemory.contacts;
-    const std::vector<std::size_t>& open = scratch.openPairs;
-    parallelFor(open.size(), 32, [&](std::size_t begin, std::size_t end) {
+    parallelFor(block.pairs.size(), 32, [&](std::size_t begin, std::size_t end) {
         // Both lists are sorted.
         auto known = std::lower_bound(memory.begin(), memory.end(),
-                                      scratch.pairs[open[begin]].bodies, isBefore);
+                                      scratch.pairs[block.pairs[begin]].bodies, isBefore);
         for (std::size_t i = begin; i < end; ++i) {
-            fetchContactsAfter(scratch, open[i]);
-            GapPair& pair = scratch.pairs[open[i]];
+            fetchContactsAfter(scratch, block.pairs[i]);
+            GapPair& pair = scratch.pairs[block.pairs[i]];
             const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
@@ -221,7 +221,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, GapS
                       rows + (pair.end - pair.begin), contacts);
         }
     });
-    for (const std::size_t i : open) {
+    for (const std::size_t i : block.pairs) {
         const GapPair& pair = scratch.pairs[i];
         GapIsland& island = scratch.islands[pair.island];
         island.isRemembered = island.isRemembered || pair.isCarried;

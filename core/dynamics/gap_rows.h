@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/fetch.h"
@@ -87,6 +88,7 @@ struct GapPair {
     bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
     std::size_t island = 0;                   ///< index into GapScratch::islands
     int part = 0;                             ///< gap_pairs.h
+    std::size_t place = 0;                    ///< in the pairs of its block
 };
 
 /// A blow.
@@ -104,6 +106,22 @@ struct GapIsland {
     std::size_t rowCount = 0;
     bool isRemembered = false;  ///< some of its pairs carried in the last step
     bool isKept = false;        ///< as an earlier attempt at the step has solved it
+};
+
+/// Islands that are solved in one go.
+struct GapBlock {
+    std::vector<std::size_t> islands;  ///< indices into GapScratch::islands
+    std::vector<std::size_t> pairs;    ///< all of theirs, sorted
+    std::vector<BodyId> bodies;        ///< those of these that can be moved
+    std::size_t rowCount = 0;
+    std::vector<GapImpact> impacts;
+    bool isAtItsCap = false;  ///< impacts were left when their loops ended
+};
+
+/// Per body, of the graph of who rests on whom: contact_graph.h.
+struct GapLevels {
+    std::vector<int> level;
+    std::vector<char> isSupported;
 };
 
 /// What of a body's motion may close gaps within a step.
@@ -149,7 +167,10 @@ struct GapScratch {
     std::size_t rowCount = 0;        ///< of the pairs
     std::vector<std::size_t> order;  ///< of the pairs: island by island, bottom to top
     std::vector<GapIsland> islands;
-    std::vector<std::size_t> openPairs;             ///< those of islands that are not kept, sorted
+    std::vector<char> isSolvedAnew;            ///< per body: since gap_unseen.h has last looked
+    std::vector<GapBlock> blocks;              ///< of the islands that are not kept, in their order
+    std::vector<std::int32_t> placeInBlock;    ///< per body: in the bodies of its block, from 1; or 0
+    GapLevels levels;
     std::vector<GapImpact> impacts;                 ///< of this step
     std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember
 
@@ -159,9 +180,10 @@ struct GapScratch {
     }
 };
 
-/// Fills the rows of all islands that are not kept from the contacts of their pairs, with the
-/// impulses that the world remembers. Keyed bodies must have been aimed.
-void buildRows(const World& world, const StepSettings& settings, double dt, GapScratch& scratch);
+/// Fills the rows of a block from the contacts of its pairs, with the impulses that the world
+/// remembers. Keyed bodies must have been aimed.
+void buildRows(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
+               GapScratch& scratch);
 
 /// Calls work(i) for every pair, shared by threads: it may write to what belongs to that pair
 /// alone, its rows among that.
@@ -171,30 +193,33 @@ void forPairs(const GapScratch& scratch, const Work& work)
     forEach(scratch.pairs.size(), kShortWork, work);
 }
 
-/// The same for the pairs of islands that are not kept.
+/// The same for those of a block.
 template <class Work>
-void forOpenPairs(const GapScratch& scratch, const Work& work)
+void forPairs(const GapBlock& block, const Work& work)
 {
-    forEach(scratch.openPairs.size(), kShortWork,
-            [&](std::size_t i) { work(scratch.openPairs[i]); });
+    forEach(block.pairs.size(), kShortWork, [&](std::size_t i) { work(block.pairs[i]); });
 }
 
-/// Calls work(index) for all islands that are not kept; they share no movable body. What is most of
-/// all rows by itself may share its loops with all threads, the others are worked on at once, each
-/// by one.
+/// Calls work(index) for the islands that are told, of so many rows in all; they share no movable
+/// body. What is most of all rows by itself may share its loops with all threads, the others are
+/// worked on at once, each by one.
 template <class Work>
-void forIslands(const GapScratch& scratch, const Work& work)
+void forIslands(const GapScratch& scratch, std::span<const std::size_t> islands,
+                std::size_t rowCount, const Work& work)
 {
-    const auto isMost = [&](std::size_t i) {
-        return 2 * scratch.islands[i].rowCount >= scratch.rowCount;
-    };
-    const auto isSolved = [&](std::size_t i) { return scratch.islands[i].isKept; };
-    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
-        if (isMost(i) && !isSolved(i)) work(i);
+    const auto isMost = [&](std::size_t i) { return 2 * scratch.islands[i].rowCount >= rowCount; };
+    for (const std::size_t i : islands) {
+        if (isMost(i)) work(i);
     }
-    forEach(scratch.islands.size(), 1, [&](std::size_t i) {
-        if (!isMost(i) && !isSolved(i)) work(i);
+    forEach(islands.size(), 1, [&](std::size_t n) {
+        if (!isMost(islands[n])) work(islands[n]);
     });
+}
+
+template <class Work>
+void forIslands(const GapScratch& scratch, const GapBlock& block, const Work& work)
+{
+    forIslands(scratch, block.islands, block.rowCount, work);
 }
 
 /// Fetches the contacts of a pair that follows the i-th soon, for loops that read them.

@@ -87,6 +87,11 @@ Struck findStruck(const World& world, const GapScratch& scratch, double dt)
     return struck;
 }
 
+bool isSolvedAnew(const GapScratch& scratch, BodyPair bodies)
+{
+    return scratch.isSolvedAnew[bodies.a] || scratch.isSolvedAnew[bodies.b];
+}
+
 /// Those that run visibly into what they were not looked at for.
 std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, double dt,
                                  GapScratch& scratch)
@@ -102,6 +107,7 @@ std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, doubl
     forEach(known.size(), kShortWork, [&](std::size_t i) {
         NearPair& pair = known[i];
         if (!struck.isStruck[pair.bodies.a] && !struck.isStruck[pair.bodies.b]) return;
+        if (!isSolvedAnew(scratch, pair.bodies)) return;
         const double seen =
             std::max(pair.foundWithin, pair.farUntil - odometerOf(scratch, pair.bodies));
         isMet[i] = runsIntoUnseen(world, scratch, pair.bodies, dt, seen, pair.near);
@@ -112,7 +118,10 @@ std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, doubl
 
     if (!isAny(struck.isFaster)) return unseen;
     const std::vector<BodyPair>& pairs = scratch.broadPhase.findPairs(
-        struck.boxes, world.mass, [&](BodyPair pair) { return isMovedPair(world, scratch, pair); },
+        struck.boxes, world.mass,
+        [&](BodyPair pair) {
+            return isMovedPair(world, scratch, pair) && isSolvedAnew(scratch, pair);
+        },
         struck.isFaster);
     isMet.assign(pairs.size(), 0);
     forEach(pairs.size(), 4, [&](std::size_t i) {
@@ -132,6 +141,7 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
 {
     const Struck struck = findStruck(world, scratch, dt);
     const std::vector<BodyPair> unseen = findUnseen(world, struck, dt, scratch);
+    scratch.isSolvedAnew.assign(world.bodyCount(), 0);
     for (const BodyPair& pair : unseen) {
         for (const BodyId body : {pair.a, pair.b}) {
             scratch.gain[body] = std::max(scratch.gain[body], struck.change[body]);

@@ -183,18 +183,37 @@ std::vector<ContactLoad> loadsOfSleepers(const World& world)
     return contactLoads(world, [&](BodyId a, BodyId b) { return touchesSleeper(world, a, b); });
 }
 
-/// Those of a step that is not over: what lies between sleepers is remembered, the rest solved.
-std::vector<ContactLoad> loadsOfSleepers(const World& world, double dt, const GapScratch& scratch)
+/// The sleepers that have rows in this step, in order.
+std::vector<BodyId> touchedSleepers(const World& world, const GapScratch& scratch)
 {
-    std::vector<ContactLoad> loads = contactLoads(
-        world, [&](BodyId a, BodyId b) { return !isStepped(world, a) && !isStepped(world, b); });
+    std::vector<BodyId> touched;
+    for (const GapPair& pair : scratch.pairs) {
+        for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
+            if (world.contactMemory.isAsleep(body)) touched.push_back(body);
+        }
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    return touched;
+}
+
+/// Those of a step that is not over, right for some sleepers alone: what lies between sleepers is
+/// remembered, the rest solved.
+std::vector<ContactLoad> loadsOf(const std::vector<BodyId>& sleepers, const World& world, double dt,
+                                 const GapScratch& scratch)
+{
+    std::vector<char> isOne(world.bodyCount(), 0);
+    for (const BodyId body : sleepers) isOne[body] = 1;
+    std::vector<ContactLoad> loads = contactLoads(world, [&](BodyId a, BodyId b) {
+        return (isOne[a] || isOne[b]) && !isStepped(world, a) && !isStepped(world, b);
+    });
     const auto add = [&](const GapRow& row, const Vec3& impulse, const Vec3& couple) {
         loads[row.a].add(row.rA, impulse / dt, couple / dt);
         loads[row.b].add(row.rB, -impulse / dt, -couple / dt);
     };
     for (const std::size_t i : scratch.order) {
         const GapPair& pair = scratch.pairs[i];
-        if (!touchesSleeper(world, pair.bodies.a, pair.bodies.b)) continue;
+        if (!isOne[pair.bodies.a] && !isOne[pair.bodies.b]) continue;
         for (std::size_t r = pair.begin; r < pair.end; ++r)
             add(scratch.rows[r], scratch.rows[r].worldImpulse(), scratch.rows[r].couple);
     }
@@ -338,16 +357,19 @@ void fallAsleep(World& world, GapScratch& scratch)
 bool wakeStruck(World& world, double dt, const GapScratch& scratch)
 {
     if (!anyAsleep(world)) return false;
-    const std::vector<ContactLoad> loads = loadsOfSleepers(world, dt, scratch);
+    // What nothing awake touches lies as the last step has left it.
+    const std::vector<BodyId> touched = touchedSleepers(world, scratch);
+    const std::vector<ContactLoad> loads = loadsOf(touched, world, dt, scratch);
     std::vector<BodyId> roots;
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        const auto body = static_cast<BodyId>(i);
-        if (!world.contactMemory.isAsleep(body) || awaitsTouch(world, body, loads[i])) continue;
-        const AppliedForce& other = scratch.forces[i];
-        if (isBalanced(world, body, loads[i], other, kUnbalanced)) continue;
+    for (const BodyId body : touched) {
+        const ContactLoad& load = loads[body];
+        if (awaitsTouch(world, body, load)) continue;
+        const AppliedForce& other = scratch.forces[body];
+        if (isBalanced(world, body, load, other, kUnbalanced)) continue;
         const double radius = world.shapeOf(body).boundingRadius;
-        const Unbalance rest(world, body, loads[i], other);
-        const double speed = dt * world.mass[i].inverseMass * (rest.force + rest.torque / radius);
+        const Unbalance rest(world, body, load, other);
+        const double speed =
+            dt * world.mass[body].inverseMass * (rest.force + rest.torque / radius);
         if (speed > kGentle * std::sqrt(radius * other.acceleration.norm())) roots.push_back(body);
     }
     if (roots.empty()) return false;

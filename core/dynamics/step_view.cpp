@@ -44,13 +44,13 @@ StepSeen seePairs(const StepScratch& scratch, const GraphLevels& levels, double 
     return step;
 }
 
-StepSeen seeGaps(const World& world, const GapScratch& scratch, const GraphLevels& levels,
-                 double dt)
+StepSeen seeGaps(const World& world, const GapScratch& scratch, double dt)
 {
     StepSeen step;
     step.dt = dt;
-    step.level.assign(levels.level.begin(), levels.level.end());
-    step.overlap.assign(levels.level.size(), 0.0);
+    const std::vector<int>& levels = scratch.levels.level;
+    step.level.assign(levels.begin(), levels.end());
+    step.overlap.assign(levels.size(), 0.0);
     std::vector<Vec3> blows(scratch.rows.size(), Vec3::Zero());
     for (const GapImpact& impact : scratch.impacts) blows[impact.row] += impact.impulse;
     for (const GapPair& pair : scratch.pairs) {

@@ -15,7 +15,6 @@ void noteImpulse(PairRecord& pair, std::int32_t sample, bool sampleOnA, const Co
 StepSeen seePairs(const StepScratch& scratch, const GraphLevels& levels, double dt);
 
 /// Method `scree`, before bodies have moved: rows measure their points from where these are.
-StepSeen seeGaps(const World& world, const GapScratch& scratch, const GraphLevels& levels,
-                 double dt);
+StepSeen seeGaps(const World& world, const GapScratch& scratch, double dt);
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 #include "core/base/random.h"
@@ -10,6 +11,7 @@
 #include "core/dynamics/collision_pass.h"
 #include "core/dynamics/contact_graph.h"
 #include "core/dynamics/contact_pass.h"
+#include "core/dynamics/gap_blocks.h"
 #include "core/dynamics/gap_bounce.h"
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_kept.h"
@@ -34,22 +36,40 @@ namespace {
 /// into what nobody had looked at.
 constexpr int kMostLooks = 2;
 
-/// Adds the wall time of a scope to one phase of a report.
+using WallClock = std::chrono::steady_clock;
+
+double secondsSince(WallClock::time_point start)
+{
+    return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+/// Adds the wall time of a scope to one phase.
 class PhaseTimer {
 public:
-    PhaseTimer(StepReport& report, Phase phase)
-        : seconds_(report.seconds[static_cast<int>(phase)]), start_(Clock::now())
+    PhaseTimer(PhaseSeconds& seconds, Phase phase)
+        : seconds_(seconds[static_cast<int>(phase)]), start_(WallClock::now())
     {
     }
-    ~PhaseTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    ~PhaseTimer() { seconds_ += secondsSince(start_); }
     PhaseTimer(const PhaseTimer&) = delete;
     PhaseTimer& operator=(const PhaseTimer&) = delete;
 
 private:
-    using Clock = std::chrono::steady_clock;
     double& seconds_;
-    Clock::time_point start_;
+    WallClock::time_point start_;
 };
+
+/// Adds to the phases what they had of a wall time in which blocks were solved, several at once.
+void shareOut(double wall, const std::vector<PhaseSeconds>& ofBlocks, PhaseSeconds& seconds)
+{
+    PhaseSeconds sums{};
+    for (const PhaseSeconds& block : ofBlocks) {
+        for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += block[p];
+    }
+    const double all = std::accumulate(sums.begin(), sums.end(), 0.0);
+    if (all == 0.0) return;
+    for (std::size_t p = 0; p < sums.size(); ++p) seconds[p] += wall * sums[p] / all;
+}
 
 /// As many swaps as there are bodies, each drawn for this very step: no draw depends on those
 /// before it, so a resumed run draws the same.  [A21]
@@ -191,34 +211,34 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     // Collisions are found at predicted positions but change velocities that have not yet felt
     // gravity. A block at rest is therefore never mistaken for one that just landed.
     {
-        const PhaseTimer timer(report, Phase::collision);
+        const PhaseTimer timer(report.seconds, Phase::collision);
         note(resolveCollisions(world, settings_, dt, scratch), report.collisionImpulses);
     }
     findNonFinite(world, Phase::collision, report);
 
     ContactGraph graph;
     {
-        const PhaseTimer timer(report, Phase::contactGraph);
+        const PhaseTimer timer(report.seconds, Phase::contactGraph);
         graph = buildContactGraph(world, settings_, dt, scratch);
     }
     addForces(world, scratch.forces, dt);
     {
-        const PhaseTimer timer(report, Phase::contact);
+        const PhaseTimer timer(report.seconds, Phase::contact);
         note(resolveContacts(world, graph, settings_, dt, scratch), report.contactImpulses);
     }
     findNonFinite(world, Phase::contact, report);
     if (settings_.shockPropagation) {
-        const PhaseTimer timer(report, Phase::shock);
+        const PhaseTimer timer(report.seconds, Phase::shock);
         note(propagateShock(world, graph, settings_, dt, scratch), report.shockImpulses);
     }
     findNonFinite(world, Phase::shock, report);
     {
-        const PhaseTimer timer(report, Phase::position);
+        const PhaseTimer timer(report.seconds, Phase::position);
         advancePositions(world, settings_, dt);
     }
     findNonFinite(world, Phase::position, report);
     if (report.nonFinite.empty()) {
-        const PhaseTimer timer(report, Phase::pushOut);
+        const PhaseTimer timer(report.seconds, Phase::pushOut);
         report.deepestBeforePushOut = findDeepestOverlap(world, scratch).depth;
         const double before = potentialEnergy(world, settings_.gravity);
         if (settings_.pushOut) {
@@ -240,39 +260,61 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     return report;
 }
 
+/// New velocities for the bodies of a block, in the scratch alone. Answers the time each phase took
+/// [s].
+PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
+{
+    GapScratch& scratch = *gaps_;
+    PhaseSeconds seconds{};
+    {
+        const PhaseTimer timer(seconds, Phase::contactGraph);
+        buildRows(world, settings_, dt, block, scratch);
+    }
+    // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
+    // never mistaken for what has just landed.
+    {
+        const PhaseTimer timer(seconds, Phase::collision);
+        resolveImpacts(settings_, dt, block, scratch);
+        findLevels(dt, block, scratch);
+    }
+    {
+        const PhaseTimer timer(seconds, Phase::contact);
+        addForcesToGaps(dt, block, scratch);
+        resolveGaps(settings_, dt, block, scratch);
+    }
+    if (settings_.shockPropagation) {
+        const PhaseTimer timer(seconds, Phase::shock);
+        propagateShockUp(world, settings_, dt, block, scratch);
+    }
+    return seconds;
+}
+
 /// New velocities, in the scratch alone: the world is as it was. `solved`: by an earlier attempt.
-GapLevels Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved,
-                             StepReport& report)
+void Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report)
 {
     GapScratch& scratch = *gaps_;
     {
-        const PhaseTimer timer(report, Phase::contactGraph);
+        const PhaseTimer timer(report.seconds, Phase::contactGraph);
         if (solved.isNone())
             findGaps(world, settings_, dt, scratch);
         else
             findGapsAgain(world, dt, scratch);
         layPairs(world, settings_, scratch);
         solved.handOn(scratch);
-        buildRows(world, settings_, dt, scratch);
+        layBlocks(scratch);
+        levelOthers(scratch);
+        addForcesToOthers(dt, scratch);
     }
-    // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
-    // never mistaken for what has just landed.
-    GapLevels levels;
-    {
-        const PhaseTimer timer(report, Phase::collision);
-        resolveImpacts(settings_, dt, scratch, report.loopsAtTheirCap);
-        levels = buildGapLevels(dt, scratch);
+    std::vector<PhaseSeconds> ofBlocks(scratch.blocks.size());
+    const auto start = WallClock::now();
+    forBlocks(scratch, [&](GapBlock& block) {
+        ofBlocks[&block - scratch.blocks.data()] = solveBlock(world, dt, block);
+    });
+    shareOut(secondsSince(start), ofBlocks, report.seconds);
+    for (const GapBlock& block : scratch.blocks) {
+        scratch.impacts.insert(scratch.impacts.end(), block.impacts.begin(), block.impacts.end());
     }
-    {
-        const PhaseTimer timer(report, Phase::contact);
-        addForcesToGaps(dt, scratch);
-        resolveGaps(settings_, dt, levels, scratch);
-    }
-    if (settings_.shockPropagation) {
-        const PhaseTimer timer(report, Phase::shock);
-        propagateShockUp(world, settings_, dt, levels, scratch);
-    }
-    return levels;
+    report.loopsAtTheirCap += std::ranges::any_of(scratch.blocks, &GapBlock::isAtItsCap);
 }
 
 StepReport Stepper::stepGaps(World& world, double dt)
@@ -281,21 +323,21 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.dt = dt;
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
-    GapLevels levels = solveGaps(world, dt, SolvedIslands(), report);
+    solveGaps(world, dt, SolvedIslands(), report);
     int looks = 0;
     while (wakeStruck(world, dt, scratch) ||
            (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
-        levels = solveGaps(world, dt, SolvedIslands(scratch), report);
+        solveGaps(world, dt, SolvedIslands(scratch), report);
     }
     {
-        const PhaseTimer timer(report, Phase::contact);
+        const PhaseTimer timer(report.seconds, Phase::contact);
         report.contactImpulses = countImpulses(scratch);
     }
     for (const GapImpact& impact : scratch.impacts)
         countImpulse(report.collisionImpulses, impact.kind);
-    if (observer_) observer_->stepDone(seeGaps(world, scratch, levels.graph, dt));
+    if (observer_) observer_->stepDone(seeGaps(world, scratch, dt));
     {
-        const PhaseTimer timer(report, Phase::position);
+        const PhaseTimer timer(report.seconds, Phase::position);
         writeVelocities(world, dt, scratch);
         moveBodies(world, settings_, dt, scratch);
         wakeUnbalanced(world, scratch.forces);
@@ -303,9 +345,9 @@ StepReport Stepper::stepGaps(World& world, double dt)
     findNonFinite(world, Phase::position, report);
     report.deepestBeforePushOut = findDeepestGap(scratch).depth;
     if (report.nonFinite.empty() && settings_.pushOut) {
-        const PhaseTimer timer(report, Phase::pushOut);
+        const PhaseTimer timer(report.seconds, Phase::pushOut);
         const double before = potentialEnergy(world, settings_.gravity);
-        const PushOutTally tally = separateGaps(world, settings_, levels, scratch);
+        const PushOutTally tally = separateGaps(world, settings_, scratch);
         report.pushes = tally.pushes;
         report.pushesCut = tally.cut;
         report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
@@ -314,7 +356,8 @@ StepReport Stepper::stepGaps(World& world, double dt)
     report.deepestAfterPushOut = deepest.depth;
     report.deepestA = deepest.a;
     report.deepestB = deepest.b;
-    report.levels = static_cast<int>(levels.pairs.size());
+    for (const GapPair& pair : scratch.pairs)
+        report.levels = std::max(report.levels, levelOf(scratch.levels, pair.bodies) + 1);
     report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
     report.touchingPairs = static_cast<std::int64_t>(scratch.pairs.size());
     report.contactPairs = static_cast<std::int64_t>(scratch.rowCount);
@@ -340,7 +383,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         StepLength length;
         StepReport limitReport;
         {
-            const PhaseTimer timer(limitReport, Phase::stepLimit);
+            const PhaseTimer timer(limitReport.seconds, Phase::stepLimit);
             if (settings_.method == Method::scree)
                 findCandidates(world, settings_, remaining, *scratch_);
             else

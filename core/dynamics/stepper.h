@@ -11,8 +11,8 @@
 
 namespace scree {
 
+struct GapBlock;
 struct StepScratch;
-struct GapLevels;
 struct GapScratch;
 class SolvedIslands;
 
@@ -46,7 +46,8 @@ private:
     StepReport stepFoundPairs(World& world, double dt);
     StepReport stepGaps(World& world, double dt);
     bool mayStopAt(const Clock& clock) const;
-    GapLevels solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report);
+    PhaseSeconds solveBlock(const World& world, double dt, GapBlock& block);
+    void solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report);
 
     StepSettings settings_;
     StepObserver* observer_ = nullptr;
