@@ -29,9 +29,11 @@ void makeRoom(std::size_t count, std::size_t taken, std::vector<GapRow>& rows)
 }  // namespace
 
 SolvedIslands::SolvedIslands(const GapScratch& scratch)
-    : pairs_(scratch.pairs), bodies_(scratch.bodies), impacts_(scratch.impacts)
+    : pairs_(scratch.pairs),
+      islands_(scratch.islands),
+      bodies_(scratch.bodies),
+      impacts_(scratch.impacts)
 {
-    for (const GapIsland& island : scratch.islands) pairsOfIsland_.push_back(island.pairs.size());
 }
 
 /// Per pair what it was; null where it was not, or has other rows now. Both lists are sorted.
@@ -53,7 +55,7 @@ bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& islan
                                const std::vector<const GapPair*>& before) const
 {
     const GapPair* any = before[island.pairs.front()];
-    if (!any || pairsOfIsland_[any->island] != island.pairs.size()) return false;
+    if (!any || islands_[any->island].pairs.size() != island.pairs.size()) return false;
     const auto isMovableAsBefore = [&](BodyId body) {
         return (scratch.bodies[body].inverseMass > 0.0) == (bodies_[body].inverseMass > 0.0);
     };
@@ -100,20 +102,27 @@ void SolvedIslands::handOn(GapScratch& scratch) const
     const std::vector<const GapPair*> before = pairsBefore(scratch);
     clearRowsOfOthers(before, scratch);
     placeRows(before, isNone() ? 0 : scratch.rows.size(), scratch);
+    std::vector<std::size_t> now(pairs_.size());  // per pair that was, where it still is
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i]) now[before[i] - pairs_.data()] = i;
+    }
     forEach(scratch.islands.size(), 1, [&](std::size_t n) {
         GapIsland& island = scratch.islands[n];
         island.isKept = isAsBefore(scratch, island, before);
         if (!island.isKept) return;
+        std::ranges::transform(islands_[before[island.pairs.front()]->island].pairs,
+                               island.pairs.begin(), [&](std::size_t i) { return now[i]; });
         for (const std::size_t i : island.pairs) {
             GapPair& pair = scratch.pairs[i];
+            pair.part = before[i]->part;
             pair.isCarried = before[i]->isCarried;
             pair.fallsOnB = before[i]->fallsOnB;
             pair.fallsOnA = before[i]->fallsOnA;
             for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
-                GapBody& now = scratch.bodies[body];
-                if (now.inverseMass == 0.0 || now.isKept) continue;
-                now = bodies_[body];
-                now.isKept = true;
+                GapBody& still = scratch.bodies[body];
+                if (still.inverseMass == 0.0 || still.isKept) continue;
+                still = bodies_[body];
+                still.isKept = true;
             }
         }
     });

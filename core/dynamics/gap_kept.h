@@ -24,8 +24,8 @@ public:
     bool isNone() const { return bodies_.empty(); }
 
     /// Finds room for the rows of all pairs that have been laid out. Those islands that are as they
-    /// were take over their bodies, rows and blows, and are kept: no pass of this attempt looks at
-    /// them.
+    /// were take over their order, bodies, rows and blows, and are kept: no pass of this attempt
+    /// looks at them.
     void handOn(GapScratch& scratch) const;
 
 private:
@@ -37,7 +37,7 @@ private:
     void clearRowsOfOthers(const std::vector<const GapPair*>& before, GapScratch& scratch) const;
 
     std::vector<GapPair> pairs_;  // sorted by bodies
-    std::vector<std::size_t> pairsOfIsland_;
+    std::vector<GapIsland> islands_;
     std::vector<GapBody> bodies_;
     std::vector<GapImpact> impacts_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -64,26 +65,22 @@ void cutIntoIslands(GapScratch& scratch)
 }
 
 /// Bottom to top: what carries is solved before what is carried.
-void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
+void orderByHeight(const World& world, const Vec3& up, std::span<const std::size_t> islands,
+                   std::size_t rowCount, GapScratch& scratch)
 {
     std::vector<double> heights(scratch.pairs.size());
     forEach(heights.size(), kShortWork, [&](std::size_t i) {
-        fetchContactsAfter(scratch, i);
         const GapPair& pair = scratch.pairs[i];
+        if (scratch.islands[pair.island].isKept) return;
+        fetchContactsAfter(scratch, i);
         const Vec3& centreOfA = world.motion[pair.bodies.a].position;
         heights[i] = up.dot(centreOfA + scratch.contactsOf(pair).front().rA);
     });
-    std::vector<std::size_t> all(scratch.islands.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    forIslands(scratch, all, scratch.rowCount, [&](std::size_t i) {
+    forIslands(scratch, islands, rowCount, [&](std::size_t i) {
         sortInHalves(scratch.islands[i].pairs, [&](std::size_t p, std::size_t q) {
             return std::pair(heights[p], p) < std::pair(heights[q], q);
         });
     });
-    // What one island needs is in the cache until it is done with.
-    scratch.order.clear();
-    for (const GapIsland& island : scratch.islands)
-        scratch.order.insert(scratch.order.end(), island.pairs.begin(), island.pairs.end());
 }
 
 /// Cuts an island where its bodies spread most, across gravity or not.
@@ -115,30 +112,47 @@ void cutInTwo(const GapIsland& island, GapScratch& scratch)
 }
 
 /// Large islands are cut, small ones belong to one half as a whole.
-void shareOut(GapScratch& scratch)
+void shareOut(std::span<const std::size_t> islands, GapScratch& scratch)
 {
     if (scratch.rowCount < kRowsWorthACut) return;
     const auto isLarge = [](const GapIsland& island) { return island.rowCount >= kRowsWorthACut; };
-    forEach(scratch.islands.size(), 1, [&](std::size_t i) {
-        if (isLarge(scratch.islands[i])) cutInTwo(scratch.islands[i], scratch);
+    forEach(islands.size(), 1, [&](std::size_t n) {
+        const GapIsland& island = scratch.islands[islands[n]];
+        if (isLarge(island)) cutInTwo(island, scratch);
     });
     std::array<std::size_t, 2> rows{};
-    for (const GapIsland& island : scratch.islands) {
+    for (const std::size_t i : islands) {
+        const GapIsland& island = scratch.islands[i];
         if (isLarge(island)) continue;
         const int lighter = rows[1] < rows[0] ? 1 : 0;
         rows[lighter] += island.rowCount;
-        for (const std::size_t i : island.pairs) scratch.pairs[i].part = lighter;
+        for (const std::size_t p : island.pairs) scratch.pairs[p].part = lighter;
     }
 }
 
 }  // namespace
 
-void layPairs(const World& world, const StepSettings& settings, GapScratch& scratch)
+void layPairs(GapScratch& scratch)
 {
     collectPairs(scratch);
     cutIntoIslands(scratch);
-    orderByHeight(world, -settings.gravity, scratch);
-    shareOut(scratch);
+}
+
+void orderPairs(const World& world, const StepSettings& settings, GapScratch& scratch)
+{
+    std::vector<std::size_t> open;
+    std::size_t rowCount = 0;
+    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
+        if (scratch.islands[i].isKept) continue;
+        open.push_back(i);
+        rowCount += scratch.islands[i].rowCount;
+    }
+    orderByHeight(world, -settings.gravity, open, rowCount, scratch);
+    shareOut(open, scratch);
+    // What one island needs is in the cache until it is done with.
+    scratch.order.clear();
+    for (const GapIsland& island : scratch.islands)
+        scratch.order.insert(scratch.order.end(), island.pairs.begin(), island.pairs.end());
 }
 
 std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,

@@ -16,9 +16,13 @@ using PairParts = std::array<std::vector<std::size_t>, 3>;
 /// Below this many rows a cut costs more than a second thread gains.
 constexpr std::size_t kRowsWorthACut = 1000;
 
-/// Collects the pairs for which contacts have been found, bottom to top and by islands, cut for two
-/// threads where they are large. Of their rows it says how many there are, not yet where.
-void layPairs(const World& world, const StepSettings& settings, GapScratch& scratch);
+/// Collects the pairs for which contacts have been found, by islands. Of their rows it says how many
+/// there are, not yet where.
+void layPairs(GapScratch& scratch);
+
+/// Orders the pairs of all islands that are not kept bottom to top, and cuts these for two threads
+/// where they are large.
+void orderPairs(const World& world, const StepSettings& settings, GapScratch& scratch);
 
 /// Those of the pairs together that share movable bodies, directly or through others; pairs without
 /// any are left out. In the order of the first of each.

@@ -299,8 +299,9 @@ void Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved, St
             findGaps(world, settings_, dt, scratch);
         else
             findGapsAgain(world, dt, scratch);
-        layPairs(world, settings_, scratch);
+        layPairs(scratch);
         solved.handOn(scratch);
+        orderPairs(world, settings_, scratch);
         layBlocks(scratch);
         levelOthers(scratch);
         addForcesToOthers(dt, scratch);
