@@ -103,15 +103,17 @@ bool lasts(const World& world, double dt, const GapScratch& scratch, const GapIs
 /// rest, and what the other way damps is what rocks in it.
 void moveByTheMean(World& world, double dt, GapScratch& scratch)
 {
-    for (const GapIsland& island : scratch.islands) {
-        if (!lasts(world, dt, scratch, island)) continue;
-        const auto late = [dt](const GapBody& body) {
-            return body.isStopped ? Vec3(0.5 * dt * body.velocity) : Vec3(Vec3::Zero());
-        };
+    const auto late = [dt](const GapBody& body) {
+        return body.isStopped ? Vec3(0.5 * dt * body.velocity) : Vec3(Vec3::Zero());
+    };
+    forEach(scratch.islands.size(), 1, [&](std::size_t island) {
+        if (!lasts(world, dt, scratch, scratch.islands[island])) return;
         std::vector<BodyId> movers;
-        for (const std::size_t i : island.pairs) {
+        for (const std::size_t i : scratch.islands[island].pairs) {
             const GapPair& pair = scratch.pairs[i];
-            movers.insert(movers.end(), {pair.bodies.a, pair.bodies.b});
+            for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
+                if (scratch.bodies[body].inverseMass > 0.0) movers.push_back(body);
+            }
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapRow& row = scratch.rows[r];
                 if (row.impulse.x() == 0.0) continue;
@@ -127,7 +129,7 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
             body.shift += mean.shift;
             body.turn += mean.turn;
         }
-    }
+    });
 }
 
 }  // namespace
@@ -140,21 +142,31 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
         world.motion[i].velocity = scratch.bodies[i].velocity;
         world.motion[i].angularMomentum += scratch.bodies[i].angularImpulse;
     });
-    // What holds sleepers is remembered for when they wake.
+    // What holds sleepers is remembered for when they wake, among what the pairs remember now: the
+    // memory is sorted, and so are the pairs.
     std::vector<RememberedContact>& kept = scratch.formerContacts;
-    std::size_t ofSleepers = 0;
+    std::size_t end = 0;
+    const auto makeRoom = [&](std::size_t count) {
+        if (kept.size() < end + count) kept.resize(end + count);
+    };
+    std::vector<std::size_t> first(scratch.pairs.size());  // of each pair in `kept`
+    std::size_t next = 0;
+    const auto placePair = [&] {
+        first[next] = end;
+        makeRoom(scratch.pairs[next].bearing);
+        end += scratch.pairs[next++].bearing;
+    };
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         const bool sleeps =
             world.contactMemory.isAsleep(contact.a) || world.contactMemory.isAsleep(contact.b);
         if (!sleeps || isStepped(contact.a) || isStepped(contact.b)) continue;
-        if (kept.size() == ofSleepers) kept.emplace_back();
-        kept[ofSleepers++] = contact;
+        while (next < first.size() && scratch.pairs[next].bodies < bodiesOf(contact)) placePair();
+        makeRoom(1);
+        kept[end++] = contact;
     }
+    while (next < first.size()) placePair();
+    kept.resize(end);
     std::vector<PairTurn> turns(scratch.pairs.size());
-    std::vector<std::size_t> first(scratch.pairs.size() + 1, ofSleepers);  // of a pair in `kept`
-    for (std::size_t i = 0; i < scratch.pairs.size(); ++i)
-        first[i + 1] = first[i] + scratch.pairs[i].bearing;
-    kept.resize(first.back());
     forPairs(scratch, [&](std::size_t i) {
         fetchContactsAfter(scratch, i);
         const GapPair& pair = scratch.pairs[i];
@@ -182,11 +194,6 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
         if (turns[i].movesA) world.motion[a].angularMomentum += turns[i].ofA;
         if (turns[i].movesB) world.motion[b].angularMomentum += turns[i].ofB;
     }
-    // Both parts are sorted: the memory is, and so are the pairs.
-    std::inplace_merge(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(ofSleepers),
-                       kept.end(), [](const RememberedContact& p, const RememberedContact& q) {
-                           return bodiesOf(p) < bodiesOf(q);
-                       });
     std::swap(world.contactMemory.contacts, kept);
     world.contactMemory.dt = dt;
 }
