@@ -37,7 +37,8 @@ enum class Phase : std::uint8_t {
     count
 };
 const char* nameOf(Phase phase);
-using PhaseSeconds = std::array<double, static_cast<int>(Phase::count)>;  ///< wall time by phase [s]
+using PhaseSeconds =
+    std::array<double, static_cast<int>(Phase::count)>;  ///< wall time by phase [s]
 
 struct StepReport {
     double dt = 0.0;  ///< [s]

@@ -7,15 +7,6 @@ namespace {
 /// as long as they are not more than a few caches hold. Only time depends on them.
 constexpr std::size_t kRowsOfABlock = 2000, kRowsInTheCache = 10000;
 
-std::size_t openRows(const GapScratch& scratch)
-{
-    std::size_t rows = 0;
-    for (const GapIsland& island : scratch.islands) {
-        if (!island.isKept) rows += island.rowCount;
-    }
-    return rows;
-}
-
 void placeBodies(GapBlock& block, GapScratch& scratch)
 {
     for (const std::size_t i : block.pairs) {
@@ -31,17 +22,15 @@ void placeBodies(GapBlock& block, GapScratch& scratch)
 
 void layBlocks(GapScratch& scratch)
 {
-    const bool isOne = openRows(scratch) <= kRowsInTheCache;
+    const bool isOne = scratch.openRowCount <= kRowsInTheCache;
     scratch.blocks.clear();
     std::vector<std::size_t> blockOf(scratch.islands.size());
     bool isOpen = false;
-    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
-        const GapIsland& island = scratch.islands[i];
-        if (island.isKept) continue;
+    for (const std::size_t i : scratch.openIslands) {
         if (!isOpen) scratch.blocks.emplace_back();
         GapBlock& block = scratch.blocks.back();
         block.islands.push_back(i);
-        block.rowCount += island.rowCount;
+        block.rowCount += scratch.islands[i].rowCount;
         blockOf[i] = scratch.blocks.size() - 1;
         isOpen = isOne || block.rowCount < kRowsOfABlock;
     }

@@ -23,11 +23,9 @@ void forBlocks(GapScratch& scratch, const Work& work)
 {
     constexpr std::size_t kBlocksPerThread = 2;
     std::vector<GapBlock>& blocks = scratch.blocks;
-    std::size_t rowCount = 0;
-    for (const GapBlock& block : blocks) rowCount += block.rowCount;
     const bool areFew = blocks.size() < kBlocksPerThread * threadCount();
     const auto isShared = [&](const GapBlock& block) {
-        return areFew || 2 * block.rowCount >= rowCount;
+        return areFew || 2 * block.rowCount >= scratch.openRowCount;
     };
     for (GapBlock& block : blocks) {
         if (isShared(block)) work(block);

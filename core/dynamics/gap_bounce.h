@@ -6,8 +6,9 @@
 
 namespace scree {
 
-/// Gives every impact that is to come to a block in the step its impulse. Velocities are those before
-/// gravity, and stay so. Bodies get shifts that let them move with the old velocity up to the impact.
+/// Gives every impact that the step brings to a block its impulse. Velocities are those before
+/// gravity, and stay so. Bodies get shifts that let them move with the old velocity up to the
+/// impact.
 void resolveImpacts(const StepSettings& settings, double dt, GapBlock& block, GapScratch& scratch);
 
 }  // namespace scree

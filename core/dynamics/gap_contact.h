@@ -36,9 +36,9 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch);
 /// The forces of all that is in no block, nor kept.
 void addForcesToOthers(double dt, GapScratch& scratch);
 
-/// Sweeps over the rows of every island of a block until velocities stay as they are, or its sweeps are used
-/// up. Begins with the impulses that rows remember, or, on an island that remembers nothing, with
-/// the weights of the levels.
+/// Sweeps over the rows of every island of a block until velocities stay as they are, or its sweeps
+/// are used up. Begins with the impulses that rows remember, or, on an island that remembers
+/// nothing, with the weights of the levels.
 void resolveGaps(const StepSettings& settings, double dt, const GapBlock& block,
                  GapScratch& scratch);
 

@@ -12,7 +12,7 @@ struct Held {
     Vec3 acceleration = Vec3::Zero(), turning = Vec3::Zero();  ///< [m/s²], [rad/s²]
 };
 
-/// By their places in the block, if all that carried its bodies in the last step does so again: rows
+/// Per place of a body in the block, if all that carried it in the last step does so again: rows
 /// begin with the impulses that are remembered.
 std::vector<Held> heldAsBefore(double dt, const GapBlock& block, const GapScratch& scratch);
 

@@ -49,8 +49,8 @@ private:
     std::vector<std::size_t> begin_, pairs_;
 };
 
-/// What is known of the impacts of a block, by the places of bodies and pairs in it. Visits of pairs
-/// that share no movable body read and write different parts of it.
+/// What is known of the impacts of a block, by the places of bodies and pairs in it. Visits of
+/// pairs that share no movable body read and write different parts of it.
 struct ImpactState {
     ImpactState(const StepSettings& chosen, double step, const GapBlock& islands, GapScratch& rows);
 
@@ -100,8 +100,8 @@ public:
     void visit(std::size_t p)
     {
         const GapPair& pair = scratch_.pairs[p];
-        const std::int64_t changedAt = std::max(impactsOf(pair.bodies.a).changedAt,
-                                                impactsOf(pair.bodies.b).changedAt);
+        const std::int64_t changedAt =
+            std::max(impactsOf(pair.bodies.a).changedAt, impactsOf(pair.bodies.b).changedAt);
         if (state_.doneAt[pair.place] > changedAt) return;
         if (resolvePair(p)) state_.doneAt[pair.place] = ++clock_;
     }

@@ -62,8 +62,8 @@ bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& islan
     return std::ranges::all_of(island.pairs, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
         return before[i] && before[i]->island == any->island &&
-               scratch.nearPairs[pair.near].soughtIn != scratch.attempt && isMovableAsBefore(pair.bodies.a) &&
-               isMovableAsBefore(pair.bodies.b);
+               scratch.nearPairs[pair.near].soughtIn != scratch.attempt &&
+               isMovableAsBefore(pair.bodies.a) && isMovableAsBefore(pair.bodies.b);
     });
 }
 
@@ -126,6 +126,13 @@ void SolvedIslands::handOn(GapScratch& scratch) const
             }
         }
     });
+    scratch.openIslands.clear();
+    scratch.openRowCount = 0;
+    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
+        if (scratch.islands[i].isKept) continue;
+        scratch.openIslands.push_back(i);
+        scratch.openRowCount += scratch.islands[i].rowCount;
+    }
     scratch.isSolvedAnew.resize(scratch.bodies.size(), 0);
     for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
         const GapBody& body = scratch.bodies[i];

@@ -178,7 +178,8 @@ std::vector<std::size_t> pairsToShake(const World& world, const StepSettings& se
     std::vector<std::size_t> pairs;
     for (const std::size_t island : block.islands) {
         const std::vector<std::size_t>& all = scratch.islands[island].pairs;
-        if (std::ranges::any_of(all, [&](std::size_t i) { return pairCloses[scratch.pairs[i].place]; }))
+        if (std::ranges::any_of(all,
+                                [&](std::size_t i) { return pairCloses[scratch.pairs[i].place]; }))
             pairs.insert(pairs.end(), all.begin(), all.end());
     }
     return pairs;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -65,8 +64,7 @@ void cutIntoIslands(GapScratch& scratch)
 }
 
 /// Bottom to top: what carries is solved before what is carried.
-void orderByHeight(const World& world, const Vec3& up, std::span<const std::size_t> islands,
-                   std::size_t rowCount, GapScratch& scratch)
+void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
 {
     std::vector<double> heights(scratch.pairs.size());
     forEach(heights.size(), kShortWork, [&](std::size_t i) {
@@ -76,7 +74,7 @@ void orderByHeight(const World& world, const Vec3& up, std::span<const std::size
         const Vec3& centreOfA = world.motion[pair.bodies.a].position;
         heights[i] = up.dot(centreOfA + scratch.contactsOf(pair).front().rA);
     });
-    forIslands(scratch, islands, rowCount, [&](std::size_t i) {
+    forIslands(scratch, scratch.openIslands, scratch.openRowCount, [&](std::size_t i) {
         sortInHalves(scratch.islands[i].pairs, [&](std::size_t p, std::size_t q) {
             return std::pair(heights[p], p) < std::pair(heights[q], q);
         });
@@ -112,9 +110,10 @@ void cutInTwo(const GapIsland& island, GapScratch& scratch)
 }
 
 /// Large islands are cut, small ones belong to one half as a whole.
-void shareOut(std::span<const std::size_t> islands, GapScratch& scratch)
+void shareOut(GapScratch& scratch)
 {
     if (scratch.rowCount < kRowsWorthACut) return;
+    const std::vector<std::size_t>& islands = scratch.openIslands;
     const auto isLarge = [](const GapIsland& island) { return island.rowCount >= kRowsWorthACut; };
     forEach(islands.size(), 1, [&](std::size_t n) {
         const GapIsland& island = scratch.islands[islands[n]];
@@ -140,15 +139,8 @@ void layPairs(GapScratch& scratch)
 
 void orderPairs(const World& world, const StepSettings& settings, GapScratch& scratch)
 {
-    std::vector<std::size_t> open;
-    std::size_t rowCount = 0;
-    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
-        if (scratch.islands[i].isKept) continue;
-        open.push_back(i);
-        rowCount += scratch.islands[i].rowCount;
-    }
-    orderByHeight(world, -settings.gravity, open, rowCount, scratch);
-    shareOut(open, scratch);
+    orderByHeight(world, -settings.gravity, scratch);
+    shareOut(scratch);
     // What one island needs is in the cache until it is done with.
     scratch.order.clear();
     for (const GapIsland& island : scratch.islands)

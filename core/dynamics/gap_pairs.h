@@ -16,8 +16,8 @@ using PairParts = std::array<std::vector<std::size_t>, 3>;
 /// Below this many rows a cut costs more than a second thread gains.
 constexpr std::size_t kRowsWorthACut = 1000;
 
-/// Collects the pairs for which contacts have been found, by islands. Of their rows it says how many
-/// there are, not yet where.
+/// Collects the pairs for which contacts have been found, by islands. Of their rows it says how
+/// many there are, not yet where.
 void layPairs(GapScratch& scratch);
 
 /// Orders the pairs of all islands that are not kept bottom to top, and cuts these for two threads

@@ -144,8 +144,8 @@ public:
         if (reach_ == 0.0) return {};
         std::vector<std::vector<std::size_t>> byLevel;
         for (std::size_t i = 0; i < scratch_.nearPairs.size(); ++i) {
-            const auto level = static_cast<std::size_t>(
-                levelOf(scratch_.levels, scratch_.nearPairs[i].bodies));
+            const auto level =
+                static_cast<std::size_t>(levelOf(scratch_.levels, scratch_.nearPairs[i].bodies));
             if (byLevel.size() <= level) byLevel.resize(level + 1);
             byLevel[level].push_back(i);
         }

@@ -158,7 +158,7 @@ struct GapScratch {
     std::vector<GapPace> paces;
     std::vector<double> gain;
     std::vector<char> looksFar;
-    std::vector<char> hasNews;  ///< per body: this step has not yet found all that is near it
+    std::vector<char> hasNews;       ///< per body: this step has not yet found all that is near it
     std::vector<std::size_t> toAsk;  ///< the near pairs that this look is about
     int attempt = 0;                 ///< at a step, of all
     std::vector<GapBody> bodies;
@@ -167,9 +167,11 @@ struct GapScratch {
     std::size_t rowCount = 0;        ///< of the pairs
     std::vector<std::size_t> order;  ///< of the pairs: island by island, bottom to top
     std::vector<GapIsland> islands;
-    std::vector<char> isSolvedAnew;            ///< per body: since gap_unseen.h has last looked
-    std::vector<GapBlock> blocks;              ///< of the islands that are not kept, in their order
-    std::vector<std::int32_t> placeInBlock;    ///< per body: in the bodies of its block, from 1; or 0
+    std::vector<std::size_t> openIslands;    ///< those that are not kept
+    std::size_t openRowCount = 0;            ///< of these
+    std::vector<char> isSolvedAnew;          ///< per body: since gap_unseen.h has last looked
+    std::vector<GapBlock> blocks;            ///< of the islands that are not kept, in their order
+    std::vector<std::int32_t> placeInBlock;  ///< per body: in the bodies of its block, from 1; or 0
     GapLevels levels;
     std::vector<GapImpact> impacts;                 ///< of this step
     std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember

@@ -173,7 +173,8 @@ void findNewGapPairs(const World& world, GapScratch& scratch)
     addNearPairs(found, scratch.nearPairs);
     scratch.toAsk.clear();
     for (const BodyPair& bodies : found) {
-        const auto pair = std::ranges::lower_bound(scratch.nearPairs, bodies, {}, &NearPair::bodies);
+        const auto pair =
+            std::ranges::lower_bound(scratch.nearPairs, bodies, {}, &NearPair::bodies);
         scratch.toAsk.push_back(static_cast<std::size_t>(pair - scratch.nearPairs.begin()));
     }
 }

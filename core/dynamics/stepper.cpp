@@ -60,7 +60,7 @@ private:
 };
 
 /// Adds to the phases what they had of a wall time in which blocks were solved, several at once.
-void shareOut(double wall, const std::vector<PhaseSeconds>& ofBlocks, PhaseSeconds& seconds)
+void addShares(double wall, const std::vector<PhaseSeconds>& ofBlocks, PhaseSeconds& seconds)
 {
     PhaseSeconds sums{};
     for (const PhaseSeconds& block : ofBlocks) {
@@ -311,7 +311,7 @@ void Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved, St
     forBlocks(scratch, [&](GapBlock& block) {
         ofBlocks[&block - scratch.blocks.data()] = solveBlock(world, dt, block);
     });
-    shareOut(secondsSince(start), ofBlocks, report.seconds);
+    addShares(secondsSince(start), ofBlocks, report.seconds);
     for (const GapBlock& block : scratch.blocks) {
         scratch.impacts.insert(scratch.impacts.end(), block.impacts.begin(), block.impacts.end());
     }

@@ -1,5 +1,5 @@
-// Islands that are solved block by block: nobody is left out or solved twice, and bits do not depend
-// on who else is there.
+// Islands that are solved block by block: nobody is left out or solved twice, and bits do not
+// depend on who else is there.
 #include "core/dynamics/gap_blocks.h"
 
 #include <gtest/gtest.h>
@@ -52,6 +52,7 @@ TEST(GapBlocks, EveryPairAndEveryBodyIsInOne)
     SolvedIslands().handOn(scratch);
     orderPairs(world, settings, scratch);
     scratch.islands[1].isKept = true;
+    scratch.openIslands.erase(scratch.openIslands.begin() + 1);
     layBlocks(scratch);
     ASSERT_GT(scratch.blocks.size(), 3u);
     std::vector<std::size_t> islands;
