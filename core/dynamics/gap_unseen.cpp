@@ -7,7 +7,6 @@
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_pace.h"
 #include "core/dynamics/gap_search.h"
-#include "core/dynamics/integrator.h"
 
 namespace scree {
 namespace {
@@ -15,13 +14,13 @@ namespace {
 /// An overlap that must not come unseen, as a share of the smaller body.
 constexpr double kVisible = 1e-3;
 
-/// By how much the velocity of any point of a body has changed, as solved, beyond what pulls it
+/// By how much the velocity of any point of a movable body has changed, as solved, beyond what pulls it
 /// [m/s].
 double changeOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
 {
     const GapBody& b = scratch.bodies[body];
     const BodyMotion& motion = world.motion[body];
-    const Vec3 spin = angularVelocity(motion, world.mass[body]);
+    const Vec3 spin = b.inverseInertia * motion.angularMomentum;
     return (b.velocity - motion.velocity - dt * b.pull).norm() +
            (b.spin - spin - dt * (b.inverseInertia * b.torque)).norm() *
                world.shapeOf(body).boundingRadius;
@@ -64,27 +63,44 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
 struct Struck {
     std::vector<double> change;  ///< per body [m/s]
     std::vector<char> isStruck;
-    std::vector<char> isFaster;  ///< and leaves the box that it was looked for in
-    std::vector<Aabb> boxes;     ///< that it does not leave
+    bool isAny = false;
 };
 
 Struck findStruck(const World& world, const GapScratch& scratch, double dt)
 {
     Struck struck{std::vector<double>(world.bodyCount(), 0.0),
-                  std::vector<char>(world.bodyCount(), 0), std::vector<char>(world.bodyCount(), 0),
-                  scratch.boxes};
+                  std::vector<char>(world.bodyCount(), 0)};
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) return;
         const double visible = kVisible * world.shapeOf(body).boundingRadius;
         struck.change[i] = changeOf(world, scratch, body, dt);
         struck.isStruck[i] = dt * (struck.change[i] - scratch.gain[i]) > visible;
-        const double faster = paceOf(world, scratch, body, dt).fastest(dt) -
-                              scratch.paces[i].fastest(dt) - scratch.gain[i];
-        struck.isFaster[i] = dt * faster > visible;
-        if (struck.isFaster[i]) struck.boxes[i] = struck.boxes[i].grown(dt * faster);
     });
+    struck.isAny = std::ranges::find(struck.isStruck, 1) != struck.isStruck.end();
     return struck;
+}
+
+/// Who leaves the box that it was looked for in, and the boxes that nobody leaves.
+struct Faster {
+    std::vector<char> isFaster;
+    std::vector<Aabb> boxes;
+    bool isAny = false;
+};
+
+Faster findFaster(const World& world, const GapScratch& scratch, double dt)
+{
+    Faster faster{std::vector<char>(world.bodyCount(), 0), scratch.boxes};
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
+        const auto body = static_cast<BodyId>(i);
+        if (scratch.bodies[i].inverseMass == 0.0) return;
+        const double gained = paceOf(world, scratch, body, dt).fastest(dt) -
+                              scratch.paces[i].fastest(dt) - scratch.gain[i];
+        faster.isFaster[i] = dt * gained > kVisible * world.shapeOf(body).boundingRadius;
+        if (faster.isFaster[i]) faster.boxes[i] = faster.boxes[i].grown(dt * gained);
+    });
+    faster.isAny = std::ranges::find(faster.isFaster, 1) != faster.isFaster.end();
+    return faster;
 }
 
 bool isSolvedAnew(const GapScratch& scratch, BodyPair bodies)
@@ -96,11 +112,8 @@ bool isSolvedAnew(const GapScratch& scratch, BodyPair bodies)
 std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, double dt,
                                  GapScratch& scratch)
 {
-    const auto isAny = [](const std::vector<char>& flags) {
-        return std::find(flags.begin(), flags.end(), 1) != flags.end();
-    };
     std::vector<BodyPair> unseen;
-    if (!isAny(struck.isStruck)) return unseen;
+    if (!struck.isAny) return unseen;
 
     std::vector<NearPair>& known = scratch.nearPairs;
     std::vector<char> isMet(known.size(), 0);
@@ -116,13 +129,14 @@ std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, doubl
         if (isMet[i]) unseen.push_back(known[i].bodies);
     }
 
-    if (!isAny(struck.isFaster)) return unseen;
+    const Faster faster = findFaster(world, scratch, dt);
+    if (!faster.isAny) return unseen;
     const std::vector<BodyPair>& pairs = scratch.broadPhase.findPairs(
-        struck.boxes, world.mass,
+        faster.boxes, world.mass,
         [&](BodyPair pair) {
             return isMovedPair(world, scratch, pair) && isSolvedAnew(scratch, pair);
         },
-        struck.isFaster);
+        faster.isFaster);
     isMet.assign(pairs.size(), 0);
     forEach(pairs.size(), 4, [&](std::size_t i) {
         if (std::ranges::binary_search(known, pairs[i], {}, &NearPair::bodies)) return;
