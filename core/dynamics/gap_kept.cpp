@@ -26,6 +26,23 @@ void makeRoom(std::size_t count, std::size_t taken, std::vector<GapRow>& rows)
     rows.resize(count);
 }
 
+/// What this attempt is going to solve: islands, and all bodies but those that are kept.
+void listOpen(GapScratch& scratch)
+{
+    scratch.openIslands.clear();
+    scratch.openRowCount = 0;
+    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
+        if (scratch.islands[i].isKept) continue;
+        scratch.openIslands.push_back(i);
+        scratch.openRowCount += scratch.islands[i].rowCount;
+    }
+    scratch.isSolvedAnew.resize(scratch.bodies.size(), 0);
+    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
+        const GapBody& body = scratch.bodies[i];
+        if (body.inverseMass > 0.0 && !body.isKept) scratch.isSolvedAnew[i] = 1;
+    }
+}
+
 }  // namespace
 
 SolvedIslands::SolvedIslands(const GapScratch& scratch)
@@ -126,18 +143,7 @@ void SolvedIslands::handOn(GapScratch& scratch) const
             }
         }
     });
-    scratch.openIslands.clear();
-    scratch.openRowCount = 0;
-    for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
-        if (scratch.islands[i].isKept) continue;
-        scratch.openIslands.push_back(i);
-        scratch.openRowCount += scratch.islands[i].rowCount;
-    }
-    scratch.isSolvedAnew.resize(scratch.bodies.size(), 0);
-    for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
-        const GapBody& body = scratch.bodies[i];
-        if (body.inverseMass > 0.0 && !body.isKept) scratch.isSolvedAnew[i] = 1;
-    }
+    listOpen(scratch);
     scratch.impacts.clear();
     for (const GapImpact& blow : impacts_) {
         const GapRow& row = scratch.rows[blow.row];

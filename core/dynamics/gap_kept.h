@@ -25,7 +25,7 @@ public:
 
     /// Finds room for the rows of all pairs that have been laid out. Those islands that are as they
     /// were take over their order, bodies, rows and blows, and are kept: no pass of this attempt
-    /// looks at them.
+    /// looks at them. Lists the others.
     void handOn(GapScratch& scratch) const;
 
 private:
