@@ -1,5 +1,10 @@
 // E20: a heap of mixed nonconvex bodies comes to rest in a bin; an arch and a house of cards stand;
 // a nut turns itself down a bolt. Goals: the full form takes long.
+//
+// With method `paper` arch and house fall. Both stand by thrust, which runs round through many
+// bodies and which shock propagation does nothing for; ten contact sweeps do not find it. In the
+// first second the key stone sinks by 995 mm with 10 sweeps, 104 with 50, 23 with 200; in the first
+// sixth of one a card goes by 6.9, 0.8 and 0.08 mm.
 #include <algorithm>
 #include <cmath>
 
@@ -81,6 +86,11 @@ void standing(const Context& context, const std::string& shot, const std::string
     addPicture(context, run, when + "at the end", findings);
 }
 
+double headingOf(const Quat& q)
+{
+    return 2.0 * std::atan2(q.y(), q.w());
+}
+
 /// Turns of a nut about the bolt's axis, pitch by pitch, against how far it has come down.
 void nutOnABolt(const Context& context, Findings& findings)
 {
@@ -88,20 +98,22 @@ void nutOnABolt(const Context& context, Findings& findings)
     ShotRun run(context, "E20_nut");
     const HeapRecord record = recordRun(run, 96);
     const PoseJudge judge(record.scene);
-    double deepest = 0.0, offThread = 0.0, turned = 0.0, before = 0.0;
+    const SceneFrame& start = record.frames.front();
+    double deepest = 0.0, offThread = 0.0, turned = 0.0;
+    const SceneFrame* before = &start;
     for (const SceneFrame& frame : record.frames) {
         for (const Overlap& pair : judge.overlaps(frame)) deepest = std::max(deepest, pair.depth);
         for (std::size_t b = 0; b < record.scene.bodies.size(); ++b) {
             if (!record.moves(b)) continue;
-            const Quat& q = frame.worldFromAsset[b].orientation;
-            const double heading = 2.0 * std::atan2(q.y(), q.w());
-            turned += std::remainder(heading - before, 2.0 * kPi);
-            before = heading;
-            const double fallen = record.frames.front().worldFromAsset[b].position.y() -
+            turned += std::remainder(headingOf(frame.worldFromAsset[b].orientation) -
+                                         headingOf(before->worldFromAsset[b].orientation),
+                                     2.0 * kPi);
+            const double fallen = start.worldFromAsset[b].position.y() -
                                   frame.worldFromAsset[b].position.y();
             offThread =
                 std::max(offThread, std::abs(fallen - kPitch * std::abs(turned) / (2.0 * kPi)));
         }
+        before = &frame;
     }
     findings.atMost(goal, "nut on a bolt, 4 s: overlap in any frame", deepest / kPitch, 0.02,
                     "of the pitch", "dense samples");
