@@ -10,20 +10,24 @@
 namespace scree {
 namespace {
 
-/// A keyed body beside a sleeping one moves nothing.
-bool movesSomething(const GapScratch& scratch, BodyPair bodies)
+/// A keyed body beside a sleeping one moves nothing, nor does one that the sleeper's group does not
+/// move.
+bool movesSomething(const World& world, const GapScratch& scratch, BodyPair bodies)
 {
-    return scratch.bodies[bodies.a].inverseMass > 0.0 || scratch.bodies[bodies.b].inverseMass > 0.0;
+    const auto isMovedBy = [&](BodyId body, BodyId other) {
+        return scratch.bodies[body].inverseMass > 0.0 && !isHeldBy(world, body, other);
+    };
+    return isMovedBy(bodies.a, bodies.b) || isMovedBy(bodies.b, bodies.a);
 }
 
-void collectPairs(GapScratch& scratch)
+void collectPairs(const World& world, GapScratch& scratch)
 {
     scratch.pairs.clear();
     scratch.rowCount = 0;
     for (std::size_t i = 0; i < scratch.nearPairs.size(); ++i) {
         NearPair& near = scratch.nearPairs[i];
         if (near.contacts.empty()) continue;
-        if (!movesSomething(scratch, near.bodies)) {
+        if (!movesSomething(world, scratch, near.bodies)) {
             near.contacts.clear();
             near.foundWithin = -1.0;
             near.depth = 0.0;
@@ -131,9 +135,9 @@ void shareOut(GapScratch& scratch)
 
 }  // namespace
 
-void layPairs(GapScratch& scratch)
+void layPairs(const World& world, GapScratch& scratch)
 {
-    collectPairs(scratch);
+    collectPairs(world, scratch);
     cutIntoIslands(scratch);
 }
 

@@ -18,7 +18,7 @@ constexpr std::size_t kRowsWorthACut = 1000;
 
 /// Collects the pairs for which contacts have been found, by islands. Of their rows it says how
 /// many there are, not yet where.
-void layPairs(GapScratch& scratch);
+void layPairs(const World& world, GapScratch& scratch);
 
 /// Orders the pairs of all islands that are not kept bottom to top, and cuts these for two threads
 /// where they are large.

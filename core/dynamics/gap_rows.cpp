@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/check.h"
 #include "core/base/parallel.h"
 #include "core/dynamics/rolling_friction.h"
 #include "core/geometry/surface_curvature.h"
@@ -213,6 +214,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
                 row.isHeldA = isHeldA;
                 row.isHeldB = isHeldB;
                 prepareRow(scratch, row);
+                SCREE_CHECK(row.movesA || row.movesB, "a contact that moves nobody has no impulse");
                 resistRolling(world, scratch, surface.rolling, row);
             }
             if (!pair.isCarried) continue;

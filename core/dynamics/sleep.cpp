@@ -418,7 +418,9 @@ bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
         const GapBody& bodyA = scratch.bodies[a];
         const GapBody& bodyB = scratch.bodies[b];
         const BodyId sleeper = aSleeps ? a : b, other = aSleeps ? b : a;
-        if (bears[sleeper] && !isDriven(scratch.bodies[other])) continue;
+        // What may not move the other gives way to it; a load it would not feel.
+        const bool mustGiveWay = isDriven(scratch.bodies[other]) || isHeldBy(world, other, sleeper);
+        if (bears[sleeper] && !mustGiveWay) continue;
         const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
         for (const GapContact& contact : pair.contacts) {
             const Vec3 u = bodyA.velocity + dt * bodyA.pull + bodyA.spin.cross(contact.rA) -

@@ -31,8 +31,8 @@ bool anyAsleep(const World& world);
 /// Before a step: wakes what forces no longer leave alone.
 void wakeByForces(World& world, const std::vector<AppliedForce>& forces);
 
-/// Wakes sleepers that a keyed body is about to touch, and what hangs in the air asleep and
-/// anything is about to touch. True when any woke: their own contacts must be found then.
+/// Wakes sleepers that a keyed body is about to touch or one that they do not move, and what hangs
+/// in the air asleep and anything is about to touch. True when any woke: their own contacts must be found then.
 bool wakeByTouch(World& world, double dt, const GapScratch& scratch);
 
 /// When a step has been solved, before anything moves: wakes sleepers that were struck, and those

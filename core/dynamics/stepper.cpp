@@ -299,7 +299,7 @@ void Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved, St
             findGaps(world, settings_, dt, scratch);
         else
             findGapsAgain(world, dt, scratch);
-        layPairs(scratch);
+        layPairs(world, scratch);
         solved.handOn(scratch);
         orderPairs(world, settings_, scratch);
         layBlocks(scratch);

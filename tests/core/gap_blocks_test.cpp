@@ -48,7 +48,7 @@ TEST(GapBlocks, EveryPairAndEveryBodyIsInOne)
     const StepSettings settings = screeSettings();
     GapScratch scratch;
     findGaps(world, settings, kStep, scratch);
-    layPairs(scratch);
+    layPairs(world, scratch);
     SolvedIslands().handOn(scratch);
     orderPairs(world, settings, scratch);
     scratch.islands[1].isKept = true;

@@ -158,6 +158,42 @@ TEST(GapPairs, GroupsThatDoNotCollidePassThroughEachOther)  // [A57]
     EXPECT_LT(world.motion[2].position.y(), -3.0);
 }
 
+TEST(GapPairs, WhatAnotherDoesNotMoveWakesItAndPushesItAsIfInfinitelyHeavy)  // [A57]
+{
+    World world;
+    const MaterialId ice = addMaterial(world, 0.0, 0.0);
+    addPlane(world, ice);
+    const BodyId debris =
+        addBody(world, boxShape(Vec3::Ones(), 2), ice, {{0.0, 0.5, 0.0}, Quat::Identity()}, 50.0);
+    const BodyId hero = addBody(world, boxShape(Vec3::Ones(), 2), ice,
+                                {{-4.0, 0.5, 0.0}, Quat::Identity()}, 1.0, {3.0, 0.0, 0.0});
+    world.info[debris].groups.group = 2;
+    world.info[hero].groups.unmovedBy = 2;
+    runFrames(world, screeSettings(), 0.9);
+    ASSERT_TRUE(world.contactMemory.isAsleep(debris));
+    runFrames(world, screeSettings(), 1.0);
+    EXPECT_NEAR(world.motion[hero].velocity.x(), 3.0, 1e-12);
+    EXPECT_NEAR(world.motion[debris].velocity.x(), 3.0, 1e-6);
+    EXPECT_NEAR(world.motion[debris].position.x() - world.motion[hero].position.x(), 1.0, 1e-3);
+}
+
+TEST(GapPairs, WhatLiesOnASleeperThatDoesNotMoveItDoesNotHarmEither)  // [A57]
+{
+    World world;
+    const MaterialId wood = addMaterial(world, 0.5, 0.0);
+    addPlane(world, wood);
+    const BodyId debris =
+        addBody(world, boxShape(Vec3::Ones(), 2), wood, {{0.0, 0.5, 0.0}, Quat::Identity()});
+    const BodyId hero =
+        addBody(world, boxShape(Vec3::Ones(), 2), wood, {{0.1, 9.0, 0.0}, Quat::Identity()});
+    world.info[debris].groups.group = 2;
+    world.info[hero].groups.unmovedBy = 2;
+    runFrames(world, screeSettings(), 5.0);
+    // It falls through what cannot stop it, as far as the floor, which can.
+    EXPECT_NEAR(world.motion[hero].position.y(), 0.5, 1e-3);
+    EXPECT_TRUE(world.motion[debris].position.allFinite());
+}
+
 TEST(GapPairs, AnExceptionForTwoMaterialsReplacesTheRule)  // [A27]
 {
     World world;

@@ -62,7 +62,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
 {
     const StepSettings settings = screeSettings();
     isAgain ? findGapsAgain(world, kStep, scratch) : findGaps(world, settings, kStep, scratch);
-    layPairs(scratch);
+    layPairs(world, scratch);
     solved.handOn(scratch);
     orderPairs(world, settings, scratch);
     layBlocks(scratch);
