@@ -5,11 +5,14 @@
 //   checksum  8 bytes: hashBytes of all before it
 #include "io/frame_file.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "core/base/check.h"
 #include "core/base/error.h"
@@ -317,6 +320,39 @@ void addLastStep(FrameEncoder& encoder, const std::optional<StepSeen>& step)
     encoder.add("contact.impulse", 3, impulse);
 }
 
+/// The fields of a state are indices and numbers that a step goes by without asking: a file whose
+/// checksum fits may still come from another program.
+void checkState(const FrameDecoder& decoder, const FrameState& state)
+{
+    const auto require = [&](bool isRight, const std::string& otherwise) {
+        if (!isRight) decoder.fail(otherwise);
+    };
+    require(state.clock.frame >= 0 && state.clock.subStep >= 0 &&
+                std::isfinite(state.clock.frameTimeDone) && state.clock.frameTimeDone >= 0.0,
+            "the clock shows a time that never was");
+    std::vector<char> isThere(state.order.size(), 0);
+    for (const BodyId body : state.order) {
+        const bool isNew = body >= 0 && static_cast<std::size_t>(body) < isThere.size() &&
+                           !isThere[static_cast<std::size_t>(body)];
+        require(isNew, "the order of bodies does not name each of them once");
+        isThere[static_cast<std::size_t>(body)] = 1;
+    }
+    for (std::size_t i = 0; i < state.motion.size(); ++i) {
+        const BodyMotion& m = state.motion[i];
+        require(m.position.allFinite() && m.orientation.coeffs().allFinite() &&
+                    m.velocity.allFinite() && m.angularMomentum.allFinite(),
+                "body " + std::to_string(i) + " moves by what is no number");
+    }
+    const std::vector<RememberedContact>& contacts = state.contactMemory.contacts;
+    for (const RememberedContact& contact : contacts) {
+        for (const BodyId body : {contact.a, contact.b})
+            require(body >= 0 && static_cast<std::size_t>(body) < state.motion.size(),
+                    "a remembered contact is of a body that does not exist");
+    }
+    const auto bodiesOf = [](const RememberedContact& c) { return std::pair(c.a, c.b); };
+    require(std::ranges::is_sorted(contacts, {}, bodiesOf), "remembered contacts are not in order");
+}
+
 void readState(const FrameDecoder& decoder, std::uint64_t bodyCount, FrameState& state)
 {
     const auto steps = decoder.read<std::int64_t>("clock.steps", 1, 2);
@@ -347,12 +383,9 @@ void readMemory(const FrameDecoder& decoder, std::uint64_t bodyCount, ContactMem
     const auto place = decoder.read<double>("memory.place", contacts, 3);
     const auto force = decoder.read<double>("memory.force", contacts, 3);
     for (std::size_t i = 0; i < contacts; ++i) {
-        const std::int32_t a = bodies[2 * i], b = bodies[2 * i + 1];
-        const auto count = static_cast<std::int64_t>(bodyCount);
-        if (a < 0 || b < 0 || a >= count || b >= count)
-            decoder.fail("a remembered contact is of a body that does not exist");
-        memory.contacts.push_back({a, b, std::bit_cast<std::uint64_t>(features[i]),
-                                   vectorAt(place, i), vectorAt(force, i), Vec3::Zero()});
+        memory.contacts.push_back({bodies[2 * i], bodies[2 * i + 1],
+                                   std::bit_cast<std::uint64_t>(features[i]), vectorAt(place, i),
+                                   vectorAt(force, i), Vec3::Zero()});
     }
     if (decoder.rowsOf("memory.couple") > 0) {
         const auto couple = decoder.read<double>("memory.couple", contacts, 3);
@@ -468,6 +501,7 @@ FrameState decodeFrame(std::string_view bytes, const std::filesystem::path& path
     state.scene.frame = static_cast<int>(decoder.header().frame);
     readState(decoder, decoder.header().bodyCount, state);
     readMemory(decoder, decoder.header().bodyCount, state.contactMemory);
+    checkState(decoder, state);
     const std::uint64_t bodyCount = decoder.header().bodyCount;
     readPoses(decoder, "asset", bodyCount, {&state.scene, 1});
     // A frame was reached from the one before; a checkpoint stands behind the frame it left.

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <initializer_list>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
@@ -131,6 +134,35 @@ TEST_F(TakeTest, EveryCutOfAFrameIsNoticed)
     const std::string bytes = encodeFrame(captureState(shot, world));
     for (std::size_t size = 0; size < bytes.size(); ++size)
         EXPECT_THROW(decodeFrame(bytes.substr(0, size), "memory"), Error) << size << " bytes";
+}
+
+TEST_F(TakeTest, AStateThatNoStepCouldGoOnFromIsRefusedThoughItsChecksumFits)
+{
+    const FrameState good = captureState(shot, world);
+    const auto expectRefusal = [&](const std::string& reason, const auto& spoil) {
+        FrameState state = good;
+        spoil(state);
+        try {
+            decodeFrame(encodeFrame(state), "memory");
+            ADD_FAILURE() << "not refused: " << reason;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+        }
+    };
+    const auto remember = [](FrameState& state, std::initializer_list<std::pair<BodyId, BodyId>> pairs) {
+        state.contactMemory.dt = 0.01;
+        for (const auto& [a, b] : pairs)
+            state.contactMemory.contacts.push_back(
+                {a, b, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+    };
+    EXPECT_NO_THROW(decodeFrame(encodeFrame(good), "memory"));
+    for (const BodyId wrong : {2000000000, -1, good.order[0]})
+        expectRefusal("order of bodies", [&](FrameState& s) { s.order[1] = wrong; });
+    expectRefusal("clock", [](FrameState& s) { s.clock.subStep = -1; });
+    expectRefusal("clock", [](FrameState& s) { s.clock.frameTimeDone = NAN; });
+    expectRefusal("body 1", [](FrameState& s) { s.motion[1].velocity.y() = INFINITY; });
+    expectRefusal("does not exist", [&](FrameState& s) { remember(s, {{0, 2}}); });
+    expectRefusal("not in order", [&](FrameState& s) { remember(s, {{1, 1}, {0, 1}}); });
 }
 
 TEST_F(TakeTest, ReaderFindsThePosesOfTheAssetsInTheShotsUnit)
