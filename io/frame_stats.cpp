@@ -61,8 +61,8 @@ FrameSummary summaryFromLine(const std::string& line)
     summary.contactPairs = json.at("contact_pairs");
     summary.bodiesAwake = json.at("bodies_awake");
     summary.overlapRatio = json.at("overlap").at("worst_ratio");
-    summary.deepestA = json.at("overlap").at("bodies").at(0);
-    summary.deepestB = json.at("overlap").at("bodies").at(1);
+    summary.worstA = json.at("overlap").at("bodies").at(0);
+    summary.worstB = json.at("overlap").at("bodies").at(1);
     summary.kineticEnergy = json.at("kinetic_energy_J");
     summary.stateHash = json.at("state_hash");
     summary.line = line;
@@ -100,8 +100,8 @@ std::string encodeStats(const FrameStats& stats, const World& world)
         {"overlap",
          {{"before_push_out_m", sum.deepestBeforePushOut},
           {"after_push_out_m", sum.deepestAfterPushOut},
-          {"worst_ratio", frame.worstOverlapRatio},
-          {"bodies", {bodyName(world, sum.deepestA), bodyName(world, sum.deepestB)}}}},
+          {"worst_ratio", sum.worstOverlapRatio},
+          {"bodies", {bodyName(world, sum.worstA), bodyName(world, sum.worstB)}}}},
         {"push_out_work_J", sum.pushOutWork},
         {"kinetic_energy_J", frame.kineticEnergy},
         {"potential_energy_J", frame.potentialEnergy},

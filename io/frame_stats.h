@@ -31,7 +31,7 @@ struct FrameSummary {
     std::int64_t contactPairs = 0;
     int bodiesAwake = 0;
     double overlapRatio = 0.0;       ///< worst, of the smaller body's longest box edge
-    std::string deepestA, deepestB;  ///< the bodies of the deepest overlap; may be empty
+    std::string worstA, worstB;  ///< the bodies of the worst ratio; may be empty
     double kineticEnergy = 0.0;      ///< [J]
     std::string stateHash;           ///< 16 hexadecimal digits
     std::string line;                ///< as it stands in the file

@@ -64,9 +64,9 @@ void printText(const TakeReader& take, const TakeSummary& summary)
     std::printf(
         "overlap    worst %.3g %% of a body's length, frame %d%s\n",
         100.0 * summary.worst.overlapRatio, summary.worst.frame,
-        summary.worst.deepestA.empty()
+        summary.worst.worstA.empty()
             ? ""
-            : (" (" + summary.worst.deepestA + ", " + summary.worst.deepestB + ")").c_str());
+            : (" (" + summary.worst.worstA + ", " + summary.worst.worstB + ")").c_str());
     std::printf("at the end kinetic energy %.4g J, %d awake, state %s\n",
                 summary.last.kineticEnergy, summary.last.bodiesAwake,
                 summary.last.stateHash.c_str());

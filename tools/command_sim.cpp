@@ -252,27 +252,30 @@ private:
         const int every = std::max(1, static_cast<int>(std::lround(2.0 * shot_.framesPerSecond)));
         if ((frame - shot_.firstFrame) % every != 0 && frame != shot_.lastFrame) return;
         const std::vector<StartOverlap> deeper =
-            findStartOverlaps(world_, report.worstOverlapRatio);
+            findStartOverlaps(world_, report.sum.worstOverlapRatio);
         if (deeper.empty()) return;
-        report.worstOverlapRatio = deeper.front().ratio;
-        report.sum.deepestAfterPushOut = deeper.front().depth;
-        report.sum.deepestA = deeper.front().a;
-        report.sum.deepestB = deeper.front().b;
+        for (const StartOverlap& overlap : deeper) {
+            report.sum.deepestAfterPushOut =
+                std::max(report.sum.deepestAfterPushOut, overlap.depth);
+        }
+        report.sum.worstOverlapRatio = deeper.front().ratio;
+        report.sum.worstA = deeper.front().a;
+        report.sum.worstB = deeper.front().b;
     }
 
     /// Every breach is in stats.jsonl; here each grade is told once when it happens, so that a
     /// night's log stays short.
     void warnOfOverlap(int frame, const FrameReport& report)
     {
-        const double ratio = report.worstOverlapRatio;
+        const double ratio = report.sum.worstOverlapRatio;
         if (ratio <= shot_.penetrationWarn) return;
         const bool isFailure = ratio > shot_.penetrationFail;
         const auto bodyName = [&](BodyId body) {
             return body >= 0 ? world_.info[body].name : std::string("?");
         };
         const std::string text =
-            "frame " + std::to_string(frame) + ": " + bodyName(report.sum.deepestA) + " and " +
-            bodyName(report.sum.deepestB) + " overlap by " + percent(ratio) +
+            "frame " + std::to_string(frame) + ": " + bodyName(report.sum.worstA) + " and " +
+            bodyName(report.sum.worstB) + " overlap by " + percent(ratio) +
             " of the smaller one's length, " +
             (isFailure ? "beyond penetration.fail; the run goes on" : "beyond penetration.warn");
         bool& wasTold = isFailure ? toldFailure_ : toldWarning_;
@@ -327,7 +330,7 @@ private:
             "; worst:";
         for (std::size_t i = 0; i < std::min(broken.size(), kNamedFrames); ++i)
             text += (i == 0 ? " " : "; ") + std::to_string(broken[i].frame) + " (" +
-                    broken[i].deepestA + ", " + broken[i].deepestB + ": " +
+                    broken[i].worstA + ", " + broken[i].worstB + ": " +
                     percent(broken[i].overlapRatio) + ")";
         console_.error(text);
         return false;

@@ -58,9 +58,7 @@ Nearest nearestSurface(const Shape& field, const Vec3& point)
 Vec3 deepestOfBall(const Shape& field, const Vec3& centre, double radius)
 {
     const Nearest nearest = nearestSurface(field, centre);
-    const double thickness =
-        field.isPlane ? std::numeric_limits<double>::infinity() : field.innerThickness;
-    const double depth = std::min(radius - nearest.phi, 0.5 * thickness);
+    const double depth = std::min(radius - nearest.phi, 0.5 * field.thickness());
     return centre - (nearest.phi + depth) * nearest.outward;
 }
 

@@ -4,7 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/collision/interference.h"
-#include "core/dynamics/scratch.h"
+#include "core/dynamics/body_pairs.h"
 
 namespace scree {
 namespace {
@@ -41,6 +41,7 @@ public:
     {
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             if (!box.overlaps(boxes_[i])) continue;
+            if (!acceptEachOther(world_, {newcomer, bodies_[i]})) continue;
             if (interfere(world_, newcomer, bodies_[i])) return bodies_[i];
         }
         return -1;

@@ -321,24 +321,20 @@ PushOutTally separateGaps(World& world, const StepSettings& settings, GapScratch
     return tally;
 }
 
-DeepestOverlap findDeepestGap(const GapScratch& scratch)
+WorstOverlap findWorstGap(const World& world, const GapScratch& scratch)
 {
     // The first of equal ones counts, however many threads there are.
     constexpr std::size_t kTogether = 1024;
     const std::vector<NearPair>& pairs = scratch.nearPairs;
-    std::vector<DeepestOverlap> deepest((pairs.size() + kTogether - 1) / kTogether);
-    forEach(deepest.size(), 1, [&](std::size_t part) {
+    std::vector<WorstOverlap> ofParts((pairs.size() + kTogether - 1) / kTogether);
+    forEach(ofParts.size(), 1, [&](std::size_t part) {
         const std::size_t end = std::min((part + 1) * kTogether, pairs.size());
-        for (std::size_t i = part * kTogether; i < end; ++i) {
-            const auto [a, b] = pairs[i].bodies;
-            if (pairs[i].depth > deepest[part].depth) deepest[part] = {pairs[i].depth, a, b};
-        }
+        for (std::size_t i = part * kTogether; i < end; ++i)
+            ofParts[part].include(world, pairs[i].bodies, pairs[i].depth);
     });
-    DeepestOverlap overall;
-    for (const DeepestOverlap& one : deepest) {
-        if (one.depth > overall.depth) overall = one;
-    }
-    return overall;
+    WorstOverlap worst;
+    for (const WorstOverlap& one : ofParts) worst.include(one);
+    return worst;
 }
 
 }  // namespace scree

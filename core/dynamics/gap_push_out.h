@@ -11,8 +11,8 @@ namespace scree {
 /// bodies must be their displacements of this step. Leaves in every pair the depth that is left.
 PushOutTally separateGaps(World& world, const StepSettings& settings, GapScratch& scratch);
 
-/// The deepest overlap of any pair as last seen: at the beginning of the step, or, where deep ones
+/// The worst overlap of any pair as last seen: at the beginning of the step, or, where deep ones
 /// were drawn apart, since.
-DeepestOverlap findDeepestGap(const GapScratch& scratch);
+WorstOverlap findWorstGap(const World& world, const GapScratch& scratch);
 
 }  // namespace scree

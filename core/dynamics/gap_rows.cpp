@@ -129,21 +129,11 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
 
 }  // namespace
 
-bool isHeldBy(const World& world, BodyId body, BodyId other)
-{
-    return (world.info[body].groups.unmovedBy & world.info[other].groups.group) != 0;
-}
-
 double deepestOf(const std::vector<GapContact>& contacts)
 {
     double deepest = 0.0;
     for (const GapContact& contact : contacts) deepest = std::max(deepest, -contact.gap);
     return deepest;
-}
-
-double smallerRadius(const World& world, BodyId a, BodyId b)
-{
-    return smallerRadius(world.shapeOf(a), world.shapeOf(b));
 }
 
 void prepareRow(const GapScratch& scratch, GapRow& row)

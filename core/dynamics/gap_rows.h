@@ -12,9 +12,12 @@
 
 #include "core/base/fetch.h"
 #include "core/base/parallel.h"
+#include "core/collision/broad_phase.h"
 #include "core/collision/near_features.h"
+#include "core/dynamics/body_pairs.h"
+#include "core/dynamics/forces.h"
 #include "core/dynamics/friction.h"
-#include "core/dynamics/scratch.h"
+#include "core/dynamics/impulse.h"
 
 namespace scree {
 
@@ -244,14 +247,8 @@ inline BodyPair bodiesOf(const RememberedContact& contact)
     return {contact.a, contact.b};
 }
 
-/// Whether the group of `body` keeps it from being moved by `other`.
-bool isHeldBy(const World& world, BodyId body, BodyId other);
-
 /// Depth of the deepest overlap; 0 when all are apart [m].
 double deepestOf(const std::vector<GapContact>& contacts);
-
-/// Bounding radius of the smaller body of a pair [m].
-double smallerRadius(const World& world, BodyId a, BodyId b);
 
 /// Relative velocity of the two surfaces at a row, A's against B's.
 inline Vec3 velocityAt(const GapRow& row, const GapBody& a, const GapBody& b)

@@ -108,7 +108,7 @@ PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const Ste
         });
 }
 
-DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch)
+WorstOverlap findWorstOverlap(const World& world, StepScratch& scratch)
 {
     parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -122,13 +122,10 @@ DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch)
                 pair.depth = std::max(0.0, -deepest->phi);
         }
     });
-    DeepestOverlap result;
-    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
-        const PairRecord& pair = scratch.pairs[i];
-        if (pair.depth <= result.depth) continue;
-        result = {pair.depth, pair.bodies.a, pair.bodies.b};
-    }
-    return result;
+    WorstOverlap worst;
+    for (std::size_t i = 0; i < scratch.pairCount; ++i)
+        worst.include(world, scratch.pairs[i].bodies, scratch.pairs[i].depth);
+    return worst;
 }
 
 }  // namespace scree

@@ -28,11 +28,7 @@ double admissibleShare(const Shape& shape, const Vec3& shift, const Vec3& turn);
 PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const StepSettings& settings,
                               StepScratch& scratch);
 
-/// The deepest interference below 0 of any touching pair where the bodies are now.
-struct DeepestOverlap {
-    double depth = 0.0;  ///< [m], ≥ 0
-    BodyId a = -1, b = -1;
-};
-DeepestOverlap findDeepestOverlap(const World& world, StepScratch& scratch);
+/// The worst interference below 0 of the touching pairs where the bodies are now.
+WorstOverlap findWorstOverlap(const World& world, StepScratch& scratch);
 
 }  // namespace scree

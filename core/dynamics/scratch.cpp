@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/integrator.h"
-#include "core/dynamics/rolling_friction.h"
 
 namespace scree {
 namespace {
@@ -55,15 +53,6 @@ Aabb sweptBox(const World& world, BodyId body, const AppliedForce& force, double
     return swept.grown(contourValue(shape, shape));
 }
 
-const MaterialPair* exceptionFor(const World& world, BodyPair bodies)
-{
-    const MaterialId a = world.info[bodies.a].material, b = world.info[bodies.b].material;
-    for (const MaterialPair& pair : world.materialPairs) {
-        if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return &pair;
-    }
-    return nullptr;
-}
-
 /// The pairs whose swept boxes meet and that may collide, sorted.
 const std::vector<BodyPair>& meetingBoxes(const World& world, StepScratch& scratch)
 {
@@ -102,10 +91,8 @@ void describePair(const World& world, const StepSettings& settings, PairRecord& 
     record.friction = surface.friction;
     record.restitution = surface.restitution;
     record.rolling = surface.rolling;
-    const CollisionGroups &groupsA = world.info[bodies.a].groups,
-                          &groupsB = world.info[bodies.b].groups;
-    record.aIsHeld = (groupsA.unmovedBy & groupsB.group) != 0;
-    record.bIsHeld = (groupsB.unmovedBy & groupsA.group) != 0;
+    record.aIsHeld = isHeldBy(world, bodies.a, bodies.b);
+    record.bIsHeld = isHeldBy(world, bodies.b, bodies.a);
     record.interferesNow = record.isTouched = false;
     record.aFallsOnB = record.bFallsOnA = record.aLeavesB = record.bLeavesA = false;
 }
@@ -123,11 +110,8 @@ double lookMargin(const World& world, const StepSettings& settings, BodyPair bod
     const double speed =
         (world.motion[bodies.a].velocity - world.motion[bodies.b].velocity).norm() +
         speedOfSurface(world, bodies.a) + speedOfSurface(world, bodies.b);
-    const auto thickness = [&](BodyId body) {
-        const Shape& shape = world.shapeOf(body);
-        return shape.isPlane ? std::numeric_limits<double>::infinity() : shape.innerThickness;
-    };
-    const double thinner = std::min(thickness(bodies.a), thickness(bodies.b));
+    const double thinner =
+        std::min(world.shapeOf(bodies.a).thickness(), world.shapeOf(bodies.b).thickness());
     return std::max(1e-3 * thinner, 8.0 * dt * (speed + dt * settings.gravity.norm()));
 }
 
@@ -141,36 +125,27 @@ void beginPair(const World& world, const StepSettings& settings, double dt, bool
     pair.searched = pair.quiet = {};
 }
 
-}  // namespace
-
-bool mayCollide(const World& world, BodyPair pair)
+/// Order of processing: by the place of the later body in World::order, then of the earlier.  [A21]
+void sortPairs(const World& world, StepScratch& scratch)
 {
-    const CollisionGroups &a = world.info[pair.a].groups, &b = world.info[pair.b].groups;
-    if (!(a.collidesWith & b.group) || !(b.collidesWith & a.group)) return false;
-    const bool aMoves = world.mass[pair.a].isMovable() && !(a.unmovedBy & b.group);
-    const bool bMoves = world.mass[pair.b].isMovable() && !(b.unmovedBy & a.group);
-    return aMoves || bMoves;
-}
-
-PairSurface surfaceOf(const World& world, const StepSettings& settings, BodyPair bodies)
-{
-    const Material& a = world.materialOf(bodies.a);
-    const Material& b = world.materialOf(bodies.b);
-    PairSurface surface{combined(settings.frictionRule, a.friction, b.friction),
-                        combined(settings.restitutionRule, a.restitution, b.restitution),
-                        largerOf(a.rolling, b.rolling)};
-    if (const MaterialPair* special = exceptionFor(world, bodies)) {
-        surface.friction = special->friction.value_or(surface.friction);
-        surface.restitution = special->restitution.value_or(surface.restitution);
+    scratch.rank.resize(world.bodyCount());
+    for (std::size_t place = 0; place < world.order.size(); ++place) {
+        scratch.rank[world.order[place]] = place;
     }
-    return surface;
+    scratch.pairOrder.resize(scratch.pairCount);
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) scratch.pairOrder[i] = i;
+    std::sort(scratch.pairOrder.begin(), scratch.pairOrder.end(),
+              [&](std::size_t p, std::size_t q) {
+                  const auto key = [&](std::size_t pair) {
+                      const std::size_t a = scratch.rank[scratch.pairs[pair].bodies.a];
+                      const std::size_t b = scratch.rank[scratch.pairs[pair].bodies.b];
+                      return std::pair(std::max(a, b), std::min(a, b));
+                  };
+                  return key(p) < key(q);
+              });
 }
 
-Aabb boxAt(const Shape& shape, const Pose& pose)
-{
-    if (shape.isPlane) return shape.box;
-    return transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position);
-}
+}  // namespace
 
 void findCandidates(const World& world, const StepSettings& settings, double remaining,
                     StepScratch& scratch)
@@ -193,25 +168,6 @@ void findPairs(const World& world, const StepSettings& settings, double remainin
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         describePair(world, settings, scratch.pairs[i]);
     }
-}
-
-void sortPairs(const World& world, StepScratch& scratch)
-{
-    scratch.rank.resize(world.bodyCount());
-    for (std::size_t place = 0; place < world.order.size(); ++place) {
-        scratch.rank[world.order[place]] = place;
-    }
-    scratch.pairOrder.resize(scratch.pairCount);
-    for (std::size_t i = 0; i < scratch.pairCount; ++i) scratch.pairOrder[i] = i;
-    std::sort(scratch.pairOrder.begin(), scratch.pairOrder.end(),
-              [&](std::size_t p, std::size_t q) {
-                  const auto key = [&](std::size_t pair) {
-                      const std::size_t a = scratch.rank[scratch.pairs[pair].bodies.a];
-                      const std::size_t b = scratch.rank[scratch.pairs[pair].bodies.b];
-                      return std::pair(std::max(a, b), std::min(a, b));
-                  };
-                  return key(p) < key(q);
-              });
 }
 
 void beginStep(const World& world, const StepSettings& settings, double dt, StepScratch& scratch)

@@ -9,6 +9,7 @@
 #include "core/collision/interference.h"
 #include "core/diagnostics/step_observer.h"
 #include "core/diagnostics/step_report.h"
+#include "core/dynamics/body_pairs.h"
 #include "core/dynamics/forces.h"
 #include "core/dynamics/impulse.h"
 #include "core/dynamics/settings.h"
@@ -40,7 +41,7 @@ struct PairRecord {
     SkipStamp searched;      ///< interferesNow is known for this state of the bodies
     SkipStamp quiet;         ///< in this state a visit by contact had nothing to do
     Proximity proximity;
-    double depth = 0.0;  ///< where the step ends, by findDeepestOverlap [m]
+    double depth = 0.0;  ///< where the step ends, by findWorstOverlap [m]
 
     /// What the step has applied so far at one sample; noted for an observer only.
     struct NotedImpulse {
@@ -70,21 +71,6 @@ struct StepScratch {
     std::vector<Pose> driftPose;       // per body: predicted without
 };
 
-/// The world box of a placed shape; a plane's is everything.
-Aabb boxAt(const Shape& shape, const Pose& pose);
-
-/// What two surfaces are to each other.
-struct PairSurface {
-    double friction, restitution;
-    RollingFriction rolling;
-};
-
-/// By the rules of combination, unless the world has an exception for the two materials.  [A27]
-PairSurface surfaceOf(const World& world, const StepSettings& settings, BodyPair bodies);
-
-/// Whether groups let the pair collide, and anything could come of it.  [A57]
-bool mayCollide(const World& world, BodyPair pair);
-
 /// Finds the pairs that may meet in the `remaining` time of the frame. Keyed bodies are swept along
 /// their scripts.
 void findCandidates(const World& world, const StepSettings& settings, double remaining,
@@ -101,9 +87,6 @@ void beginStep(const World& world, const StepSettings& settings, double dt, Step
 /// pairs only grows and what is known of the old ones stays.
 void widenPairs(const World& world, const StepSettings& settings, double dt, StepScratch& scratch);
 
-/// Order of processing: by the place of the later body in World::order, then of the earlier.  [A21]
-void sortPairs(const World& world, StepScratch& scratch);
-
 /// Both predictions of one body from its present velocities; those of a body that cannot be moved
 /// are set by beginStep and stay, so that threads may share it.
 void predictBody(const World& world, const StepSettings& settings, double dt, BodyId body,
@@ -119,13 +102,7 @@ inline SkipStamp stampOf(const PairRecord& pair, const StepScratch& scratch)
 void noteImpulse(const World& world, const StepSettings& settings, double dt, BodyPair bodies,
                  StepScratch& scratch);
 
-/// Two bodies where they are.
-inline PlacedPair placePair(const World& world, BodyPair bodies)
-{
-    const auto [a, b] = bodies;
-    return {&world.shapeOf(a), &world.shapeOf(b), world.motion[a].worldFromBody(),
-            world.motion[b].worldFromBody()};
-}
+/// The two bodies of a pair elsewhere than they are.
 inline PlacedPair placePair(const World& world, const PairRecord& pair, const Pose& worldFromA,
                             const Pose& worldFromB)
 {

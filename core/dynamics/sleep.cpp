@@ -33,11 +33,6 @@ constexpr double kBalanced = 0.02, kUnbalanced = 0.1;
 /// ring, is no blow: it learns of it by its load, after the step.
 constexpr double kGentle = 0.01;
 
-bool isStepped(const World& world, BodyId body)
-{
-    return world.mass[body].isMovable() && !world.contactMemory.isAsleep(body);
-}
-
 void wake(BodyRest& rest)
 {
     rest.isAsleep = false;
@@ -205,7 +200,7 @@ std::vector<ContactLoad> loadsOf(const std::vector<BodyId>& sleepers, const Worl
     std::vector<char> isOne(world.bodyCount(), 0);
     for (const BodyId body : sleepers) isOne[body] = 1;
     std::vector<ContactLoad> loads = contactLoads(world, [&](BodyId a, BodyId b) {
-        return (isOne[a] || isOne[b]) && !isStepped(world, a) && !isStepped(world, b);
+        return (isOne[a] || isOne[b]) && !world.isStepped(a) && !world.isStepped(b);
     });
     const auto add = [&](const GapRow& row, const Vec3& impulse, const Vec3& couple) {
         loads[row.a].add(row.rA, impulse / dt, couple / dt);
@@ -313,7 +308,7 @@ void fallAsleep(World& world, GapScratch& scratch)
     rest.resize(world.bodyCount());
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
-        if (!isStepped(world, body)) continue;
+        if (!world.isStepped(body)) continue;
         goOn(world, body, kStill, rest[i].still);
         goOn(world, body, kNearby, rest[i].nearby);
     }
@@ -325,7 +320,7 @@ void fallAsleep(World& world, GapScratch& scratch)
         if (row.impulse.x() == 0.0) continue;
         const auto a = static_cast<std::size_t>(row.a), b = static_cast<std::size_t>(row.b);
         isCarried[a] = isCarried[b] = 1;
-        if (isStepped(world, row.a) && isStepped(world, row.b)) sets.join(a, b);
+        if (world.isStepped(row.a) && world.isStepped(row.b)) sets.join(a, b);
     }
     for (const GapRow& row : scratch.rows) {
         if (row.impulse.x() == 0.0) continue;
@@ -339,7 +334,7 @@ void fallAsleep(World& world, GapScratch& scratch)
     std::vector<char> maySleep(world.bodyCount(), 0);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
-        if (!isStepped(world, body)) continue;
+        if (!world.isStepped(body)) continue;
         maySleep[i] = rest[i].still.frames >= kStillFrames &&
                       isBalanced(world, body, loads[i], scratch.forces[i], kBalanced);
         if (isCarried[i] && !isDrivenSet[sets.find(i)])

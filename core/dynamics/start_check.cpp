@@ -116,16 +116,6 @@ private:
     std::map<const Shape*, Inside> inside_;
 };
 
-double smallerEdge(const World& world, BodyId a, BodyId b)
-{
-    double smaller = std::numeric_limits<double>::infinity();
-    for (const BodyId body : {a, b}) {
-        const Shape& shape = world.shapeOf(body);
-        if (!shape.isPlane) smaller = std::min(smaller, shape.box.longestEdge());
-    }
-    return smaller;
-}
-
 /// One sweep of push-out over everything that overlaps.
 void separateOnce(World& world, const StepSettings& settings)
 {
@@ -252,10 +242,10 @@ std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRati
         for (std::size_t i = begin; i < end; ++i) {
             const auto [a, b] = pairs[i];
             const PlacedPair pair = placePair(world, pairs[i]);
-            const double edge = smallerEdge(world, a, b), least = leastRatio * edge;
+            const double least = leastRatio * smallerEdge(world, a, b);
             if (apartAtLeast(pair) > -least) continue;
             const double depth = innerDepth(a, b, std::max(depthOf(pair, least), least));
-            if (depth > least) found[i] = {a, b, depth, depth / edge};
+            if (depth > least) found[i] = {a, b, depth, overlapRatio(world, pairs[i], depth)};
         }
     });
     std::vector<StartOverlap> overlaps;

@@ -29,17 +29,6 @@ constexpr double kFallPerStep = 0.02;
 /// known to first order: what turns by φ beside another sinks into it by φ²/2 of its radius.
 constexpr double kTurnPerStep = 0.16;
 
-bool isStepped(const World& world, BodyId body)
-{
-    return world.mass[body].isMovable() && !world.contactMemory.isAsleep(body);
-}
-
-double thickness(const World& world, BodyId body)
-{
-    const Shape& shape = world.shapeOf(body);
-    return shape.isPlane ? std::numeric_limits<double>::infinity() : shape.innerThickness;
-}
-
 /// How a body may move in the rest of the frame, as far as its present motion or its script tell.
 struct Outlook {
     Vec3 velocity = Vec3::Zero();
@@ -106,7 +95,7 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
 {
     const auto [a, b] = pair;
     const double alpha = alphaPerSafety(settings.method) * settings.substeps.safety;
-    const double thinner = std::min(thickness(world, a), thickness(world, b));
+    const double thinner = std::min(world.shapeOf(a).thickness(), world.shapeOf(b).thickness());
     const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
     const BodyId faster =
         world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
@@ -122,7 +111,7 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
         tighten(limit, kTurnPerStep * settings.substeps.safety / spin, StepLimit::spin,
                 outlooks[a].spin > outlooks[b].spin ? a : b);
     }
-    if (g > 0.0 && (isPaper || isStepped(world, a) || isStepped(world, b))) {
+    if (g > 0.0 && (isPaper || world.isStepped(a) || world.isStepped(b))) {
         const double share = isPaper ? settings.hoverLimit : kFallPerStep;
         tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
     }
@@ -139,7 +128,7 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
     constexpr int kLeastSteps = 4, kStepsTogether = 2;
     const bool mayTouch = std::any_of(
         scratch.candidates.begin(), scratch.candidates.end(),
-        [&](const BodyPair& pair) { return isStepped(world, pair.a) || isStepped(world, pair.b); });
+        [&](const BodyPair& pair) { return world.isStepped(pair.a) || world.isStepped(pair.b); });
     int steps = static_cast<int>(std::ceil(frameDuration / longest - 1e-9));
     if (mayTouch) {
         steps = (steps + kStepsTogether - 1) / kStepsTogether * kStepsTogether;

@@ -120,7 +120,15 @@ void describeGraph(const ContactGraph& graph, const StepScratch& scratch, StepRe
     }
 }
 
-void addStep(const World& world, const StepReport& step, FrameReport& frame)
+void describeOverlap(const WorstOverlap& worst, StepReport& report)
+{
+    report.deepestAfterPushOut = worst.depth;
+    report.worstOverlapRatio = worst.ratio;
+    report.worstA = worst.a;
+    report.worstB = worst.b;
+}
+
+void addStep(const StepReport& step, FrameReport& frame)
 {
     StepReport& sum = frame.sum;
     if (frame.steps == 0 || step.dt < frame.shortestStep) {
@@ -143,17 +151,11 @@ void addStep(const World& world, const StepReport& step, FrameReport& frame)
     sum.pushesCut += step.pushesCut;
     sum.pushOutWork += step.pushOutWork;
     sum.deepestBeforePushOut = std::max(sum.deepestBeforePushOut, step.deepestBeforePushOut);
-    if (step.deepestAfterPushOut > sum.deepestAfterPushOut) {
-        sum.deepestAfterPushOut = step.deepestAfterPushOut;
-        sum.deepestA = step.deepestA;
-        sum.deepestB = step.deepestB;
-        double smaller = 1e300;
-        for (BodyId body : {step.deepestA, step.deepestB}) {
-            const Shape& shape = world.shapeOf(body);
-            if (!shape.isPlane) smaller = std::min(smaller, shape.box.longestEdge());
-        }
-        frame.worstOverlapRatio =
-            std::max(frame.worstOverlapRatio, step.deepestAfterPushOut / smaller);
+    sum.deepestAfterPushOut = std::max(sum.deepestAfterPushOut, step.deepestAfterPushOut);
+    if (step.worstOverlapRatio > sum.worstOverlapRatio) {
+        sum.worstOverlapRatio = step.worstOverlapRatio;
+        sum.worstA = step.worstA;
+        sum.worstB = step.worstB;
     }
     sum.nonFinite = step.nonFinite;
     sum.nonFinitePhase = step.nonFinitePhase;
@@ -239,7 +241,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     findNonFinite(world, Phase::position, report);
     if (report.nonFinite.empty()) {
         const PhaseTimer timer(report.seconds, Phase::pushOut);
-        report.deepestBeforePushOut = findDeepestOverlap(world, scratch).depth;
+        report.deepestBeforePushOut = findWorstOverlap(world, scratch).depth;
         const double before = potentialEnergy(world, settings_.gravity);
         if (settings_.pushOut) {
             const PushOutTally tally = separateOverlaps(world, graph, settings_, scratch);
@@ -247,10 +249,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
             report.pushesCut = tally.cut;
         }
         report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
-        const DeepestOverlap deepest = findDeepestOverlap(world, scratch);
-        report.deepestAfterPushOut = deepest.depth;
-        report.deepestA = deepest.a;
-        report.deepestB = deepest.b;
+        describeOverlap(findWorstOverlap(world, scratch), report);
     }
     findNonFinite(world, Phase::pushOut, report);
 
@@ -344,7 +343,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
         wakeUnbalanced(world, scratch.forces);
     }
     findNonFinite(world, Phase::position, report);
-    report.deepestBeforePushOut = findDeepestGap(scratch).depth;
+    report.deepestBeforePushOut = findWorstGap(world, scratch).depth;
     if (report.nonFinite.empty() && settings_.pushOut) {
         const PhaseTimer timer(report.seconds, Phase::pushOut);
         const double before = potentialEnergy(world, settings_.gravity);
@@ -353,10 +352,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
         report.pushesCut = tally.cut;
         report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
     }
-    const DeepestOverlap deepest = findDeepestGap(scratch);
-    report.deepestAfterPushOut = deepest.depth;
-    report.deepestA = deepest.a;
-    report.deepestB = deepest.b;
+    describeOverlap(findWorstGap(world, scratch), report);
     for (const GapPair& pair : scratch.pairs)
         report.levels = std::max(report.levels, levelOf(scratch.levels, pair.bodies) + 1);
     report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
@@ -398,7 +394,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
             limitReport.seconds[static_cast<int>(Phase::stepLimit)];
         if (frame.steps == 0 || length.dt < frame.shortestStep) frame.fastestBody = length.body;
         frame.substepCapReached = frame.substepCapReached || length.capReached;
-        addStep(world, report, frame);
+        addStep(report, frame);
         world.clock.frameTimeDone += length.dt;
         if (!report.nonFinite.empty()) break;
         const bool isLast = length.dt == remaining;

@@ -244,6 +244,12 @@ std::shared_ptr<const Shape> buildPlaneShape(const std::string& name)
     return shape;
 }
 
+Aabb boxAt(const Shape& shape, const Pose& pose)
+{
+    if (shape.isPlane) return shape.box;
+    return transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position);
+}
+
 Pose worldFromPlane(const Vec3& point, const Vec3& normal)
 {
     // The shortest turn from +y to the normal; for opposite directions any half turn about x will

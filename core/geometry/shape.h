@@ -6,6 +6,7 @@
 // Spheres, boxes and cylinders may be exact as well; then the mesh is only what is drawn.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,7 +82,16 @@ struct Shape {
     ContactFeatures features;  ///< empty for a plane and round exact solids
     SurfaceRays rays;          ///< empty for a plane and exact solids
     SmoothSurface smooth;      ///< empty for sharp meshes, planes and exact solids  [A40]
+
+    // Those of a plane have no end [m].
+    double thickness() const { return isPlane ? kEndless : innerThickness; }
+    double longestEdge() const { return isPlane ? kEndless : box.longestEdge(); }
+
+    static constexpr double kEndless = std::numeric_limits<double>::infinity();
 };
+
+/// The world box of a placed shape; a plane's is everything.
+Aabb boxAt(const Shape& shape, const Pose& pose);
 
 /// Builds mass, field, samples and rays from a closed mesh in the artist's frame, lengths in
 /// metres; what can be repaired without harm is. Throws Error{badInput} naming `name` when the mesh

@@ -83,6 +83,12 @@ public:
     /// The pose an artist would give the asset to stand where the body stands now.
     Pose worldFromAsset(BodyId body) const;
 
+    /// Whether a step may move it by impulses.
+    bool isStepped(BodyId body) const
+    {
+        return mass[body].isMovable() && !contactMemory.isAsleep(body);
+    }
+
     /// Bodies that come later come by beBorn() alone; the others were always there.
     bool isBorn(BodyId body) const { return bornAt[body] >= 0; }
 

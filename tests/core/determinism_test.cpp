@@ -74,7 +74,7 @@ TEST(Determinism, MarblesAndCansFallToTheSameBitsOnAnyNumberOfThreadsAndOverlapL
     Stepper stepper(experimentSettings());
     double worst = 0.0;
     for (int f = 0; f < 24; ++f) {
-        worst = std::max(worst, stepper.advanceFrame(watched, 1.0 / 24.0).worstOverlapRatio);
+        worst = std::max(worst, stepper.advanceFrame(watched, 1.0 / 24.0).sum.worstOverlapRatio);
     }
     EXPECT_LE(worst, 0.02);
 }

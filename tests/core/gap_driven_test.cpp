@@ -173,7 +173,7 @@ TEST(GapPairs, WhatAnotherDoesNotMoveWakesItAndPushesItAsIfInfinitelyHeavy)  // 
     ASSERT_TRUE(world.contactMemory.isAsleep(debris));
     runFrames(world, screeSettings(), 1.0);
     EXPECT_NEAR(world.motion[hero].velocity.x(), 3.0, 1e-12);
-    EXPECT_NEAR(world.motion[debris].velocity.x(), 3.0, 1e-6);
+    EXPECT_NEAR(world.motion[debris].velocity.x(), 3.0, 1e-3);
     EXPECT_NEAR(world.motion[debris].position.x() - world.motion[hero].position.x(), 1.0, 1e-3);
 }
 

@@ -56,7 +56,7 @@ TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
     Stepper stepper(screeSettings());
     for (int frame = 0; frame < kFrames; ++frame) {
         const FrameReport report = stepper.advanceFrame(world, 1.0 / 24.0);
-        EXPECT_LT(report.worstOverlapRatio, 0.02) << frame;
+        EXPECT_LT(report.sum.worstOverlapRatio, 0.02) << frame;
         if (frame % 8 == 7) {
             EXPECT_GT(deepestInHeap(world), -0.03) << frame;
         }

@@ -104,6 +104,26 @@ TEST(ContactGraph, BuiltOnceServesContactAndShockWhichTouchNoOtherPair)  // [A48
     EXPECT_GT(impulses, 50);
 }
 
+TEST(StepReport, TellsTheWorstShareThoughAnotherPairIsDeeper)  // [A58]
+{
+    for (const bool isPaper : {true, false}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.0);
+        addPlane(world, material);
+        addBody(world, boxShape(Vec3::Constant(4.0), 2), material,
+                {{0.0, 1.97, 0.0}, Quat::Identity()});
+        const BodyId pebble = addBody(world, boxShape(Vec3::Constant(0.05), 2), material,
+                                      {{10.0, 0.005, 0.0}, Quat::Identity()});
+        StepSettings settings = isPaper ? experimentSettings() : screeSettings();
+        settings.pushOut = false;
+        settings.gravity.setZero();
+        const StepReport report = Stepper(settings).step(world, kDt);
+        EXPECT_NEAR(report.deepestAfterPushOut, 0.03, 1e-9) << isPaper;
+        EXPECT_NEAR(report.worstOverlapRatio, 0.4, 1e-6) << isPaper;
+        EXPECT_EQ(report.worstB, pebble) << isPaper;
+    }
+}
+
 TEST(StepReport, AccountsForWhatTheStepDid)  // [A58]
 {
     World world = makeColumns();
