@@ -30,6 +30,7 @@ std::string entryOf(const ShotKey& key)
     const bool isTable = key.type == KeyType::table;
     if (*key.byDefault && !isTable) text += "; default `" + std::string(key.byDefault) + "`";
     text += ".\n  " + std::string(key.help) + "\n";
+    if (*key.method) text += "  Method \"" + std::string(key.method) + "\" only.\n";
     if (*key.excludes) {
         text += "  Not together with " + joined(splitWords(key.excludes)) + ".\n";
     }

@@ -42,6 +42,7 @@ struct ShotKey {
     bool isFile = false;       ///< text that names a file relative to the shot
     bool isRequired = false;
     const char* excludes = "";  ///< keys of the same table that cannot stand beside it, "a|b|c"
+    const char* method = "";    ///< the one solver.method that reads it; empty: all do
     const char* help = "";      ///< what it means, what goes wrong at the extremes
 };
 

@@ -94,18 +94,21 @@ const std::vector<ShotKey> kSolverKeys = {
     {.path = "solver.sleep",
      .type = boolean,
      .byDefault = "true",
+     .method = "scree",
      .help = "Bodies that the whole step leaves where they are fall asleep together: no motion at "
              "all, and no cost. They wake when something is about to touch them or a force "
              "changes. What rocks in its place for some seconds and goes nowhere is calmed, so "
-             "that it does not keep a heap awake. Method \"scree\" only."},
+             "that it does not keep a heap awake."},
     {.path = "solver.contact_sweeps",
      .type = integer,
      .unit = "sweeps",
      .byDefault = "12",
      .min = 1,
      .max = 10000,
-     .help = "Sweeps over the contacts of a large heap in method \"scree\"; small ones are solved "
-             "to the end anyway. Too few and the heap sinks into itself before it comes to rest."},
+     .method = "scree",
+     .help =
+         "Sweeps over the contacts of a large heap; small ones are solved to the end anyway. Too "
+         "few and the heap sinks into itself before it comes to rest."},
     {.path = "solver.collision_iterations",
      .type = integer,
      .unit = "sweeps",
@@ -128,6 +131,7 @@ const std::vector<ShotKey> kSolverKeys = {
      .byDefault = "10",
      .min = 0,
      .max = 1000,
+     .method = "paper",
      .help = "Sweeps over the contact levels; restitution climbs from -1 + 1/n to 0. Too few and "
              "weight does not travel down: a heavy body hardly loads what is under it. 0 makes "
              "bodies weightless to others and exists to show why the sweeps are needed."},
@@ -137,6 +141,7 @@ const std::vector<ShotKey> kSolverKeys = {
      .byDefault = "2",
      .min = 1,
      .max = 1000,
+     .method = "paper",
      .help = "Visits of each level within one contact sweep. More helps bodies of one level that "
              "lean on each other."},
     {.path = "solver.pair_impulses",
@@ -145,6 +150,7 @@ const std::vector<ShotKey> kSolverKeys = {
      .byDefault = "20",
      .min = 1,
      .max = 10000,
+     .method = "paper",
      .help =
          "Impulses a resting pair may receive in one visit. Too few and bodies rock from corner "
          "to corner."},
@@ -159,6 +165,7 @@ const std::vector<ShotKey> kSolverKeys = {
      .byDefault = "10",
      .min = 1,
      .max = 10000,
+     .method = "paper",
      .help = "Impulses a pair may receive in one visit of the shock sweep."},
     {.path = "solver.push_out",
      .type = boolean,
@@ -179,6 +186,7 @@ const std::vector<ShotKey> kSolverKeys = {
      .byDefault = "5",
      .min = 1,
      .max = 10000,
+     .method = "paper",
      .help = "Pushes a pair may receive in one visit."},
     {.path = "solver.orientation",
      .type = word,
@@ -227,6 +235,7 @@ const std::vector<ShotKey> kSolverKeys = {
      .min = 0,
      .max = 1,
      .isOpen = true,
+     .method = "paper",
      .help = "Largest gap under a resting body, as a fraction of its thickness. It limits the time "
              "step of bodies in contact: small values cost steps, large ones show as floating."},
     {.path = "solver.penetration",
@@ -258,6 +267,7 @@ const std::vector<ShotKey> kSolverKeys = {
      .type = word,
      .byDefault = "\"reevolve\"",
      .choices = "reevolve|lagged",
+     .method = "paper",
      .help = "How a colliding pair is worked on. \"reevolve\" looks again after every impulse; "
              "\"lagged\" looks once a visit, which is faster for bodies of many points and coarser "
              "in the outcome. Resting contact always looks again."},

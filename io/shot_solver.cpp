@@ -1,5 +1,8 @@
 #include "io/shot_solver.h"
 
+#include <string>
+
+#include "io/shot_schema.h"
 #include "io/shot_values.h"
 
 namespace scree {
@@ -63,10 +66,28 @@ void readPenetration(const ShotNode& table, Shot& shot, ProblemList& problems)
                  "'warn' must not exceed 'fail', " + toTomlText(shot.penetrationFail));
 }
 
+/// A number that nobody reads is turned in vain, and whoever turns it should hear so. One that has
+/// its default may come from a resolved shot, which holds them all.
+void warnOfOtherMethods(const ShotNode& table, ProblemList& problems)
+{
+    const std::string& method = table.find("method")->text;
+    for (const ShotKey* key : keysInside("solver")) {
+        if (!*key->method || key->method == method) continue;
+        const ShotNode& value = *table.find(nameOf(*key));
+        const bool isDefault = value.isNumeric() ? value.asNumber() == std::stod(key->byDefault)
+                                                 : toTomlText(value) == key->byDefault;
+        if (isDefault) continue;
+        problems.warn(value.where, "'" + std::string(nameOf(*key)) +
+                                       "' changes nothing: only method \"" + key->method +
+                                       "\" reads it, and this shot has method \"" + method + "\"");
+    }
+}
+
 }  // namespace
 
 bool readSolver(const ShotNode& table, Shot& shot, ProblemList& problems)
 {
+    warnOfOtherMethods(table, problems);
     readPhases(table, shot.settings);
     readSubsteps(*table.find("substeps"), shot.settings, problems);
     readPenetration(*table.find("penetration"), shot, problems);

@@ -45,22 +45,12 @@ struct StepSettings {
     Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
     std::uint64_t seed = 1;            ///< of the order of processing
     Method method = Method::paper;
-    bool sleep = true;  ///< of method `scree`: what no step moves is not stepped
-
     int collisionIterations = 5;     ///< sweeps over pairs [-]; too few: fast heaps overlap
     int collisionPairImpulses = 20;  ///< per visit of a pair [-]
-    int contactIterations = 10;    ///< sweeps over levels [-]; 0 makes bodies weightless to others
-    int levelIterations = 2;       ///< per level and sweep [-]
-    int pairImpulses = 20;         ///< per visit of a pair in contact [-]; too few: bodies rock
-    bool shockPropagation = true;  ///< without it tall stacks sink and fall
-    int shockPairImpulses = 10;    ///< per visit of a pair in the shock sweep [-]
-    bool pushOut = true;           ///< first-order removal of overlap that is left
+    bool shockPropagation = true;    ///< without it tall stacks sink and fall
+    bool pushOut = true;             ///< first-order removal of overlap that is left
     int pushOutLevelIterations = 4;  ///< gradual: fraction l/n of the depth in iteration l [-]
-    int pushOutPairImpulses = 5;     ///< per visit of a pair [-]
-    int gapSweeps =
-        12;  ///< of method `scree`, over all contacts of a large heap [-]; too few: it sinks
     OrientationUpdate orientation = OrientationUpdate::secondOrder;
-    CollisionVariant collision = CollisionVariant::reevolve;
     CombineRule frictionRule = CombineRule::maximum;     ///< of a pair, from its materials  [A27]
     CombineRule restitutionRule = CombineRule::minimum;  ///< likewise
     bool freezeUnsupported = false;  ///< shock also freezes what rests on nothing fixed: the
@@ -74,7 +64,19 @@ struct StepSettings {
 
     SubstepLimits substeps;
     double maximumSpinPerStep = 0.3;  ///< rotation in one step at safety 1 … [rad]  [A16 beta]
-    double hoverLimit = 5e-4;         ///< resting gap as a fraction of the inner thickness [-]
+
+    // Of method `scree` alone.
+    bool sleep = true;   ///< what no step moves is not stepped
+    int gapSweeps = 12;  ///< over all contacts of a large heap [-]; too few: it sinks
+
+    // Of method `paper` alone.
+    int contactIterations = 10;   ///< sweeps over levels [-]; 0 makes bodies weightless to others
+    int levelIterations = 2;      ///< per level and sweep [-]
+    int pairImpulses = 20;        ///< per visit of a pair in contact [-]; too few: bodies rock
+    int shockPairImpulses = 10;   ///< per visit of a pair in the shock sweep [-]
+    int pushOutPairImpulses = 5;  ///< per visit of a pair [-]
+    CollisionVariant collision = CollisionVariant::reevolve;
+    double hoverLimit = 5e-4;  ///< resting gap as a fraction of the inner thickness [-]
 };
 
 /// The paper without the repairs documented beside it; shapes want FieldMode::grid with it.  [A60]

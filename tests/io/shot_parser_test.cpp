@@ -119,6 +119,27 @@ TEST(ShotParser, SolverKeysReachTheSettingsOfTheSameName)
     EXPECT_EQ(settings.hoverLimit, 0.001);
 }
 
+TEST(ShotParser, AKeyThatTheMethodDoesNotReadIsToldOfWhereItStands)
+{
+    const auto warningsOf = [](const std::string& solver) {
+        return parseShotText(kHead + "[solver]\n" + solver, "s.toml").warnings;
+    };
+    const std::string ofPaper = "contact_iterations = 50\nhover = 0.001\n",
+                      ofScree = "sleep = false\n";
+    ASSERT_EQ(warningsOf(ofPaper).size(), 2u);
+    EXPECT_EQ(warningsOf(ofPaper)[0],
+              "s.toml:5:22: 'contact_iterations' changes nothing: only method \"paper\" reads it, "
+              "and this shot has method \"scree\"");
+    EXPECT_EQ(warningsOf("method = \"paper\"\n" + ofScree).size(), 1u);
+    EXPECT_TRUE(warningsOf("method = \"paper\"\n" + ofPaper).empty());
+    EXPECT_TRUE(warningsOf(ofScree).empty());
+    // A resolved shot holds all keys.
+    for (const char* method : {"method = \"paper\"\n", ""}) {
+        const Shot shot = parseShotText(kHead + "[solver]\n" + method, "s.toml");
+        EXPECT_TRUE(parseShotText(shot.resolvedText, "s.toml").warnings.empty());
+    }
+}
+
 TEST(ShotParser, LengthsBecomeMetresButGravityDoesNotChange)
 {
     const Shot shot = parseShotText(
