@@ -15,7 +15,7 @@ std::uint64_t hashBytes(const void* bytes, std::size_t byteCount, std::uint64_t 
         hash = mixBits(hash ^ word) * kPrime;
     }
     std::uint64_t tail = 0;
-    std::memcpy(&tail, cursor, byteCount);
+    if (byteCount > 0) std::memcpy(&tail, cursor, byteCount);  // there may be nothing to point at
     return mixBits(hash ^ tail);
 }
 

@@ -32,7 +32,7 @@ std::array<Eigen::Vector2d, kDirections> makeDirections()
     std::array<Eigen::Vector2d, kDirections> directions;
     for (int k = 0; k < kDirections; ++k) {
         const double angle = kOffAxis + 2.0 * kPi * k / kDirections;
-        directions[k] = {std::cos(angle), std::sin(angle)};
+        sinCos(angle, directions[k].y(), directions[k].x());
     }
     return directions;
 }

@@ -63,7 +63,8 @@ bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexE
     if (at.beyondFirst > 0.0 && a.goesOn[at.endOfFirst]) return false;
     if (at.beyondSecond > 0.0 && b.goesOn[at.endOfSecond]) return false;
     const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
-    if (beyond > -kPastEnds * gap || std::hypot(beyond, gap) > deepestEdges(pair)) return false;
+    const double deepest = deepestEdges(pair);
+    if (beyond > -kPastEnds * gap || beyond * beyond + gap * gap > deepest * deepest) return false;
     const RelativePair back = pair.reversed();
     // There an edge goes on in the face beside it, neither inside nor outside.
     const auto isHollow = [](const Shape& shape, const Vec3& place, double past) {

@@ -53,13 +53,6 @@ void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
     if (row.movesB) applyCoupleTo(b, -couple);
 }
 
-/// Whether friction holds the place.
-bool sticks(const GapRow& row)
-{
-    const double limit = row.friction * row.impulse.x() * (1.0 - 1e-9);
-    return row.impulse.y() * row.impulse.y() + row.impulse.z() * row.impulse.z() < limit * limit;
-}
-
 /// What pulls a body throughout the step, and how far that does not move it if nothing stops it.
 void addForces(double dt, GapBody& body)
 {

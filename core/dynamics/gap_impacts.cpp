@@ -280,11 +280,15 @@ void ImpactVisits::applyTogether()
 {
     double earliest = state_.dt;
     for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
-    if (solveTogether(true) > 0.0) solveTogether(false);
+    const bool gainsEnergy = solveTogether(true) > 0.0;
+    if (gainsEnergy) solveTogether(false);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         const GapRow& row = rows_[i].row;
         applyImpulses(row, row.worldImpulse(), earliest);
-        note(hits_[i], row.worldImpulse(), FrictionCase::sticking);
+        const FrictionCase kind = gainsEnergy   ? FrictionCase::fallback
+                                  : sticks(row) ? FrictionCase::sticking
+                                                : FrictionCase::sliding;
+        note(hits_[i], row.worldImpulse(), kind);
     }
 }
 

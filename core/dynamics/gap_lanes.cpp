@@ -55,10 +55,10 @@ void goFurther(Number share, const Vector& before, Vector& way, Vector& now)
     now += step;
 }
 
-/// Where friction holds the place.
+/// Where friction holds the places of rows: as of one row, gap_rows.h.
 LaneMask sticks(Lanes friction, const Lanes3& impulse)
 {
-    const Lanes limit = (1.0 - 1e-9) * friction * impulse.x;
+    const Lanes limit = kSlides * friction * impulse.x;
     return fma(impulse.y, impulse.y, impulse.z * impulse.z) < limit * limit;
 }
 

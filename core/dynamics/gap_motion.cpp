@@ -34,9 +34,7 @@ bool lasts(const GapRow& row, const Vec3& s, double gapAtEnd, double blind)
     const double apart = s.dot(row.normal);
     if (row.impulse.x() == 0.0) return apart >= -blind || gapAtEnd + apart >= 0.0;
     if (std::abs(apart) > blind) return false;
-    const double held = std::hypot(row.impulse.y(), row.impulse.z());
-    const bool slides = held >= row.friction * row.impulse.x() * (1.0 - 1e-9);
-    return slides || (s - apart * row.normal).norm() <= blind;
+    return !sticks(row) || (s - apart * row.normal).norm() <= blind;
 }
 
 /// What the impulses of a pair add to the angular momenta of its bodies, if they are moved
@@ -132,30 +130,24 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
     });
 }
 
-}  // namespace
-
-void writeVelocities(World& world, double dt, GapScratch& scratch)
+/// Lays out what the world will remember: the contacts of the pairs, yet to be filled in, and among
+/// them those that hold sleepers as they did, for when these wake. The old memory is sorted, and so
+/// are the pairs. Answers where the contacts of each pair begin.
+std::vector<std::size_t> layOutMemory(const World& world, GapScratch& scratch)
 {
-    const auto isStepped = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
-    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
-        if (!isStepped(static_cast<BodyId>(i))) return;
-        world.motion[i].velocity = scratch.bodies[i].velocity;
-        world.motion[i].angularMomentum += scratch.bodies[i].angularImpulse;
-    });
-    // What holds sleepers is remembered for when they wake, among what the pairs remember now: the
-    // memory is sorted, and so are the pairs.
     std::vector<RememberedContact>& kept = scratch.formerContacts;
     std::size_t end = 0;
     const auto makeRoom = [&](std::size_t count) {
         if (kept.size() < end + count) kept.resize(end + count);
     };
-    std::vector<std::size_t> first(scratch.pairs.size());  // of each pair in `kept`
+    std::vector<std::size_t> first(scratch.pairs.size());
     std::size_t next = 0;
     const auto placePair = [&] {
         first[next] = end;
         makeRoom(scratch.pairs[next].bearing);
         end += scratch.pairs[next++].bearing;
     };
+    const auto isStepped = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         const bool sleeps =
             world.contactMemory.isAsleep(contact.a) || world.contactMemory.isAsleep(contact.b);
@@ -166,35 +158,55 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
     }
     while (next < first.size()) placePair();
     kept.resize(end);
+    return first;
+}
+
+/// Fills the contacts of a pair in, from `place` on, and answers what they add to its bodies.
+PairTurn rememberContacts(const World& world, double dt, GapScratch& scratch, const GapPair& pair,
+                          std::size_t place)
+{
+    PairTurn turn;
+    const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
+    const Quat aFromWorld = world.motion[pair.bodies.a].orientation.conjugate();
+    for (std::size_t r = pair.begin; r < pair.end; ++r) {
+        const GapRow& row = scratch.rows[r];
+        if (row.impulse.x() == 0.0) continue;
+        turn.movesA = row.movesA;
+        turn.movesB = row.movesB;
+        const Vec3 impulse = row.worldImpulse();
+        // What changes the angular momentum is the impulse itself: a product with an inertia and
+        // its inverse would lose bits every step.
+        turn.ofA += row.rA.cross(impulse) + row.couple;
+        turn.ofB -= row.rB.cross(impulse) + row.couple;
+        scratch.formerContacts[place++] = {
+            row.a,        row.b,          contacts[r - pair.begin].feature, aFromWorld * row.rA,
+            impulse / dt, row.couple / dt};
+    }
+    return turn;
+}
+
+}  // namespace
+
+void writeVelocities(World& world, double dt, GapScratch& scratch)
+{
+    forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
+        if (scratch.bodies[i].inverseMass == 0.0) return;
+        world.motion[i].velocity = scratch.bodies[i].velocity;
+        world.motion[i].angularMomentum += scratch.bodies[i].angularImpulse;
+    });
+    const std::vector<std::size_t> first = layOutMemory(world, scratch);
     std::vector<PairTurn> turns(scratch.pairs.size());
     forPairs(scratch, [&](std::size_t i) {
         fetchContactsAfter(scratch, i);
         const GapPair& pair = scratch.pairs[i];
-        if (pair.bearing == 0) return;
-        const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
-        const Quat aFromWorld = world.motion[pair.bodies.a].orientation.conjugate();
-        std::size_t place = first[i];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& row = scratch.rows[r];
-            if (row.impulse.x() == 0.0) continue;
-            turns[i].movesA = row.movesA;
-            turns[i].movesB = row.movesB;
-            const Vec3 impulse = row.worldImpulse();
-            // What changes the angular momentum is the impulse itself: a product with an inertia
-            // and its inverse would lose bits every step.
-            turns[i].ofA += row.rA.cross(impulse) + row.couple;
-            turns[i].ofB -= row.rB.cross(impulse) + row.couple;
-            kept[place++] = {
-                row.a,        row.b,          contacts[r - pair.begin].feature, aFromWorld * row.rA,
-                impulse / dt, row.couple / dt};
-        }
+        if (pair.bearing > 0) turns[i] = rememberContacts(world, dt, scratch, pair, first[i]);
     });
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
         const auto [a, b] = scratch.pairs[i].bodies;
         if (turns[i].movesA) world.motion[a].angularMomentum += turns[i].ofA;
         if (turns[i].movesB) world.motion[b].angularMomentum += turns[i].ofB;
     }
-    std::swap(world.contactMemory.contacts, kept);
+    std::swap(world.contactMemory.contacts, scratch.formerContacts);
     world.contactMemory.dt = dt;
 }
 

@@ -250,6 +250,16 @@ inline BodyPair bodiesOf(const RememberedContact& contact)
 /// Depth of the deepest overlap; 0 when all are apart [m].
 double deepestOf(const std::vector<GapContact>& contacts);
 
+/// Friction beyond this share of its limit slides: sliding is solved to rounding.
+inline constexpr double kSlides = 1.0 - 1e-9;
+
+/// Whether friction holds the place of a row.
+inline bool sticks(const GapRow& row)
+{
+    const double limit = row.friction * row.impulse.x() * kSlides;
+    return row.impulse.y() * row.impulse.y() + row.impulse.z() * row.impulse.z() < limit * limit;
+}
+
 /// Relative velocity of the two surfaces at a row, A's against B's.
 inline Vec3 velocityAt(const GapRow& row, const GapBody& a, const GapBody& b)
 {

@@ -14,8 +14,8 @@ namespace {
 /// An overlap that must not come unseen, as a share of the smaller body.
 constexpr double kVisible = 1e-3;
 
-/// By how much the velocity of any point of a movable body has changed, as solved, beyond what pulls it
-/// [m/s].
+/// By how much the velocity of any point of a movable body has changed, as solved, beyond what
+/// pulls it [m/s].
 double changeOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
 {
     const GapBody& b = scratch.bodies[body];

@@ -57,13 +57,6 @@ Pose poseAfter(const World& world, const StepSettings& settings, BodyId body, do
                        settings.orientation, dt);
 }
 
-void addGravity(World& world, const StepSettings& settings, double dt)
-{
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (world.mass[b].isMovable()) world.motion[b].velocity += dt * settings.gravity;
-    }
-}
-
 void advancePositions(World& world, const StepSettings& settings, double dt)
 {
     forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {

@@ -13,9 +13,6 @@ namespace scree {
 Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& velocity,
                  const Vec3& angularMomentum, OrientationUpdate update, double dt);
 
-/// v += dt g for every movable body.  [A17 step 3]
-void addGravity(World& world, const StepSettings& settings, double dt);
-
 /// Gives keyed bodies the velocities that take them where their scripts are after dt: differences
 /// over the step, so that what they carry neither lags nor sinks.  [A54]
 void aimKeyedBodies(World& world, double dt);

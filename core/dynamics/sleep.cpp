@@ -244,7 +244,8 @@ bool isBalanced(const World& world, BodyId body, const ContactLoad& load, const 
     return rest.force <= allowed && rest.torque <= allowed * world.shapeOf(body).boundingRadius;
 }
 
-/// Whether a row holds the body up that its normal impulse pushes along `push`.
+/// Whether the impulse of a row on a body holds it up against what pulls it; in a world without pull
+/// everything that touches does.
 bool isHeldUpBy(const GapRow& row, const Vec3& impulse, const Vec3& pull)
 {
     return impulse.dot(-pull) > kBalanced * row.impulse.norm() * pull.norm() || pull.isZero(0.0);
@@ -279,13 +280,12 @@ void keepWhoIsHeldUp(const World& world, const GapScratch& scratch, std::vector<
     }
 }
 
-}  // namespace
-
 bool anyAsleep(const World& world)
 {
-    const std::vector<BodyRest>& rest = world.contactMemory.rest;
-    return std::any_of(rest.begin(), rest.end(), [](const BodyRest& r) { return r.isAsleep; });
+    return std::ranges::any_of(world.contactMemory.rest, &BodyRest::isAsleep);
 }
+
+}  // namespace
 
 void sleepFromTheStart(World& world, const StepSettings& settings,
                        const std::vector<BodyId>& bodies)
@@ -302,7 +302,7 @@ void sleepFromTheStart(World& world, const StepSettings& settings,
     world.contactMemory.contacts = contactsOfSleepers(world);
 }
 
-void fallAsleep(World& world, GapScratch& scratch)
+void fallAsleep(World& world, const GapScratch& scratch)
 {
     std::vector<BodyRest>& rest = world.contactMemory.rest;
     rest.resize(world.bodyCount());

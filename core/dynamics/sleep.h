@@ -24,15 +24,14 @@ void sleepFromTheStart(World& world, const StepSettings& settings,
 
 /// At the end of a frame: notes who has moved, calms what rocks in its place, and puts to sleep
 /// what lies still. `scratch` holds the rows of the last step.
-void fallAsleep(World& world, GapScratch& scratch);
-
-bool anyAsleep(const World& world);
+void fallAsleep(World& world, const GapScratch& scratch);
 
 /// Before a step: wakes what forces no longer leave alone.
 void wakeByForces(World& world, const std::vector<AppliedForce>& forces);
 
 /// Wakes sleepers that a keyed body is about to touch or one that they do not move, and what hangs
-/// in the air asleep and anything is about to touch. True when any woke: their own contacts must be found then.
+/// in the air asleep and anything is about to touch. True when any woke: their own contacts must be
+/// found then.
 bool wakeByTouch(World& world, double dt, const GapScratch& scratch);
 
 /// When a step has been solved, before anything moves: wakes sleepers that were struck, and those

@@ -22,8 +22,8 @@ public:
     explicit Stepper(const StepSettings& settings);
     ~Stepper();
 
-    /// Advances the world by one time step of dt seconds without moving its clock on: scripts are
-    /// followed by advanceFrame only.  [GBF03 “Time Integration”], [A17]
+    /// Advances the world by one time step of dt seconds. Of the clock only the sub-step moves on:
+    /// scripts are followed by advanceFrame alone.  [GBF03 “Time Integration”], [A17]
     StepReport step(World& world, double dt);
 
     /// Advances the world to the end of the frame that its clock stands in, in as many steps as the

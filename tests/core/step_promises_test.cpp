@@ -60,7 +60,7 @@ TEST(Prediction, IsWhereTheStepThenTakesTheBodyToTheLastBit)  // [A20]
         beginStep(world, settings, kDt, scratch);
         const std::vector<Pose> fall = scratch.fallPose;
         std::vector<Pose> drift = scratch.driftPose;
-        addGravity(world, settings, kDt);
+        addForces(world, scratch.forces, kDt);
         World after = world;
         advancePositions(after, settings, kDt);
         for (std::size_t b = 0; b < world.bodyCount(); ++b) {
@@ -91,7 +91,7 @@ TEST(ContactGraph, BuiltOnceServesContactAndShockWhichTouchNoOtherPair)  // [A48
         }
         EXPECT_EQ(static_cast<std::int64_t>(inGraph.size()), graph.contactPairs);
         for (std::size_t i = 0; i < scratch.pairCount; ++i) scratch.pairs[i].isWatched = true;
-        addGravity(world, settings, kDt);
+        addForces(world, scratch.forces, kDt);
         resolveContacts(world, graph, settings, kDt, scratch);
         propagateShock(world, graph, settings, kDt, scratch);
         for (std::size_t i = 0; i < scratch.pairCount; ++i) {

@@ -3,11 +3,19 @@
 #include "core/dynamics/collision_pass.h"
 #include "core/dynamics/contact_graph.h"
 #include "core/dynamics/contact_pass.h"
+#include "core/dynamics/forces.h"
 #include "core/dynamics/integrator.h"
 
 namespace scree::verify {
 
 namespace {
+
+void addGravity(World& world, const StepSettings& settings, double dt)
+{
+    std::vector<AppliedForce> forces;
+    findForces(world, settings, dt, forces);
+    addForces(world, forces, dt);
+}
 
 /// Collision and contact with velocities that have felt gravity: what is predicted has it in it.
 void resolveAfterGravity(World& world, const StepSettings& settings, double dt)

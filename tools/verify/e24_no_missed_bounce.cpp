@@ -53,7 +53,7 @@ Blow heaviestBlow(World& world, const StepSettings& settings, double dt, bool re
         if (registersAll) scratch.pairs[i].isTouched = true;
     }
     const ContactGraph graph = buildContactGraph(world, settings, dt, scratch);
-    addGravity(world, settings, dt);
+    addForces(world, scratch.forces, dt);
     resolveContacts(world, graph, settings, dt, scratch);
     double weight = 0.0;
     for (const BodyMass& mass : world.mass) {
