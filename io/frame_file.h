@@ -18,9 +18,9 @@ namespace scree {
 
 constexpr std::uint32_t kFrameFileVersion = 1;
 
-/// What a frame file holds. `motion`, `order`, `bornAt` and `clock` are the state (SI); `scene` is
-/// what follows from it in the shot's unit, kept because readers outside this program want only
-/// that.
+/// What a frame file holds. `motion`, `order`, `bornAt`, `clock` and `contactMemory` are the state
+/// (SI); `scene` is what follows from it in the shot's unit, kept because readers outside this
+/// program want only that.
 struct FrameState {
     std::uint64_t shotHash = 0;  ///< of the resolved shot: a frame belongs to one shot only
     Clock clock;

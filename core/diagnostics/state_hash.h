@@ -1,4 +1,4 @@
-// Hash of all that moves: two runs are equal when their hashes are equal at every frame.  [A21]
+// Hash of all state: two runs are equal when their hashes are equal at every frame.  [A21]
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@ namespace scree {
 
 class World;
 
-/// Over the bits of every body's motion, the order and the clock.
+/// Over the bits of everything that a step reads and changes: motion, order, births, clock, and
+/// what is remembered of contacts and of who lies still.
 std::uint64_t stateHash(const World& world);
 
 }  // namespace scree

@@ -44,11 +44,14 @@ struct StepReport {
     double dt = 0.0;  ///< [s]
     StepLimit limitedBy = StepLimit::frame;
     std::int64_t broadPairs = 0;     ///< pairs whose boxes meet
-    std::int64_t touchingPairs = 0;  ///< pairs with interference in the collision phase: the set P
-    std::int64_t contactPairs = 0;   ///< pairs processed by contact
+    std::int64_t touchingPairs = 0;  ///< `paper`: with interference in the collision phase, the set
+                                     ///< P; `scree`: with gaps that the step may close
+    std::int64_t contactPairs = 0;   ///< `paper`: that contact processes; `scree`: that bear
+    std::int64_t contacts = 0;       ///< `scree`: places at which touching pairs may meet
     int levels = 0;
     int largestLevel = 0;  ///< bodies in the fullest level above 0
-    ImpulseCounts collisionImpulses, contactImpulses, shockImpulses;
+    ImpulseCounts collisionImpulses, contactImpulses;
+    ImpulseCounts shockImpulses;  ///< `paper`: of the sweep; `scree` keeps none of them
     std::int64_t pushes = 0;
     std::int64_t loopsAtTheirCap =
         0;                       ///< pair visits that ended because the impulse cap was reached

@@ -128,6 +128,23 @@ void describeOverlap(const WorstOverlap& worst, StepReport& report)
     report.worstB = worst.b;
 }
 
+void describeGaps(const GapScratch& scratch, StepReport& report)
+{
+    report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
+    report.touchingPairs = static_cast<std::int64_t>(scratch.pairs.size());
+    report.contacts = static_cast<std::int64_t>(scratch.rowCount);
+    for (const GapPair& pair : scratch.pairs) {
+        report.contactPairs += pair.bearing > 0;
+        report.levels = std::max(report.levels, levelOf(scratch.levels, pair.bodies) + 1);
+    }
+    std::vector<int> bodies(static_cast<std::size_t>(report.levels), 0);
+    for (std::size_t b = 0; b < scratch.bodies.size(); ++b) {
+        const int level = scratch.levels.level[b];
+        if (level > 0 && scratch.bodies[b].inverseMass > 0.0)
+            report.largestLevel = std::max(report.largestLevel, ++bodies[level]);
+    }
+}
+
 void addStep(const StepReport& step, FrameReport& frame)
 {
     StepReport& sum = frame.sum;
@@ -141,6 +158,7 @@ void addStep(const StepReport& step, FrameReport& frame)
     sum.broadPairs = std::max(sum.broadPairs, step.broadPairs);
     sum.touchingPairs = std::max(sum.touchingPairs, step.touchingPairs);
     sum.contactPairs = std::max(sum.contactPairs, step.contactPairs);
+    sum.contacts = std::max(sum.contacts, step.contacts);
     sum.levels = std::max(sum.levels, step.levels);
     sum.largestLevel = std::max(sum.largestLevel, step.largestLevel);
     sum.collisionImpulses += step.collisionImpulses;
@@ -353,11 +371,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
         report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
     }
     describeOverlap(findWorstGap(world, scratch), report);
-    for (const GapPair& pair : scratch.pairs)
-        report.levels = std::max(report.levels, levelOf(scratch.levels, pair.bodies) + 1);
-    report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
-    report.touchingPairs = static_cast<std::int64_t>(scratch.pairs.size());
-    report.contactPairs = static_cast<std::int64_t>(scratch.rowCount);
+    describeGaps(scratch, report);
     ++world.clock.subStep;
     return report;
 }

@@ -1,6 +1,7 @@
 // The world: shapes, materials and bodies in parallel arrays, the order in which bodies are
-// processed, and the clock. motion, order, clock and, where bodies are born later, bornAt are
-// everything that a step changes; saving and restoring those continues a simulation bit for bit.
+// processed, and the clock. motion, order, clock, contactMemory and, where bodies are born later,
+// bornAt are everything that a step changes; saving and restoring those continues a simulation bit
+// for bit.
 #pragma once
 
 #include <cstdint>

@@ -106,7 +106,7 @@ struct Tally {
     {
         ++frames;
         steps += report.steps;
-        contacts += report.sum.contactPairs;
+        contacts += report.sum.contacts;
         for (std::size_t p = 0; p < seconds.size(); ++p) seconds[p] += report.sum.seconds[p];
     }
     void tell(benchmark::State& state) const

@@ -98,7 +98,7 @@ std::vector<Vec3> velocitiesOnASharedTable(const std::vector<TableBall>& balls)
         addBall(Vec3(0.21, 10.0 + i, 0.0), -10.0 * Vec3::UnitX());
     }
     Stepper stepper(weightless());
-    EXPECT_GT(stepper.step(world, kStep).contactPairs, 1000);
+    EXPECT_GT(stepper.step(world, kStep).contacts, 1000);
     std::vector<Vec3> velocities;
     for (std::size_t k = 0; k < balls.size(); ++k)
         velocities.push_back(world.motion[first + static_cast<BodyId>(k)].velocity);

@@ -124,6 +124,29 @@ TEST(StepReport, TellsTheWorstShareThoughAnotherPairIsDeeper)  // [A58]
     }
 }
 
+TEST(StepReport, OfGapsCountsPairsThatBearPlacesAndLevels)  // [A58]
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    for (int i = 0; i < 6; ++i) {
+        addBody(world, boxShape(Vec3::Ones(), 1), material,
+                {{4.0 * (i % 2), 0.5 + i / 2, 0.0}, Quat::Identity()});
+    }
+    StepSettings settings = screeSettings();
+    settings.sleep = false;
+    // A ball that passes a millimetre above the floor: a pair that touches and does not bear.
+    addBody(world, exactSphere(0.2), material, {{9.0, 0.201, 0.0}, Quat::Identity()}, 1.0,
+            {0.0, 1.0, 0.0});
+    Stepper stepper(settings);
+    const StepReport report = stepper.step(world, kDt);
+    EXPECT_EQ(report.touchingPairs, 7);
+    EXPECT_EQ(report.contactPairs, 6);
+    EXPECT_EQ(report.contacts, 6 * 4 + 1);
+    EXPECT_EQ(report.levels, 4);
+    EXPECT_EQ(report.largestLevel, 2);
+}
+
 TEST(StepReport, AccountsForWhatTheStepDid)  // [A58]
 {
     World world = makeColumns();
