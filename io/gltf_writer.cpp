@@ -114,6 +114,8 @@ private:
                     const char* interpolation, std::size_t input, std::size_t output);
     void writeMotion();
 
+    double secondsOf(double frame) const { return (frame - firstFrame_) / scene_->framesPerSecond; }
+
     fs::path output_;
     const SceneDescription* scene_ = nullptr;
     int firstFrame_ = 0;
@@ -146,6 +148,9 @@ void GltfWriter::beginScene(const SceneDescription& scene, int firstFrame, int /
 
 void GltfWriter::writeFrame(const SceneFrame& frame)
 {
+    // The format has no times below 0, and 0 is the first frame: if it were a sample before it,
+    // every whole frame would come out between two frames of the reader's timeline.
+    if (frame.frame + frame.offset < firstFrame_) return;
     if (firstPoses_.empty()) firstPoses_ = frame.worldFromAsset;
     for (const std::size_t body : motion_->bodies()) {
         const Pose &now = frame.worldFromAsset[body], &first = firstPoses_[body];
@@ -322,7 +327,7 @@ void GltfWriter::addBodies(Json& rootNodes)
 void GltfWriter::addCameras(Json& rootNodes)
 {
     for (const SceneCamera& moving : scene_->cameras) {
-        const SceneCamera camera = cameraAt(moving, times().front(), scene_->zUp);
+        const SceneCamera camera = cameraAt(moving, firstFrame_, scene_->zUp);
         const Pose pose = inYUpMetres(worldFromCamera(camera, scene_->zUp), *scene_);
         const double scale = scene_->metresPerUnit;
         const double distance = std::max((camera.eye - camera.target).norm() * scale, 1e-6);
@@ -345,13 +350,13 @@ void GltfWriter::addCameras(Json& rootNodes)
 /// until it is born.
 void GltfWriter::addBirths(Json& samplers, Json& channels)
 {
-    const double start = times().front(), end = times().back();
+    const double end = motion_->times().back();
     for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
+        if (isThere(scene_->bodies[b], firstFrame_)) continue;
         const int birthFrame = scene_->bodies[b].birthFrame;
-        if (birthFrame <= start) continue;
         std::vector<float> seconds = {0.0f}, scales = {0.0f, 0.0f, 0.0f};
         if (birthFrame <= end) {
-            seconds.push_back(static_cast<float>((birthFrame - start) / scene_->framesPerSecond));
+            seconds.push_back(static_cast<float>(secondsOf(birthFrame)));
             scales.insert(scales.end(), {1.0f, 1.0f, 1.0f});
         }
         const std::size_t input = addTimes(seconds);
@@ -363,14 +368,14 @@ void GltfWriter::addBirths(Json& samplers, Json& channels)
 /// Where keyed cameras stand. A zoom is lost: glTF's cameras have one angle of view.
 void GltfWriter::addCameraMotion(Json& samplers, Json& channels)
 {
+    const std::vector<double>& times = motion_->times();
     std::vector<float> seconds;
-    for (const double time : times())
-        seconds.push_back(static_cast<float>((time - times().front()) / scene_->framesPerSecond));
+    for (const double time : times) seconds.push_back(static_cast<float>(secondsOf(time)));
     for (std::size_t k = 0; k < scene_->cameras.size(); ++k) {
         if (!moves(scene_->cameras[k])) continue;
         std::vector<float> places, turns;
         for (const Pose& seen :
-             worldFromCameras(camerasAt(scene_->cameras[k], times(), scene_->zUp), scene_->zUp)) {
+             worldFromCameras(camerasAt(scene_->cameras[k], times, scene_->zUp), scene_->zUp)) {
             const Pose pose = inYUpMetres(seen, *scene_);
             for (const double value : pose.position) places.push_back(static_cast<float>(value));
             for (const double value : pose.orientation.coeffs())
@@ -423,10 +428,10 @@ void GltfWriter::addAnimation()
     addCameraMotion(samplers, channels);
     if (translationCount + rotationCount + channels.size() == 0) return;
 
-    const std::size_t count = times().size();
+    const std::size_t count = motion_->times().size();
     const std::size_t timeAccessor =
         addAccessor(addView(count * sizeof(float), std::nullopt), 0, count, "SCALAR", kFloat);
-    const double last = (times().back() - times().front()) / scene_->framesPerSecond;
+    const double last = secondsOf(motion_->times().back());
     json_["accessors"][timeAccessor]["min"] = Json::array({0.0});
     json_["accessors"][timeAccessor]["max"] =
         Json::array({static_cast<double>(static_cast<float>(last))});
@@ -457,10 +462,9 @@ void GltfWriter::addAnimation()
 void GltfWriter::writeMotion()
 {
     if (!json_.contains("animations")) return;
-    const double start = times().front();
     std::string bytes;
-    for (const double time : times())
-        appendBytes(bytes, static_cast<float>((time - start) / scene_->framesPerSecond));
+    for (const double time : motion_->times())
+        appendBytes(bytes, static_cast<float>(secondsOf(time)));
     file_->write(bytes);
 
     const auto writeTracks = [&](bool Changes::*changes, auto valuesOf) {

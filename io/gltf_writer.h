@@ -5,8 +5,9 @@
 //   <shot>/<body>   node under the name the shot gives it; extras: bodyId, mass, material
 //   <camera>        node beside the shot's, since viewers treat a scaled camera differently
 //
-// Animation starts at 0 s, as the format wants; extras of the animation tell the first frame and
-// the frame rate.
+// Animation starts at 0 s, as the format wants, and that is the first frame: a key at t seconds is
+// frame firstFrame + t · framesPerSecond, both told by extras of the animation. Samples between
+// frames are kept, but for those before the first one, for which the format has no time.
 #pragma once
 
 #include <filesystem>

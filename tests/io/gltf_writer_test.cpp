@@ -129,8 +129,7 @@ TEST(GltfWriter, NodesAreWhereBodiesWereAtWholeAndFractionalTimes)
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
             const std::size_t node = glb.nodeNamed(scene.bodies[body].name);
             for (const double time : {1001.0, 1002.0, 1002.6, 1004.25, 1005.0}) {
-                const double first = test::kCastFirst + offsets.front();
-                const double seconds = (time - first) / scene.framesPerSecond;
+                const double seconds = (time - test::kCastFirst) / scene.framesPerSecond;
                 const Pose pose = test::castPose(scene, body, time);
                 const Eigen::Vector3f position = glb.valueAt(node, "translation", seconds);
                 const Eigen::Vector4f rotation = glb.valueAt(node, "rotation", seconds);
@@ -141,6 +140,34 @@ TEST(GltfWriter, NodesAreWhereBodiesWereAtWholeAndFractionalTimes)
             }
         }
     }
+}
+
+TEST(GltfWriter, TimeZeroIsTheFirstFrameAndWhatIsBeforeItIsLeftOut)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::castScene();
+    scene.cameras[0].keys = {{1001.0, {3.0, 4.0, 12.0}, {0.5, 2.0, -1.0}, 40.0},
+                             {1005.0, {9.0, 4.0, 6.0}, {0.5, 1.0, 0.0}, 40.0}};
+    scene.cameras[0].isSmooth = false;
+    const std::vector<double> offsets = {-0.25, 0.0, 0.25};
+    const Glb glb = exported(folder / "x.glb", scene, offsets);
+    const Json& animation = glb.json["animations"][0];
+    EXPECT_EQ(animation["extras"]["firstFrame"], test::kCastFirst);
+    for (const Json& sampler : animation["samplers"]) {
+        const Eigen::MatrixXf seconds = glb.floats(sampler["input"]);
+        ASSERT_EQ(seconds.cols(), 14);
+        EXPECT_EQ(glb.json["accessors"][sampler["input"].get<std::size_t>()]["min"][0], 0.0);
+        for (Eigen::Index i = 0; i < seconds.cols(); ++i) {
+            const auto sample = static_cast<std::size_t>(i + 1);
+            const double frame = static_cast<double>(sample / 3) + offsets[sample % 3];
+            EXPECT_NEAR(seconds(0, i) * scene.framesPerSecond, frame, 1e-5);
+        }
+    }
+    const std::size_t camera = glb.nodeNamed("main");
+    EXPECT_LT((vectorOf(glb.json["nodes"][camera]["translation"]) - Vec3(3.0, 4.0, 12.0)).norm(),
+              kTolerance);
+    const Eigen::Vector3f middle = glb.valueAt(camera, "translation", 2.0 / scene.framesPerSecond);
+    EXPECT_LT((middle.cast<double>() - Vec3(6.0, 4.0, 9.0)).norm(), 10.0 * kTolerance);
 }
 
 TEST(GltfWriter, TheRootTurnsAZUpShotInCentimetresIntoYUpMetres)

@@ -16,16 +16,28 @@ namespace {
 
 constexpr int kFirst = 1001, kFrames = 5;
 
-/// A file whose bodies "mover" tumbles from frame to frame and "still" never moves.
-void writeAsset(const std::filesystem::path& output)
+/// Where "mover" is `frames` after the first one; defined for samples before it too.
+Pose moverAt(double frames)
 {
-    const SceneDescription scene =
+    return test::tumblingPose(0, frames + 1.0);
+}
+
+/// A file whose bodies "mover" tumbles from frame to frame and "still" never moves, both there from
+/// the first frame on, as a take says it.
+void writeAsset(const std::filesystem::path& output, const std::vector<double>& offsets = {0.0})
+{
+    SceneDescription scene =
         test::sceneOf({test::bodyNamed("mover"), test::bodyNamed("still", false)});
+    for (SceneBody& body : scene.bodies) body.birthFrame = kFirst;
     const std::unique_ptr<FrameWriter> writer = makeFrameWriter(output);
-    writer->begin(scene, kFirst, kFrames);
+    writer->begin(scene, kFirst, kFrames, offsets);
     for (int i = 0; i < kFrames; ++i) {
-        writer->write(
-            test::frameWith(kFirst + i, {test::tumblingPose(0, i), test::tumblingPose(1, 0.0)}));
+        for (const double offset : offsets) {
+            SceneFrame sample =
+                test::frameWith(kFirst + i, {moverAt(i + offset), test::tumblingPose(1, 0.0)});
+            sample.offset = offset;
+            writer->write(sample);
+        }
     }
     writer->finish();
 }
@@ -42,24 +54,29 @@ class KeyedImport : public testing::TestWithParam<const char*> {};
 TEST_P(KeyedImport, BodiesStandAtEveryFrameWhereTheFileHasThem)
 {
     const test::TemporaryFolder folder;
-    writeAsset(folder / GetParam());
-    const Shot shot = parseShotText(shotText(folder / GetParam(), "*", ""), "s.toml");
-    ASSERT_EQ(shot.bodies.size(), 2u);
-    EXPECT_EQ(shot.bodies[0].kind, BodyKind::keyed);
-    const MotionScript moverScript(shot.bodies[0].keys, shot.bodies[0].interpolation);
-    const MotionScript stillScript(shot.bodies[1].keys, shot.bodies[1].interpolation);
-    for (int i = 0; i < kFrames; ++i) {
-        const double time = i / shot.framesPerSecond;
-        const Pose mover = moverScript.at(time), still = stillScript.at(time);
-        // Quaternions and places in single precision; times of glTF are, too: 6e-8 of the speed.
-        const Pose expected = test::tumblingPose(0, i);
-        EXPECT_LT((mover.position - expected.position).norm(), 1e-5) << "frame " << i;
-        EXPECT_LT(mover.orientation.angularDistance(expected.orientation), 1e-5);
-        EXPECT_LT((still.position - test::tumblingPose(1, 0.0).position).norm(), 1e-5);
+    for (const std::vector<double>& offsets : {std::vector{0.0}, std::vector{-0.25, 0.0, 0.25}}) {
+        writeAsset(folder / GetParam(), offsets);
+        const Shot shot = parseShotText(shotText(folder / GetParam(), "*", ""), "s.toml");
+        ASSERT_EQ(shot.bodies.size(), 2u);
+        EXPECT_EQ(shot.bodies[0].kind, BodyKind::keyed);
+        const MotionScript moverScript(shot.bodies[0].keys, shot.bodies[0].interpolation);
+        const MotionScript stillScript(shot.bodies[1].keys, shot.bodies[1].interpolation);
+        for (int i = 0; i < kFrames; ++i) {
+            const double time = i / shot.framesPerSecond;
+            const Pose mover = moverScript.at(time), still = stillScript.at(time);
+            // Quaternions and places in single precision; times of glTF are, too: 6e-8 of the
+            // speed.
+            const Pose expected = moverAt(i);
+            EXPECT_LT((mover.position - expected.position).norm(), 1e-5) << "frame " << i;
+            EXPECT_LT(mover.orientation.angularDistance(expected.orientation), 1e-5);
+            EXPECT_LT((still.position - test::tumblingPose(1, 0.0).position).norm(), 1e-5);
+        }
+        // Half way between two samples it is half way from the one to the other.
+        const double step = offsets.back() > 0.0 ? 0.5 : 1.0;
+        const Pose before = moverAt(2.5 - 0.5 * step), after = moverAt(2.5 + 0.5 * step);
+        const Pose between = moverScript.at(2.5 / shot.framesPerSecond);
+        EXPECT_LT((between.position - 0.5 * (before.position + after.position)).norm(), 1e-5);
     }
-    const Pose before = test::tumblingPose(0, 2), after = test::tumblingPose(0, 3);
-    const Pose between = moverScript.at(2.5 / shot.framesPerSecond);
-    EXPECT_LT((between.position - 0.5 * (before.position + after.position)).norm(), 1e-5);
 }
 
 TEST_P(KeyedImport, AFileThatMovesNothingIsRefused)
