@@ -1,5 +1,6 @@
 #include "io/usd_instancer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -149,13 +150,16 @@ void appendHalfQuaternion(std::string& text, const MotionSample& sample)
     text += ')';
 }
 
-/// Who is not born yet, at every time at which that changes.
-void writeInvisibleIds(UsdText& text, const SceneDescription& scene, const MotionSpool& motion)
+/// Who is not born yet, at every time at which that changes. Who is there at the first frame is
+/// there in its samples before it too.
+void writeInvisibleIds(UsdText& text, const SceneDescription& scene, int firstFrame,
+                       const MotionSpool& motion)
 {
     const auto unbornAt = [&](double time) {
         std::vector<std::size_t> ids;
         for (const std::size_t body : motion.bodies()) {
-            if (time < scene.bodies[body].birthFrame) ids.push_back(body);
+            if (std::max<double>(time, firstFrame) < scene.bodies[body].birthFrame)
+                ids.push_back(body);
         }
         return ids;
     };
@@ -186,10 +190,11 @@ void writeMotion(UsdText& text, const SceneDescription& scene, MotionSpool& moti
         appendUsdTuple(line, (sample.worldFromAsset.position - place).cast<float>().eval());
     });
     // Half precision is off by up to 0.05°, but older readers know nothing else; newer ones take
-    // orientationsf.
+    // orientationsf. The schema has nothing finer, so a reader sees no turn below 0.04°: slow ones
+    // want a prim per body (see usdQuaternion).
     times.write("quath[] orientations", appendHalfQuaternion);
     times.write("quatf[] orientationsf", [](std::string& line, const MotionSample& sample) {
-        appendUsdTuple(line, usdQuaternion(sample.worldFromAsset.orientation));
+        appendUsdTuple(line, usdQuaternion(sample.worldFromAsset.orientation).cast<float>().eval());
     });
     times.write("vector3f[] velocities", [](std::string& line, const MotionSample& sample) {
         appendUsdTuple(line, sample.velocity.cast<float>().eval());
@@ -206,7 +211,7 @@ void writeMotion(UsdText& text, const SceneDescription& scene, MotionSpool& moti
 }  // namespace
 
 void writeUsdInstancer(UsdText& text, const UsdNames& names, const SceneDescription& scene,
-                       MotionSpool& motion)
+                       int firstFrame, MotionSpool& motion)
 {
     const std::vector<std::size_t>& bodies = motion.bodies();
     if (bodies.empty()) return;
@@ -214,7 +219,7 @@ void writeUsdInstancer(UsdText& text, const UsdNames& names, const SceneDescript
 
     text.openPrim(usdPrim("PointInstancer", names.instancer));
     text.line("int64[] ids = " + usdArray(bodies, appendNumber<std::size_t>));
-    writeInvisibleIds(text, scene, motion);
+    writeInvisibleIds(text, scene, firstFrame, motion);
     text.line("int[] protoIndices = " + usdArray(prototypes.ofBody, appendNumber<std::size_t>));
 
     // What else there is to know of a body, parallel to the ids.

@@ -9,6 +9,6 @@ namespace scree {
 /// Writes /<shot>/<instancer> with the bodies of `motion`; nothing when there are none. Bodies of
 /// the same mesh, material and mass share a prototype.
 void writeUsdInstancer(UsdText& text, const UsdNames& names, const SceneDescription& scene,
-                       MotionSpool& motion);
+                       int firstFrame, MotionSpool& motion);
 
 }  // namespace scree

@@ -157,7 +157,7 @@ void writeCamera(UsdText& text, const std::string& name, const SceneDescription&
     text.line("float verticalAperture = " + floatText(kApertureHeight));
     writeUsdOldName(text, camera.name, name);
     const std::vector<Pose> poses = worldFromCameras(samples, scene.zUp);
-    track("quatf xformOp:orient", poses,
+    track("quatd xformOp:orient", poses,
           [](const Pose& pose) { return usdTuple(usdQuaternion(pose.orientation)); });
     track("double3 xformOp:translate", poses,
           [](const Pose& pose) { return usdTuple(pose.position); });

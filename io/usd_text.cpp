@@ -76,10 +76,9 @@ std::string usdString(std::string_view text)
     return quoted += '"';
 }
 
-Eigen::Vector4f usdQuaternion(const Quat& orientation)
+Eigen::Vector4d usdQuaternion(const Quat& orientation)
 {
-    return Eigen::Vector4d(orientation.w(), orientation.x(), orientation.y(), orientation.z())
-        .cast<float>();
+    return {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
 }
 
 }  // namespace scree

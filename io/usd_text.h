@@ -60,8 +60,9 @@ std::string usdTuple(const Vector& vector)
     return text;
 }
 
-/// Order w, x, y, z, as USD's text has it; single precision, which is what `quatf` holds.
-Eigen::Vector4f usdQuaternion(const Quat& orientation);
+/// Order w, x, y, z, as USD's text has it. To be written as `quatd` wherever USD allows: it takes
+/// the angle from w alone, and in `quatf` any turn below 0.04° has w = 1 and is lost.
+Eigen::Vector4d usdQuaternion(const Quat& orientation);
 
 /// "[" + values + "]"; `append(text, value)` writes one.
 template <class Range, class Append>

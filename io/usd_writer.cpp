@@ -93,7 +93,7 @@ void UsdWriter::finishScene()
     writeUsdCameras(text, *names_, *scene_, times());
     writeStaticBodies(text);
     if (form_ == UsdForm::instancer) {
-        writeUsdInstancer(text, *names_, *scene_, *motion_);
+        writeUsdInstancer(text, *names_, *scene_, firstFrame_, *motion_);
     } else {
         writeMovingBodies(text);
     }
@@ -130,7 +130,7 @@ void UsdWriter::writeStaticBodies(UsdText& text) const
         const Pose& pose = firstPoses_[body];
         openBody(text, body);
         const Quat orientation = pose.orientation.normalized();
-        text.line("quatf xformOp:orient = " + usdTuple(usdQuaternion(orientation)));
+        text.line("quatd xformOp:orient = " + usdTuple(usdQuaternion(orientation)));
         text.line("double3 xformOp:translate = " + usdTuple(pose.position));
         text.line(kPlaceOps);
         text.closePrim();
@@ -141,7 +141,7 @@ void UsdWriter::writeMovingBodies(UsdText& text)
 {
     motion_->visitTracks([&](std::size_t k, std::span<const MotionSample> track) {
         openBody(text, motion_->bodies()[k]);
-        writeTrack(text, "quatf xformOp:orient", motion_->times(), track, orientationText);
+        writeTrack(text, "quatd xformOp:orient", motion_->times(), track, orientationText);
         writeTrack(text, "double3 xformOp:translate", motion_->times(), track, translationText);
         text.line(kPlaceOps);
         writeBirth(text, scene_->bodies[motion_->bodies()[k]]);

@@ -75,8 +75,8 @@ for name in ("main", "around"):
             numbers >> eye.x() >> eye.y() >> eye.z() >> way.x() >> way.y() >> way.z() >> fov;
             ASSERT_TRUE(numbers) << read.output;
             EXPECT_LT((eye - now.eye).norm(), 1e-9) << camera.name << " " << time;
-            // Rotations and lenses are stored in single precision.
-            EXPECT_LT((way - (now.target - now.eye).normalized()).norm(), 2e-6) << camera.name;
+            EXPECT_LT((way - (now.target - now.eye).normalized()).norm(), 1e-9) << camera.name;
+            // Lenses are stored in single precision.
             EXPECT_NEAR(fov, now.fovDegrees, 1e-4) << camera.name;
         }
     }

@@ -184,6 +184,9 @@ TEST(Emitter, ARunStoppedWhileBodiesWaitGoesOnToTheSameBytes)
     EXPECT_GT(scene.bodies[3].mass, 0.0);
 }
 
+// The first of these is before the first frame.
+const std::vector<double> kSubframes = {-0.25, 0.0, 0.25};
+
 /// One body from the start, one born at the third of five frames, one never.
 class EmittedExport : public testing::Test {
 protected:
@@ -191,17 +194,23 @@ protected:
         : scene(test::sceneOf(
               {test::bodyNamed("early"), test::bodyNamed("late"), test::bodyNamed("never")}))
     {
+        scene.bodies[0].birthFrame = 1001;  // as a take says it of those that stand there
         scene.bodies[1].birthFrame = 1003;
         scene.bodies[2].birthFrame = kNeverBorn;
     }
 
-    std::filesystem::path write(const std::string& name) const
+    std::filesystem::path write(const std::string& name,
+                                const std::vector<double>& offsets = {0.0}) const
     {
         const std::filesystem::path path = folder / name;
         const auto writer = makeFrameWriter(path);
-        writer->begin(scene, 1001, 5);
+        writer->begin(scene, 1001, 5, offsets);
         for (int frame = 1001; frame <= 1005; ++frame) {
-            writer->write(test::tumblingFrame(scene, frame, 1001));
+            for (const double offset : offsets) {
+                SceneFrame sample = test::tumblingFrame(scene, frame, 1000);
+                sample.offset = offset;
+                writer->write(sample);
+            }
         }
         writer->finish();
         return path;
@@ -225,6 +234,15 @@ TEST_F(EmittedExport, AlembicHidesABodyUntilItsBirth)
         << tree;
 }
 
+TEST_F(EmittedExport, AlembicNeverHidesABodyOfTheStartThoughSamplesBeginBeforeTheFirstFrame)
+{
+    const test::CheckResult result = test::runAbcCheck(write("a.abc", kSubframes), "--strict");
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const std::string& tree = result.output;
+    EXPECT_EQ(tree.substr(0, tree.find("/test_shot/late ")).find("visible"), std::string::npos);
+    EXPECT_NE(tree.find("visible scalar int8_t samples=15"), std::string::npos) << tree;
+}
+
 TEST_F(EmittedExport, UsdItselfSaysWhoIsVisibleWhen)
 {
     const test::Reader& reader = test::findReader("usd");
@@ -234,28 +252,37 @@ TEST_F(EmittedExport, UsdItselfSaysWhoIsVisibleWhen)
 import sys
 from pxr import Usd, UsdGeom
 plain, instanced = (Usd.Stage.Open(path) for path in sys.argv[1:3])
+times = 1000.75, 1001, 1002.25, 1003, 1005.25
 for name in ("early", "late", "never"):
     prim = UsdGeom.Imageable(plain.GetPrimAtPath("/test_shot/" + name))
-    print(name, *(int(prim.ComputeVisibility(t) == "inherited") for t in range(1001, 1006)))
+    print(name, *(int(prim.ComputeVisibility(t) == "inherited") for t in times))
 instancer = UsdGeom.PointInstancer(instanced.GetPrimAtPath("/test_shot/Bodies"))
-for t in range(1001, 1006): print(*map(int, instancer.ComputeMaskAtTime(t) or [1, 1, 1]))
+for t in times: print(*map(int, instancer.ComputeMaskAtTime(t) or [1, 1, 1]))
 )";
-    const test::CommandResult result =
-        test::runCommand(reader.command + " " + script + " " + test::quoted(write("a.usda")) + " " +
-                         test::quoted(write("a.instances.usda")));
-    EXPECT_EQ(result.output,
-              "early 1 1 1 1 1\nlate 0 0 1 1 1\nnever 0 0 0 0 0\n"
-              "1 0 0\n1 0 0\n1 1 0\n1 1 0\n1 1 0\n");
+    for (const std::vector<double>& offsets : {std::vector{0.0}, kSubframes}) {
+        const test::CommandResult result = test::runCommand(
+            reader.command + " " + script + " " + test::quoted(write("a.usda", offsets)) + " " +
+            test::quoted(write("a.instances.usda", offsets)));
+        EXPECT_EQ(result.output,
+                  "early 1 1 1 1 1\nlate 0 0 0 1 1\nnever 0 0 0 0 0\n"
+                  "1 0 0\n1 0 0\n1 0 0\n1 1 0\n1 1 0\n");
+    }
 }
 
-TEST_F(EmittedExport, GltfScalesABodyToNothingUntilItsBirth)
+/// Times [s] and values of a glTF file's scale tracks, by body.
+struct ScaleTracks {
+    std::map<std::string, std::vector<float>> times, scales;
+
+    explicit ScaleTracks(const std::filesystem::path& path);
+};
+
+ScaleTracks::ScaleTracks(const std::filesystem::path& path)
 {
-    const std::string file = bytesOf(write("a.glb"));
+    const std::string file = bytesOf(path);
     std::uint32_t length = 0;
     std::memcpy(&length, file.data() + 12, 4);
     const auto json = nlohmann::json::parse(file.substr(20, length));
     const std::string binary = file.substr(28 + length);
-    std::map<std::string, std::vector<float>> times, scales;
     const auto floats = [&](std::size_t accessor, int width) {
         const auto& a = json["accessors"][accessor];
         const auto& view = json["bufferViews"][a["bufferView"].get<std::size_t>()];
@@ -272,10 +299,17 @@ TEST_F(EmittedExport, GltfScalesABodyToNothingUntilItsBirth)
         times[name] = floats(sampler["input"], 1);
         scales[name] = floats(sampler["output"], 3);
     }
-    EXPECT_EQ(times.count("early"), 0u);
-    EXPECT_EQ(times["late"], (std::vector<float>{0.0f, 2.0f / 24.0f}));
-    EXPECT_EQ(scales["late"], (std::vector<float>{0, 0, 0, 1, 1, 1}));
-    EXPECT_EQ(scales["never"], (std::vector<float>{0, 0, 0}));
+}
+
+TEST_F(EmittedExport, GltfScalesABodyToNothingUntilItsBirth)
+{
+    for (const std::vector<double>& offsets : {std::vector{0.0}, kSubframes}) {
+        ScaleTracks tracks(write("a.glb", offsets));
+        EXPECT_EQ(tracks.times.count("early"), 0u);
+        EXPECT_EQ(tracks.times["late"], (std::vector<float>{0.0f, 2.0f / 24.0f}));
+        EXPECT_EQ(tracks.scales["late"], (std::vector<float>{0, 0, 0, 1, 1, 1}));
+        EXPECT_EQ(tracks.scales["never"], (std::vector<float>{0, 0, 0}));
+    }
 }
 
 TEST_F(EmittedExport, SequencesLeaveUnbornBodiesOut)

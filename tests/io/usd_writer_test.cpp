@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -215,6 +216,47 @@ TEST(UsdWriter, NeighbouringQuaternionsLieInOneHemisphere)
     writer->write(test::frameWith(2, {{Vec3::Zero(), Quat(-turned.coeffs())}}));
     writer->finish();
     EXPECT_NE(contentOf(folder / "x.usda").find("2: (0.8, 0.6, "), std::string::npos);
+}
+
+/// Angles at times 1, 2, … of a body's or a camera's orientation, from w alone as OpenUSD has it.
+std::vector<double> anglesOf(const std::string& prim)
+{
+    std::vector<double> angles;
+    std::size_t at = prim.find("quatd xformOp:orient.timeSamples");
+    EXPECT_NE(at, std::string::npos) << prim;
+    while ((at = prim.find(": (", at)) < prim.find("xformOp:translate")) {
+        at += 3;
+        angles.push_back(2.0 * std::acos(std::stod(prim.substr(at))));
+    }
+    return angles;
+}
+
+TEST(UsdWriter, ATurnTooSmallForSinglePrecisionIsThere)
+{
+    const test::TemporaryFolder folder;
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("hand")});
+    constexpr double kTurn = 2e-5;  // [rad] a frame: a tenth of a degree in a hundred
+    const std::unique_ptr<FrameWriter> writer = makeUsdWriter(folder / "x.usda");
+    writer->begin(scene, 1, 10);
+    for (int i = 0; i < 10; ++i) {
+        const Quat turned(Eigen::AngleAxisd(kTurn * i, Vec3::UnitZ()));
+        writer->write(test::frameWith(1 + i, {{Vec3::Zero(), turned}}));
+    }
+    writer->finish();
+    const std::vector<double> angles = anglesOf(primText(contentOf(folder / "x.usda"), "hand"));
+    ASSERT_EQ(angles.size(), 10u);
+    // The cosine of half the angle, off by 1e-16, leaves the angle off by 4e-16 over it.
+    for (std::size_t i = 0; i < angles.size(); ++i) EXPECT_NEAR(angles[i], kTurn * i, 4e-11) << i;
+}
+
+TEST(UsdWriter, OrientationsOfInstancesHaveTheTypesTheSchemaAsksFor)
+{
+    const test::TemporaryFolder folder;
+    const std::string text = exported(makeUsdInstancesWriter, folder / "x.usda", test::castScene());
+    const std::string bodies = primText(text, "Bodies");
+    EXPECT_EQ(countOf(bodies, "quath[] orientations.timeSamples"), 1u);
+    EXPECT_EQ(countOf(bodies, "quatf[] orientationsf.timeSamples"), 1u);
+    EXPECT_EQ(countOf(bodies, "quatd"), 0u);
 }
 
 TEST(UsdWriter, EachMeshIsWrittenOnceHoweverManyBodiesShowIt)
