@@ -216,7 +216,9 @@ private:
     Mat4 matrixOf(const std::string& codes, std::string_view bytes, const std::string& name) const
     {
         std::vector<double> channels(bytes.size() / sizeof(double));
-        std::memcpy(channels.data(), bytes.data(), sizeof(double) * channels.size());
+        // Neither side has an address to copy from or to where there is nothing.
+        if (!channels.empty())
+            std::memcpy(channels.data(), bytes.data(), sizeof(double) * channels.size());
         Mat4 matrix = Mat4::Identity();
         std::size_t next = 0;
         for (const unsigned char code : codes) {

@@ -2,6 +2,8 @@
 // hash of all before it.
 #include "io/distance_cache.h"
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
@@ -49,7 +51,8 @@ public:
         if (count > bytes_.size() / sizeof(Element)) isWhole_ = false;
         if (!isWhole_) return {};
         std::vector<Element> elements(count);
-        std::memcpy(elements.data(), bytes_.data(), sizeof(Element) * count);
+        // Neither side need have an address where there is nothing.
+        if (count > 0) std::memcpy(elements.data(), bytes_.data(), sizeof(Element) * count);
         bytes_.remove_prefix(sizeof(Element) * count);
         return elements;
     }
@@ -61,17 +64,43 @@ private:
     bool isWhole_ = true;
 };
 
-/// Whether every index stays inside its array.
+std::array<int, 3> blocksAlong(const NodeLayout& layout)
+{
+    std::array<int, 3> blocks;
+    for (int axis = 0; axis < 3; ++axis) blocks[axis] = (layout.count[axis] - 2) / kBlockCells + 1;
+    return blocks;
+}
+
+/// Whether points have places in the lattice: divisions by the spacing stay finite, too.
+bool isLattice(const NodeLayout& layout)
+{
+    for (const int count : layout.count) {
+        if (count < 2) return false;
+    }
+    return std::isnormal(layout.spacing) && layout.spacing > 0.0 && layout.origin.allFinite() &&
+           layout.last().allFinite();
+}
+
+/// Whether the layout has as many blocks as there are. The product is never formed: it can be more
+/// than any number holds, and nothing may be made of that size before it is known to be right.
+bool hasItsBlocks(const DistanceNodes& nodes)
+{
+    std::size_t left = nodes.blocks.size();
+    for (const int count : blocksAlong(nodes.layout)) {
+        if (left % static_cast<std::size_t>(count) != 0) return false;
+        left /= static_cast<std::size_t>(count);
+    }
+    return left == 1;
+}
+
+/// Whether every index stays inside its array. Only the faces are not compared: how many there are
+/// is known to who has the mesh.
 bool isConsistent(const DistanceField& field)
 {
     const DistanceNodes& nodes = field.nodes;
     const bool isDense = nodes.storage == FieldStorage::dense;
     if (!isDense && nodes.storage != FieldStorage::bricks) return false;
-    for (const int count : nodes.layout.count) {
-        if (count < 2) return false;
-    }
-    const DistanceNodes expected = emptyNodes(nodes.layout, nodes.storage);
-    if (nodes.blocks.size() != expected.blocks.size()) return false;
+    if (!isLattice(nodes.layout) || !hasItsBlocks(nodes)) return false;
     if (isDense && nodes.values.size() != nodes.layout.nodeCount()) return false;
     constexpr std::size_t kBlockLists = kBlockCells * kBlockCells * kBlockCells;
     for (const FieldBlock& block : nodes.blocks) {
@@ -134,7 +163,7 @@ std::optional<DistanceField> fieldOfBytes(std::uint64_t key, std::string_view by
     field.nearest.start = reader.takeArray<std::uint32_t>();
     field.nearest.faces = reader.takeArray<std::uint32_t>();
     if (!reader.isUsedUp() || !isConsistent(field)) return std::nullopt;
-    field.nodes.blockCount = emptyNodes(layout, field.nodes.storage).blockCount;
+    field.nodes.blockCount = blocksAlong(layout);
     return field;
 }
 

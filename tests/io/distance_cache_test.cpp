@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 
 #include "core/base/random.h"
 #include "core/geometry/primitives.h"
@@ -95,6 +96,53 @@ TEST(DistanceCache, ADamagedFileIsNoticedAndWrittenAnew)
     EXPECT_EQ(second.foundCount(), 0);
     EXPECT_NE(second.problem().find("damaged"), std::string::npos);
     EXPECT_EQ(readFileBytes(file), good);
+}
+
+/// Whether a field would be taken from a file whose checksum is right.
+bool isAccepted(const DistanceField& field)
+{
+    return fieldOfBytes(1, bytesOfField(1, field)).has_value();
+}
+
+TEST(DistanceCache, AFileThatDoesNotFitTogetherIsRefusedThoughItsChecksumFits)
+{
+    for (const ShapeSettings& settings : {ShapeSettings(), bricks()}) {
+        const TriMesh ring = makeTorus(1.0, 0.25, {16, 10});
+        const auto shape = buildMeshShape("ring", ring, settings, nullptr);
+        const DistanceField& good = shape->distance.field();
+        ASSERT_TRUE(isAccepted(good));
+        const auto refuses = [&](auto change) {
+            DistanceField bad = good;
+            change(bad);
+            return !isAccepted(bad);
+        };
+        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        for (const double spacing : {0.0, -0.1, 1e-310, 1e308, kInfinity, kNan}) {
+            const auto change = [&](DistanceField& field) { field.nodes.layout.spacing = spacing; };
+            EXPECT_TRUE(refuses(change)) << "spacing " << spacing;
+        }
+        for (const double x : {kInfinity, kNan}) {
+            const auto change = [&](DistanceField& field) { field.nodes.layout.origin.y() = x; };
+            EXPECT_TRUE(refuses(change)) << "origin " << x;
+        }
+        EXPECT_TRUE(refuses([](DistanceField& field) { field.nodes.layout.count[2] += 8; }));
+        EXPECT_TRUE(refuses([](DistanceField& field) { field.nodes.blocks.pop_back(); }));
+        EXPECT_TRUE(refuses([](DistanceField& field) { field.nodes.values.pop_back(); }));
+        EXPECT_TRUE(refuses([](DistanceField& field) { field.nearest.faces.pop_back(); }));
+        EXPECT_TRUE(refuses([](DistanceField& field) { field.nearest.start.pop_back(); }));
+    }
+}
+
+TEST(DistanceCache, ALatticeLargerThanAnyMemoryIsRefusedBeforeMemoryIsAskedFor)
+{
+    constexpr int kMost = std::numeric_limits<int>::max();  // nodes, in 2²⁸ blocks
+    DistanceField field;
+    field.nodes.storage = FieldStorage::bricks;
+    field.nodes.layout = {Vec3::Zero(), 0.1, {kMost, kMost, 2}};
+    EXPECT_FALSE(isAccepted(field));
+    field.nodes.layout.count = {kMost, kMost, 2 + 8 * 255};  // 2⁶⁴ blocks, which count as none
+    EXPECT_FALSE(isAccepted(field));
 }
 
 TEST(DistanceCache, AFolderThatCannotBeMadeStopsNothing)
