@@ -9,6 +9,7 @@
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
 #include "io/mesh_import.h"
+#include "io/plane_mesh.h"
 #include "io/problem_list.h"
 
 namespace scree {
@@ -197,23 +198,9 @@ private:
     std::optional<ShapeId> plane_;
 };
 
-/// A square in the plane y = 0 of its own frame, seen from +y.
-SceneMesh makeQuad(const std::string& name, double halfWidth)
-{
-    SceneMesh quad{name, Points(3, 4), Triangles(3, 2)};
-    const double h = halfWidth;
-    quad.points << -h, -h, h, h,  //
-        0, 0, 0, 0,               //
-        -h, h, h, -h;
-    quad.triangles << 0, 0,  //
-        1, 2,                //
-        2, 3;
-    return quad;
-}
-
 SceneMesh toSceneMesh(const Shape& shape, double metresPerUnit, double planeHalfWidth)
 {
-    if (shape.isPlane) return makeQuad(shape.name, planeHalfWidth);
+    if (shape.isPlane) return makePlaneMesh(shape.name, planeHalfWidth);
     const TriMesh& mesh = shape.assetMesh;
     return {shape.name, mesh.points / metresPerUnit, mesh.triangles, mesh.cornerUvs};
 }

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "io/file_bytes.h"
+#include "io/plane_mesh.h"
 #include "io/ply_mesh.h"
 #include "io/subframes.h"
 
@@ -14,19 +15,6 @@ namespace {
 
 /// Space left around the outermost body, as a share of its distance from the plane's origin.
 constexpr double kPlaneMargin = 0.25;
-
-/// Square of half width `half` with normal +y.
-SceneMesh planeMesh(const std::string& name, double half)
-{
-    SceneMesh mesh{name, Points(3, 4), Triangles(3, 2)};
-    mesh.points.col(0) = Vec3(-half, 0.0, -half);
-    mesh.points.col(1) = Vec3(-half, 0.0, half);
-    mesh.points.col(2) = Vec3(half, 0.0, half);
-    mesh.points.col(3) = Vec3(half, 0.0, -half);
-    mesh.triangles.col(0) = Eigen::Vector3i(0, 1, 2);
-    mesh.triangles.col(1) = Eigen::Vector3i(0, 2, 3);
-    return mesh;
-}
 
 /// Distance of the farthest point from the asset's origin.
 double reach(const SceneMesh& mesh)
@@ -74,7 +62,7 @@ SceneDescription TakeReader::describe() const
         if (body.isPlane && !meshByName.contains(body.shape)) {
             meshByName[body.shape] = scene.meshes.size();
             planeMeshes.push_back(scene.meshes.size());
-            scene.meshes.push_back(planeMesh(body.shape, 0.0));
+            scene.meshes.push_back(makePlaneMesh(body.shape, 0.0));
         }
         const auto mesh = meshByName.find(body.shape);
         if (mesh == meshByName.end())
@@ -86,7 +74,7 @@ SceneDescription TakeReader::describe() const
     tellBirths(scene);
     const double half = planeHalfWidth(scene);
     for (const std::size_t mesh : planeMeshes)
-        scene.meshes[mesh] = planeMesh(scene.meshes[mesh].name, half);
+        scene.meshes[mesh] = makePlaneMesh(scene.meshes[mesh].name, half);
 
     // Say how it looks and from where it is seen.
     for (const TakeLook& look : info_.looks)
