@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/dynamics/stepper.h"
+#include "core/scene/motion_script.h"
 #include "io/build_world.h"
 #include "io/file_bytes.h"
 #include "io/frame_pattern.h"
@@ -52,6 +53,25 @@ std::string percentText(double ratio)
     return text;
 }
 
+/// The last moment at which the shot itself sets something in motion [s]: a key, a release, a force
+/// that changes. What lies still until then is not at rest.
+double endOfEvents(const World& world)
+{
+    double last = 0.0;
+    const auto include = [&](double time) { last = std::max(last, time); };
+    for (const BodyInfo& body : world.info) {
+        if (!body.script) continue;
+        const double release = static_cast<double>(body.keyedUntil) * world.frameDuration;
+        const bool isReleased = body.keyedUntil != BodyInfo().keyedUntil;
+        include(static_cast<double>(body.keyedFrom) * world.frameDuration);
+        include(isReleased ? release : body.script->lastKeyTime());
+    }
+    for (const ForceField& field : world.fields) {
+        if (!field.keys.empty()) include(field.keys.back().time);
+    }
+    return last;
+}
+
 /// Asked before anything is simulated: a slip in a name must not cost the run.
 void requirePoseFormat(const std::string& output)
 {
@@ -76,6 +96,7 @@ public:
     {
         setThreadCount(threadsToUse(options.threads));
         world_ = buildWorld(shot_);
+        endOfEvents_ = endOfEvents(world_);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
     }
@@ -91,10 +112,8 @@ public:
         write();
         std::printf("%s\n", options_.output.c_str());
         if (isAtRest) return kExitDone;
-        console_.error("not at rest after " + describeDuration(options_.seconds) + ": '" +
-                       world_.info[restless_].name + "' still moves, " +
-                       percentText(restlessness_) +
-                       " of its radius in half a second; the pose is written all the same");
+        console_.error("not at rest after " + describeDuration(options_.seconds) + ": " +
+                       reasonOfUnrest() + "; the pose is written all the same");
         return kExitQuality;
     }
 
@@ -124,7 +143,8 @@ private:
     bool isAtRest(const std::vector<BodyMotion>& before, const BirthReport& births)
     {
         double most = options_.tolerance;
-        bool result = births.born == 0 && births.waiting == 0;
+        bool result = births.born == 0 && births.waiting == 0 &&
+                      world_.time() >= endOfEvents_ + kWindowSeconds;
         for (BodyId body = 0; body < static_cast<BodyId>(world_.bodyCount()); ++body) {
             if (world_.bornAt[body] == kUnborn) restless_ = body, result = false;
             if (!world_.mass[body].isMovable()) continue;
@@ -136,6 +156,16 @@ private:
             result = false;
         }
         return result;
+    }
+
+    std::string reasonOfUnrest() const
+    {
+        if (world_.time() < endOfEvents_) {
+            return "keys, releases and changes of force go on until " +
+                   describeDuration(endOfEvents_) + " after the start (--seconds)";
+        }
+        return "'" + world_.info[restless_].name + "' still moves, " + percentText(restlessness_) +
+               " of its radius in half a second";
     }
 
     void refuseNonFinite(const FrameReport& report) const
@@ -185,6 +215,7 @@ private:
     Console& console_;
     Shot shot_;
     World world_;
+    double endOfEvents_ = 0.0;   // [s]
     BodyId restless_ = 0;        // who moves most
     double restlessness_ = 0.0;  // by how much of its radius
 };

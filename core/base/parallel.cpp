@@ -21,11 +21,12 @@ std::unique_ptr<ThreadTeam> team;              // where there are several thread
 
 void setThreadCount(int count)
 {
+    team.reset();
+    chosenThreads = 1;
+    if (count > 1) team = std::make_unique<ThreadTeam>(count);
     chosenThreads = std::max(count, 1);
     control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(chosenThreads));
-    team.reset();
-    if (chosenThreads > 1) team = std::make_unique<ThreadTeam>(chosenThreads);
 }
 
 int threadCount()

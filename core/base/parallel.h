@@ -9,7 +9,8 @@
 
 namespace scree {
 
-/// Threads used by parallelFor from now on; at least 1.
+/// Threads used by parallelFor from now on; at least 1. Throws Error{usage} when the system allows
+/// fewer.
 void setThreadCount(int count);
 int threadCount();
 

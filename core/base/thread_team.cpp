@@ -1,7 +1,11 @@
 #include "core/base/thread_team.h"
 
 #include <algorithm>
+#include <string>
+#include <system_error>
 #include <utility>
+
+#include "core/base/error.h"
 
 namespace scree {
 namespace {
@@ -31,11 +35,25 @@ void pauseAfter(int pauses)
 ThreadTeam::ThreadTeam(int count) : shares_(static_cast<std::size_t>(std::max(count, 2)))
 {
     if (shares_.size() <= std::thread::hardware_concurrency()) pauses_ = kPausesAwake;
-    for (std::size_t self = 1; self < shares_.size(); ++self)
-        helpers_.emplace_back([this, self] { help(self); });
+    try {
+        for (std::size_t self = 1; self < shares_.size(); ++self)
+            helpers_.emplace_back([this, self] { help(self); });
+    } catch (const std::system_error& error) {
+        const std::size_t started = helpers_.size() + 1;
+        dismiss();
+        throw Error(ErrorKind::usage, "cannot run " + std::to_string(shares_.size()) +
+                                          " threads: this process may have " +
+                                          std::to_string(started) + " (" + error.code().message() +
+                                          "); choose fewer with --threads");
+    }
 }
 
 ThreadTeam::~ThreadTeam()
+{
+    dismiss();
+}
+
+void ThreadTeam::dismiss()
 {
     isOver_ = true;
     call(shares_.size());

@@ -20,7 +20,8 @@ namespace scree {
 
 class ThreadTeam {
 public:
-    /// Of `count` threads, the one that calls share among them; at least 2.
+    /// Of `count` threads, the one that calls share among them; at least 2. Throws Error{usage}
+    /// when the system allows fewer.
     explicit ThreadTeam(int count);
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam&) = delete;
@@ -48,6 +49,7 @@ private:
         std::size_t shares = 0;  // in use: of few ranges not everybody gets one
     };
 
+    void dismiss();
     void call(std::size_t shares);
     void help(std::size_t self);
     void waitForCall(const Share& own, int last) const;

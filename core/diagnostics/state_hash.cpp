@@ -70,13 +70,7 @@ std::uint64_t hashOf(const BodyMotion& m, std::uint64_t seed)
 
 std::uint64_t hashOf(const RememberedContact& c, std::uint64_t seed)
 {
-    return Fields()
-        .add(c.a, c.b)
-        .add(c.feature)
-        .add(c.place)
-        .add(c.force)
-        .add(c.couple)
-        .hash(seed);
+    return Fields().add(c.a, c.b).add(c.feature).add(c.place).add(c.force).add(c.couple).hash(seed);
 }
 
 std::uint64_t hashOf(const BodyRest& rest, std::uint64_t seed)

@@ -2,8 +2,8 @@
 //
 // A step passes over its rows a dozen times. Those of ten heaps of a thousand rings fit into no
 // cache, and were fetched from memory by each pass. Islands share no movable body: each may be
-// solved to the end before the next is begun, or many at once without meeting in between. Impacts of
-// ten such heaps take a fifth less time so; sweeps have their own layout and gain nothing.
+// solved to the end before the next is begun, or many at once without meeting in between. Impacts
+// of ten such heaps take a fifth less time so; sweeps have their own layout and gain nothing.
 #pragma once
 
 #include <vector>

@@ -2,8 +2,8 @@
 // Friction”], [A49–A51]
 //
 // Symbols: K1 … K4 the blocks that turn an impulse j at p and a couple c about p into changes of
-//          the relative velocity u and spin w there: Δu = K1 j + K2 c, Δw = K2ᵀ j + K4 c; C the part
-//          of K4 that is left when the point must not slip; n unit normal, jn normal impulse.
+//          the relative velocity u and spin w there: Δu = K1 j + K2 c, Δw = K2ᵀ j + K4 c; C the
+//          part of K4 that is left when the point must not slip; n unit normal, jn normal impulse.
 #pragma once
 
 #include "core/dynamics/impulse.h"

@@ -244,8 +244,8 @@ bool isBalanced(const World& world, BodyId body, const ContactLoad& load, const 
     return rest.force <= allowed && rest.torque <= allowed * world.shapeOf(body).boundingRadius;
 }
 
-/// Whether the impulse of a row on a body holds it up against what pulls it; in a world without pull
-/// everything that touches does.
+/// Whether the impulse of a row on a body holds it up against what pulls it; in a world without
+/// pull everything that touches does.
 bool isHeldUpBy(const GapRow& row, const Vec3& impulse, const Vec3& pull)
 {
     return impulse.dot(-pull) > kBalanced * row.impulse.norm() * pull.norm() || pull.isZero(0.0);

@@ -44,6 +44,9 @@ public:
 
     ScriptBounds boundsBetween(double from, double to) const;
 
+    /// Nothing moves after it [s].
+    double lastKeyTime() const { return last_.time; }
+
 private:
     struct Stretch {
         double start = 0.0, duration = 1.0;

@@ -2,11 +2,14 @@
 #include "core/base/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <fstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -39,6 +42,28 @@ TEST(Parallel, BothThreadsWorkAlsoAfterRaysHaveBeenCastAtAMesh)
     EXPECT_TRUE(rays.firstHit({0.0, 0.0, 3.0}, {0.0, 0.0, -1.0}, 10.0, SurfaceRays::Facing::any));
     EXPECT_EQ(rangesAtOnce(), 2);
     setThreadCount(1);
+}
+
+TEST(Parallel, MoreThreadsThanTheSystemAllowsAreRefusedAndNothingIsLeftOfThem)
+{
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    rlimit tight = before;
+    tight.rlim_cur = pages * 4096 + (rlim_t{512} << 20);  // stacks of a few dozen threads
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &tight), 0);
+    std::string message;
+    try {
+        setThreadCount(4096);
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+    EXPECT_NE(message.find("cannot run 4096 threads"), std::string::npos) << message;
+    EXPECT_EQ(threadCount(), 1);
+    setThreadCount(2);
+    EXPECT_EQ(rangesAtOnce(), 2);
 }
 
 TEST(Parallel, EveryIndexIsVisitedOnceInOneLoopAfterTheOther)
