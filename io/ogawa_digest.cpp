@@ -18,12 +18,11 @@ using std::uint64_t;
 uint64_t partialWord(std::string_view bytes)
 {
     uint64_t word = 0;
-    std::memcpy(&word, bytes.data(), std::min<std::size_t>(bytes.size(), 8));
+    if (!bytes.empty()) std::memcpy(&word, bytes.data(), std::min<std::size_t>(bytes.size(), 8));
     return word;
 }
 
-// ---- MurmurHash3
-// ----------------------------------------------------------------------------------
+// ---- MurmurHash3 [App]
 
 constexpr uint64_t kMurmur1 = 0x87c37b91114253d5ull;
 constexpr uint64_t kMurmur2 = 0x4cf5ad432745937full;
@@ -45,8 +44,7 @@ uint64_t finishMurmur(uint64_t h)
     return h ^ (h >> 33);
 }
 
-// ---- SpookyHash
-// -----------------------------------------------------------------------------------
+// ---- SpookyHash [Jen]
 
 constexpr uint64_t kSpooky = 0xdeadbeefdeadbeefull;
 constexpr std::size_t kLongFrom = 192;  // bytes; shorter messages use four words of state

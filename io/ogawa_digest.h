@@ -1,5 +1,5 @@
-// The two 128-bit hashes that Alembic stores: MurmurHash3 x64 128 (Appleby) names the bytes of a
-// sample, SpookyHash V2 (Jenkins) names properties and objects. Both with seed 0.
+// The two 128-bit hashes that Alembic stores: MurmurHash3 x64 128 [App] names the bytes of a
+// sample, SpookyHash V2 [Jen] names properties and objects. Both with seed 0.
 #pragma once
 
 #include <cstdint>

@@ -6,9 +6,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/geometry/mesh_defects.h"
+#include "io/alembic_archive.h"
+#include "io/byte_order.h"
 #include "io/frame_writer.h"
 #include "io/mesh_import.h"
 #include "tests/support/export_scene.h"
@@ -151,6 +154,45 @@ TEST(AlembicImport, AZUpShotComesBackYUp)
     const Vec3 is = file.nodes[0].fileFromNode * file.nodes[0].mesh.points.col(1);
     EXPECT_TRUE(file.isYUp);
     EXPECT_LT((is - Vec3(was.x(), was.z(), -was.y())).norm(), kTolerance);
+}
+
+/// A file with a tetrahedron below a transform of no operations and no numbers.
+void writeBelowEmptyTransform(const std::filesystem::path& path)
+{
+    AlembicArchive archive(path);
+    const SceneMesh mesh = test::tetrahedron();
+    const Eigen::Matrix3Xf points = mesh.points.cast<float>();
+    const std::vector<std::int32_t> counts(static_cast<std::size_t>(mesh.triangles.cols()), 3);
+    const auto array = [&](const std::string& name, AlembicType type, int extent,
+                           std::string_view bytes, Eigen::Index count) {
+        const auto values = static_cast<std::uint64_t>(count);
+        return archive.writeProperty({name, AlembicKind::array, type, extent, 0, ""},
+                                     SampleTrack(archive.writeArray(bytes, values)));
+    };
+    const std::vector<AlembicProperty> geometry = {
+        array("P", AlembicType::f32, 3, bytesOf(points), points.cols()),
+        array(".faceIndices", AlembicType::i32, 1, bytesOf(mesh.triangles), mesh.triangles.size()),
+        array(".faceCounts", AlembicType::i32, 1, bytesOf(counts), mesh.triangles.cols())};
+    const AlembicProperty shown = archive.writeCompound(".geom", "", geometry);
+    const AlembicObject shape = archive.writeObject(
+        "shape", "schemaObjTitle=AbcGeom_PolyMesh_v1:.geom", std::span(&shown, 1), {});
+    const std::vector<AlembicProperty> nothing = {array(".ops", AlembicType::u8, 1, "", 0),
+                                                  array(".vals", AlembicType::f64, 1, "", 0)};
+    const AlembicProperty place = archive.writeCompound(".xform", "", nothing);
+    const AlembicObject root = archive.writeObject("root", "schemaObjTitle=AbcGeom_Xform_v3:.xform",
+                                                   std::span(&place, 1), std::span(&shape, 1));
+    archive.finish(std::span(&root, 1), "_ai_Application=test");
+}
+
+TEST(AlembicImport, ATransformWithoutOperationsMovesNothing)
+{
+    const test::TemporaryFolder folder;
+    writeBelowEmptyTransform(folder / "x.abc");
+    const ImportedFile file = importFile((folder / "x.abc").string());
+    ASSERT_EQ(file.nodes.size(), 1u);
+    EXPECT_EQ(file.nodes[0].name, "root");
+    EXPECT_LT((file.nodes[0].mesh.points - test::tetrahedron().points).norm(), kTolerance);
+    EXPECT_TRUE(file.nodes[0].fileFromNode.position.isZero(0.0));
 }
 
 /// The distance from every point of `expected` to the nearest of the mesh.
