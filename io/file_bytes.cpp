@@ -14,12 +14,20 @@ std::string readFileBytes(const std::filesystem::path& path)
 {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path))
+    std::error_code ignored;
+    if (!file || std::filesystem::is_directory(path, ignored))
         throw Error(ErrorKind::missingInput, {path.string(), 0, 0},
                     std::string("cannot be read: ") + std::strerror(file ? EISDIR : errno));
     std::string bytes((std::istreambuf_iterator<char>(file)), {});
     if (file.bad()) throw Error(ErrorKind::inputOutput, {path.string(), 0, 0}, "reading failed");
     return bytes;
+}
+
+std::string obstacleTo(const std::filesystem::path& path)
+{
+    std::error_code code;
+    const std::filesystem::file_status status = std::filesystem::status(path, code);
+    return std::filesystem::status_known(status) ? "" : code.message();
 }
 
 void writeFileBytes(const std::filesystem::path& path, std::string_view bytes)

@@ -1,6 +1,7 @@
 #include "io/frame_stats.h"
 
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "io/take_info.h"
@@ -50,6 +51,13 @@ Json phaseTimes(const StepReport& report)
     return times;
 }
 
+/// JSON has no word for what is not finite; such figures are written as null. They are too large
+/// rather than too small for any limit they are compared with.
+double numberFrom(const Json& json)
+{
+    return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+
 FrameSummary summaryFromLine(const std::string& line)
 {
     const Json json = Json::parse(line);
@@ -60,10 +68,10 @@ FrameSummary summaryFromLine(const std::string& line)
     summary.steps = json.at("substeps");
     summary.contactPairs = json.at("contact_pairs");
     summary.bodiesAwake = json.at("bodies_awake");
-    summary.overlapRatio = json.at("overlap").at("worst_ratio");
+    summary.overlapRatio = numberFrom(json.at("overlap").at("worst_ratio"));
     summary.worstA = json.at("overlap").at("bodies").at(0);
     summary.worstB = json.at("overlap").at("bodies").at(1);
-    summary.kineticEnergy = json.at("kinetic_energy_J");
+    summary.kineticEnergy = numberFrom(json.at("kinetic_energy_J"));
     summary.stateHash = json.at("state_hash");
     summary.line = line;
     return summary;
@@ -88,6 +96,7 @@ std::string encodeStats(const FrameStats& stats, const World& world)
         {"broad_pairs", sum.broadPairs},
         {"touching_pairs", sum.touchingPairs},
         {"contact_pairs", sum.contactPairs},
+        {"contacts", sum.contacts},
         {"levels", sum.levels},
         {"largest_level", sum.largestLevel},
         {"impulses",

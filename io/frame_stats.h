@@ -30,11 +30,11 @@ struct FrameSummary {
     int steps = 0;
     std::int64_t contactPairs = 0;
     int bodiesAwake = 0;
-    double overlapRatio = 0.0;       ///< worst, of the smaller body's longest box edge
+    double overlapRatio = 0.0;   ///< worst, of the smaller body's longest box edge; may be infinite
     std::string worstA, worstB;  ///< the bodies of the worst ratio; may be empty
-    double kineticEnergy = 0.0;      ///< [J]
-    std::string stateHash;           ///< 16 hexadecimal digits
-    std::string line;                ///< as it stands in the file
+    double kineticEnergy = 0.0;  ///< [J]; may be infinite
+    std::string stateHash;       ///< 16 hexadecimal digits
+    std::string line;            ///< as it stands in the file
 };
 
 /// All lines that can be read, in the order of the file; a line cut by a crash is left out, a

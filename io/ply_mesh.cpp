@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "io/atomic_file.h"
 #include "io/byte_order.h"
 #include "io/file_bytes.h"
 
@@ -84,23 +83,27 @@ Eigen::Matrix<float, 2, 3> readUvs(const std::filesystem::path& path, std::strin
 
 }  // namespace
 
-void writePlyMesh(const std::filesystem::path& path, const TriMesh& mesh)
+std::string encodePlyMesh(const TriMesh& mesh)
 {
     const bool hasUvs = mesh.cornerUvs.cols() > 0;
-    AtomicFile file(path);
-    file.write(headerOf(static_cast<std::uint64_t>(mesh.points.cols()),
-                        static_cast<std::uint64_t>(mesh.triangles.cols()), hasUvs));
-    file.write(bytesOf(mesh.points));
+    std::string bytes = headerOf(static_cast<std::uint64_t>(mesh.points.cols()),
+                                 static_cast<std::uint64_t>(mesh.triangles.cols()), hasUvs);
+    bytes += bytesOf(mesh.points);
     for (Eigen::Index face = 0; face < mesh.triangles.cols(); ++face) {
         const Eigen::Vector3i corners = mesh.triangles.col(face);
-        file.write(&kCornerCount, 1);
-        file.write(bytesOf(corners));
+        bytes.append(reinterpret_cast<const char*>(&kCornerCount), 1);
+        bytes += bytesOf(corners);
         if (!hasUvs) continue;
         const Eigen::Matrix<float, 2, 3> uvs = mesh.cornerUvs.middleCols<3>(3 * face);
-        file.write(&kUvCount, 1);
-        file.write(bytesOf(uvs));
+        bytes.append(reinterpret_cast<const char*>(&kUvCount), 1);
+        bytes += bytesOf(uvs);
     }
-    file.commit();
+    return bytes;
+}
+
+void writePlyMesh(const std::filesystem::path& path, const TriMesh& mesh)
+{
+    writeFileBytes(path, encodePlyMesh(mesh));
 }
 
 TriMesh readPlyMesh(const std::filesystem::path& path)

@@ -5,12 +5,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/geometry/tri_mesh.h"
 
 namespace scree {
 
-/// Equal meshes give equal bytes. Throws Error{cannotCreate} or Error{inputOutput}.
+/// The bytes of the file. Equal meshes give equal bytes.
+std::string encodePlyMesh(const TriMesh& mesh);
+
+/// Throws Error{cannotCreate} or Error{inputOutput}.
 void writePlyMesh(const std::filesystem::path& path, const TriMesh& mesh);
 
 /// The mesh that was written, bit for bit. Throws Error{missingInput} when there is no file, and

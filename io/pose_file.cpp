@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "io/file_bytes.h"
+
 namespace scree {
 namespace {
 
@@ -82,6 +84,11 @@ std::vector<Pose> readPoseFile(const std::string& path, const SourceLocation& wh
                                ProblemList& problems)
 {
     std::vector<Pose> poses;
+    if (const std::string obstacle = obstacleTo(path); !obstacle.empty()) {
+        problems.add(where, "pose file '" + path + "' cannot be reached: " + obstacle,
+                     ErrorKind::missingInput);
+        return poses;
+    }
     if (!std::filesystem::exists(path)) {
         problems.add(where, "pose file '" + path + "' does not exist", ErrorKind::missingInput);
         return poses;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/base/hash.h"
+#include "io/file_bytes.h"
 #include "io/mesh_import.h"
 #include "io/nearest_word.h"
 
@@ -206,6 +207,13 @@ void requireMotion(const ShotNode& motion, const ImportedFile& file,
                  "they are");
 }
 
+ImportedFile readAsset(const std::string& path, const Shot& shot)
+{
+    if (const std::string obstacle = obstacleTo(path); !obstacle.empty())
+        throw Error(ErrorKind::missingInput, "'" + path + "' cannot be reached: " + obstacle);
+    return importFile(path, shot.importLimits);
+}
+
 }  // namespace
 
 std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::string& path,
@@ -214,7 +222,7 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     std::vector<PlacedNode> result;
     ImportedFile file;
     try {
-        file = importFile(path, shot.importLimits);
+        file = readAsset(path, shot);
     } catch (const Error& error) {
         problems.add(node.find("file")->where, error.what(), error.kind());
         return result;
@@ -252,7 +260,7 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
 {
     ImportedFile file;
     try {
-        file = importFile(path, shot.importLimits);
+        file = readAsset(path, shot);
     } catch (const Error& error) {
         problems.add(node.find("file")->where, error.what(), error.kind());
         return std::nullopt;

@@ -138,6 +138,7 @@ private:
         ShotBody body;
         body.location = node.where;
         if (const ShotNode* name = node.find("name")) body.name = name->text;
+        if (!claim(node, body.name, ownerOfItem_)) return;
         readReferences(node, body);
         if (const ShotNode* plane = node.find("plane")) readPlane(node, *plane, body);
         readMotion(node, body);
@@ -224,6 +225,7 @@ private:
         require("material", materialNames_);
         if (const ShotNode* count = node.find("count")) hasRoomFor(1.0 * emitter.count, *count);
         if (problems_.count() > problemsBefore || !isComplete(node)) return;
+        if (!claim(node, emitter.name, ownerOfItem_)) return;
 
         for (int i = 0; i < emitter.count; ++i) {
             ShotBody body = emittedBody(emitter, shot_, i);
@@ -250,12 +252,19 @@ private:
         return name + number;
     }
 
-    /// False, and a report, when another body has the name.
     bool claimName(const ShotNode& node, const std::string& name)
+    {
+        return claim(node, name, ownerOfName_);
+    }
+
+    using Owners = std::unordered_map<std::string, SourceLocation>;  // asked, never walked
+
+    /// False, and a report, when another has the name.
+    bool claim(const ShotNode& node, const std::string& name, Owners& owners)
     {
         const ShotNode* place = node.find("name");
         if (!place) return true;
-        const auto [owner, isNew] = ownerOfName_.try_emplace(name, place->where);
+        const auto [owner, isNew] = owners.try_emplace(name, place->where);
         if (!isNew) {
             report(*place,
                    "body name '" + name + "' is taken by the body at " + toString(owner->second));
@@ -442,8 +451,8 @@ private:
     void readCamera(const ShotNode& node)
     {
         const ShotNode& name = *node.find("name");
-        for (const SceneCamera& other : shot_.cameras) {
-            if (other.name != name.text) continue;
+        const auto isTaken = [&](const SceneCamera& other) { return other.name == name.text; };
+        if (std::any_of(shot_.cameras.begin(), shot_.cameras.end(), isTaken)) {
             report(name, "camera name '" + name.text + "' is taken by another camera");
         }
         shot_.cameras.push_back(interpretCamera(node, folder_, shot_, problems_));
@@ -469,7 +478,8 @@ private:
     ProblemList& problems_;
     Shot shot_;
     std::vector<std::string> materialNames_, shapeNames_;
-    std::unordered_map<std::string, SourceLocation> ownerOfName_;  // asked, never walked
+    Owners ownerOfName_;  // of the bodies, copies one by one
+    Owners ownerOfItem_;  // of [[body]] and [[emitter]], whose name the copies need not have
     bool isTooManyReported_ = false;
     bool isStrict_ = false;
     GroupNames groups_;

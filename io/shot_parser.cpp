@@ -10,6 +10,7 @@
 #define TOML_ASSERT(condition) static_cast<void>(0)
 #include <toml++/toml.h>
 
+#include "io/file_bytes.h"
 #include "io/nearest_word.h"
 #include "io/problem_list.h"
 #include "io/shot_check.h"
@@ -113,6 +114,9 @@ public:
             return report("expected KEY=VALUE, for example solver.contact_iterations=20");
         }
         splitPath(trimmed(text_.substr(0, equals)));
+        if (words_.front() == "extends") {
+            return report("'extends' cannot be set: what a shot stands on is read before");
+        }
         const std::string value = trimmed(text_.substr(equals + 1));
 
         ShotNode* table = &tree;
@@ -121,7 +125,9 @@ public:
         if (!table) return;
         const ShotKey* key = findKey(path, words_.front());
         if (!key) return;
-        if (key->type == KeyType::namedTables || key->type == KeyType::tableList) {
+        const bool isWholeList = key->type == KeyType::tableList && !path.empty();
+        if (key->type == KeyType::namedTables ||
+            (key->type == KeyType::tableList && !isWholeList)) {
             return report("'" + words_.front() + "' is followed by a name and a key: " +
                           words_.front() + ".NAME.KEY=VALUE");
         }
@@ -175,7 +181,7 @@ private:
         return nullptr;
     }
 
-    /// [material.NAME] by key, [[body]] by its name.
+    /// [material.NAME] by key, [[body]] by its name, what has none by its number from 0.
     ShotNode* enterNamed(ShotNode& table, const ShotKey& key)
     {
         const std::string wanted = takeWord();
@@ -185,7 +191,7 @@ private:
             return nullptr;
         }
         std::vector<std::string> names;
-        ShotEntry* list = table.entry(key.path);
+        ShotEntry* list = table.entry(nameOf(key));
         if (list) {
             for (ShotEntry& entry : list->node.entries) {
                 if (entry.key == wanted && entry.node.kind == ShotNode::Kind::table) {
@@ -195,7 +201,7 @@ private:
             }
             for (ShotNode& item : list->node.items) {
                 const ShotNode* name = item.find("name");
-                const std::string itemName = name ? name->text : "";
+                const std::string itemName = name ? name->text : std::to_string(names.size());
                 if (itemName == wanted) return &item;
                 names.push_back(itemName);
             }
@@ -243,15 +249,24 @@ private:
     std::vector<std::string> words_;  // of the path, those not yet followed
 };
 
+/// Throws when no file can be read there; `where` is the place that names it, if there is one.
+void requireShotFile(const std::string& path, const SourceLocation& where = {})
+{
+    const auto refuse = [&](ErrorKind kind, const std::string& why) {
+        const std::string message = "shot file '" + path + "' " + why;
+        throw where.file.empty() ? Error(kind, message) : Error(kind, where, message);
+    };
+    const std::string obstacle = obstacleTo(path);
+    if (!obstacle.empty()) refuse(ErrorKind::missingInput, "cannot be reached: " + obstacle);
+    if (!std::filesystem::exists(path)) refuse(ErrorKind::missingInput, "does not exist");
+    if (std::filesystem::is_directory(path)) {
+        refuse(ErrorKind::badInput, "is a folder without a shot.toml: name the .toml file in it");
+    }
+}
+
 std::string readWholeFile(const std::string& path)
 {
-    if (!std::filesystem::exists(path)) {
-        throw Error(ErrorKind::missingInput, "shot file '" + path + "' does not exist");
-    }
-    if (std::filesystem::is_directory(path)) {
-        throw Error(ErrorKind::badInput,
-                    "shot file '" + path + "' is a folder: name the .toml file in it");
-    }
+    requireShotFile(path);
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
     if (file) text << file.rdbuf();
@@ -259,6 +274,14 @@ std::string readWholeFile(const std::string& path)
         throw Error(ErrorKind::badInput, "shot file '" + path + "' cannot be read");
     }
     return text.str();
+}
+
+/// A shot may be a folder of its own, with its assets beside its shot.toml.
+std::string shotFileOf(const std::string& path)
+{
+    std::error_code ignored;
+    const std::filesystem::path inside = std::filesystem::path(path) / "shot.toml";
+    return std::filesystem::exists(inside, ignored) ? inside.string() : path;
 }
 
 ShotNode readTree(const std::string& text, const std::string& path)
@@ -284,10 +307,7 @@ ShotNode withBase(ShotNode tree, const std::string& path, std::vector<std::strin
         throw Error(ErrorKind::badInput, extends->node.where,
                     "'extends' goes round in a circle: \"" + base + "\" extends this shot");
     }
-    if (!std::filesystem::exists(base)) {
-        throw Error(ErrorKind::missingInput, extends->node.where,
-                    "shot file \"" + base + "\" does not exist");
-    }
+    requireShotFile(base, extends->node.where);
     std::erase_if(tree.entries, [](const ShotEntry& entry) { return entry.key == "extends"; });
     ShotNode below = withBase(readTree(readWholeFile(base), base), base, above);
     rebaseFiles(below, named.parent_path());
@@ -299,7 +319,8 @@ ShotNode withBase(ShotNode tree, const std::string& path, std::vector<std::strin
 Shot parseShot(const std::string& path, const std::vector<std::string>& overrides,
                const ImportLimits& limits)
 {
-    return parseShotText(readWholeFile(path), path, overrides, limits);
+    const std::string file = shotFileOf(path);
+    return parseShotText(readWholeFile(file), file, overrides, limits);
 }
 
 Shot parseShotText(const std::string& text, const std::string& path,

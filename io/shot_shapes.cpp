@@ -1,5 +1,6 @@
 #include "io/shot_shapes.h"
 
+#include "io/file_bytes.h"
 #include "io/shot_values.h"
 
 namespace scree {
@@ -66,7 +67,7 @@ private:
             shape.source = CapsuleSpec{length(*capsule, "radius"), length(*capsule, "height"),
                                        whole(*capsule, "sectors"), whole(*capsule, "rings")};
         } else if (const ShotNode* file = node.find("file")) {
-            shape.source = FileSpec{besideShot(file->text)};
+            shape.source = FileSpec{reachable(*file)};
         } else if (!mentionsAny(node, {"torus", "box", "sphere", "cylinder", "capsule", "file"})) {
             problems_.add(entry.where, "[shape." + entry.key +
                                            "] says nothing of its form; give it "
@@ -159,7 +160,19 @@ private:
     {
         const ShotNode* collision = node.find("collision");
         const ShotNode* file = collision ? collision->find("file") : nullptr;
-        if (file) shape.collision = FileSpec{besideShot(file->text)};
+        if (file) shape.collision = FileSpec{reachable(*file)};
+    }
+
+    /// The path of a mesh, and a report when the system says nothing of what is there. That it is
+    /// there, and what it holds, is asked when the world is built.
+    std::string reachable(const ShotNode& file)
+    {
+        const std::string path = besideShot(file.text);
+        if (const std::string obstacle = obstacleTo(path); !obstacle.empty()) {
+            problems_.add(file.where, "mesh file '" + path + "' cannot be reached: " + obstacle,
+                          ErrorKind::missingInput);
+        }
+        return path;
     }
 
     std::string besideShot(const std::string& file) const

@@ -37,6 +37,45 @@ std::optional<int> frameNumber(const std::string& name)
     return std::stoi(digits);
 }
 
+/// Whether something stands under that name. One that may not be looked at counts as absent: the
+/// folder cannot be written to either, and whoever tries says so.
+bool isThere(const fs::path& path)
+{
+    std::error_code code;
+    return fs::exists(path, code);
+}
+
+TriMesh meshOf(const SceneMesh& mesh)
+{
+    return {mesh.points, mesh.triangles, mesh.cornerUvs};
+}
+
+/// The meshes that a take keeps: all but those of planes, which are as large as the action.
+std::vector<const SceneMesh*> keptMeshes(const SceneDescription& scene, const TakeInfo& info)
+{
+    std::set<std::string> wanted;
+    for (const TakeBody& body : info.bodies)
+        if (!body.isPlane) wanted.insert(body.shape);
+    std::vector<const SceneMesh*> kept;
+    for (const SceneMesh& mesh : scene.meshes)
+        if (wanted.contains(mesh.name)) kept.push_back(&mesh);
+    return kept;
+}
+
+/// The same command as the one that began the take, given again, or one for another branch?
+void checkSameBranch(const TakeInfo& info, const TakeBranch& branch, const fs::path& root)
+{
+    const std::string name = "\"" + root.string() + "\"";
+    if (info.branchTake.empty())
+        throw Error(
+            ErrorKind::badInput,
+            name + " was not begun with --from: it goes on without, or -o writes elsewhere");
+    if (info.branchFrame != branch.frame)
+        throw Error(ErrorKind::badInput,
+                    name + " was branched off at frame " + std::to_string(info.branchFrame) +
+                        ", not " + std::to_string(branch.frame) + ": -o writes elsewhere");
+}
+
 void createFolder(const fs::path& folder)
 {
     std::error_code code;
@@ -134,32 +173,23 @@ TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& wo
                        const std::optional<TakeBranch>& branch)
     : shot_(shot), paths_{folder}, shotHash_(hashText(shot.resolvedText))
 {
-    const bool exists = fs::exists(paths_.info());
-    const std::vector<int> frames = listFrames(paths_);
-    const std::string name = "\"" + folder.string() + "\"";
-    if (!exists && !frames.empty() && existing != ExistingTake::overwrite)
-        throw Error(ErrorKind::inputOutput,
-                    name +
-                        " has frames but no take.json: put the file back, choose another folder "
-                        "with -o, or begin again with --overwrite");
-    if (exists && existing == ExistingTake::refuse) {
-        const bool finished = !frames.empty() && frames.back() >= shot.lastFrame;
-        throw Error(ErrorKind::cannotCreate,
-                    name + (finished ? " holds a finished take: --overwrite replaces it, -o writes "
-                                       "elsewhere, --resume checks it and fills gaps"
-                                     : " holds an unfinished take: --resume goes on with it, "
-                                       "--overwrite begins again"));
-    }
+    // Look at everything before anything is touched.
+    const bool hasInfo = isThere(paths_.info());
+    if (branch) refuseBranchOffItself(*branch);
+    refuseToDisturb(hasInfo, existing);
+    const bool goesOn = hasInfo && existing == ExistingTake::resume;
+    TakeInfo info = describe(world, programVersion);
+    if (branch && !goesOn) recordBranch(*branch, world, info);
 
     createFolder(folder);
     lock_ = lockFolder(folder);
     try {
-        if (existing == ExistingTake::overwrite) removeTake();
+        if (existing == ExistingTake::overwrite) removeTake(hasInfo);
         removeTemporaries();
-        if (exists && existing == ExistingTake::resume)
-            resume(world, programVersion);
+        if (goesOn)
+            resume(world, info, branch);
         else
-            start(world, programVersion, branch);
+            start(world, info);
     } catch (...) {
         if (lock_ >= 0) ::close(lock_);
         throw;
@@ -171,52 +201,96 @@ TakeWriter::~TakeWriter()
     if (lock_ >= 0) ::close(lock_);
 }
 
-void TakeWriter::start(const World& world, const std::string& programVersion,
-                       const std::optional<TakeBranch>& branch)
+void TakeWriter::refuseToDisturb(bool hasInfo, ExistingTake existing) const
 {
-    createFolder(paths_.shapes());
-    createFolder(paths_.frames());
-
-    // Shapes first, the description last: a take without take.json was never begun.
-    const SceneDescription scene = describeScene(shot_, world, 1.0);
-    TakeInfo info = makeTakeInfo(shot_, world, scene, programVersion);
-    std::set<std::string> wanted;
-    for (const TakeBody& body : info.bodies)
-        if (!body.isPlane) wanted.insert(body.shape);
-    for (const SceneMesh& mesh : scene.meshes) {
-        if (!wanted.contains(mesh.name)) continue;
-        writePlyMesh(paths_.shape(mesh.name), {mesh.points, mesh.triangles, mesh.cornerUvs});
-        info.shapes.push_back({mesh.name, hashText(readFileBytes(paths_.shape(mesh.name)))});
-    }
-    if (branch) {
-        info.branchTake = branch->take.string();
-        info.branchFrame = branch->frame;
-        branchFrame_ = branch->frame;
-        statsLines_ = copyBranch(*branch, shot_, world, info, paths_.root);
-        rewriteStats();
-        for (int frame = shot_.firstFrame; frame <= branch->frame; ++frame) {
-            wholeFrames_.insert(frame);
-        }
-    }
-    writeFileBytes(paths_.info(), encodeTakeInfo(info));
+    const std::vector<int> frames = listFrames(paths_);
+    const std::string name = "\"" + paths_.root.string() + "\"";
+    if (!hasInfo && !frames.empty() && existing != ExistingTake::overwrite)
+        throw Error(ErrorKind::inputOutput,
+                    name +
+                        " has frames but no take.json: put the file back, choose another folder "
+                        "with -o, or begin again with --overwrite");
+    if (!hasInfo || existing != ExistingTake::refuse) return;
+    const bool finished = !frames.empty() && frames.back() >= shot_.lastFrame;
+    throw Error(ErrorKind::cannotCreate,
+                name + (finished ? " holds a finished take: --overwrite replaces it, -o writes "
+                                   "elsewhere, --resume checks it and fills gaps"
+                                 : " holds an unfinished take: --resume goes on with it, "
+                                   "--overwrite begins again"));
 }
 
-void TakeWriter::resume(const World& world, const std::string& programVersion)
+/// What take.json is to say, but for the branch.
+TakeInfo TakeWriter::describe(const World& world, const std::string& programVersion) const
 {
-    checkSameShot(world, programVersion);
-    findWholeFrames(world);
-    requireBranch();
-    findCheckpoint(world);
+    const SceneDescription scene = describeScene(shot_, world, 1.0);
+    TakeInfo info = makeTakeInfo(shot_, world, scene, programVersion);
+    for (const SceneMesh* mesh : keptMeshes(scene, info))
+        info.shapes.push_back({mesh->name, hashText(encodePlyMesh(meshOf(*mesh)))});
+    return info;
+}
 
+/// To overwrite it would be to lose what the branch is to begin with.
+void TakeWriter::refuseBranchOffItself(const TakeBranch& branch) const
+{
+    std::error_code code;
+    if (!fs::equivalent(branch.take, paths_.root, code) || code) return;
+    throw Error(ErrorKind::usage, "--from \"" + branch.take.string() +
+                                      "\" is the very take that is to be written: choose another "
+                                      "folder with -o");
+}
+
+void TakeWriter::recordBranch(const TakeBranch& branch, const World& world, TakeInfo& info) const
+{
+    checkBranch(branch, shot_, world, info);
+    std::error_code code;
+    const fs::path absolute = fs::absolute(branch.take, code).lexically_normal();
+    info.branchTake = (code ? branch.take : absolute).string();
+    info.branchFrame = branch.frame;
+    info.branchHash = hashText(readBranchFrame(branch, branch.frame, shotHash_));
+}
+
+/// The description comes first: from then on a resume knows what this take is to be, whatever
+/// instant the writer is killed at, and makes good all that is missing.
+void TakeWriter::start(const World& world, const TakeInfo& info)
+{
+    // What a take that was removed may have left behind must not be taken for this one's.
+    std::error_code ignored;
+    for (const fs::path& path : {paths_.checkpoint(), paths_.stats()}) fs::remove(path, ignored);
+    writeFileBytes(paths_.info(), encodeTakeInfo(info));
+    writeMissingShapes(world);
+    createFolder(paths_.frames());
+    completeBranch(info);
+}
+
+void TakeWriter::resume(const World& world, const TakeInfo& now,
+                        const std::optional<TakeBranch>& branch)
+{
+    TakeInfo info = decodeTakeInfo(readFileBytes(paths_.info()), paths_.info());
+    checkSameShot(info, now);
+    if (branch) {
+        checkSameBranch(info, *branch, paths_.root);
+        info.branchTake = branch->take.string();
+    }
+    writeMissingShapes(world);
+    createFolder(paths_.frames());
+    findWholeFrames(world);
     // Statistics follow the frames: lines of frames that are gone or damaged go too.
     for (const FrameSummary& summary : readStats(paths_.stats()))
         if (hasFrame(summary.frame)) statsLines_[summary.frame] = summary.line;
+    completeBranch(info);
+    findCheckpoint(world);
     rewriteStats();
+    std::size_t untold = 0;
+    for (const int frame : wholeFrames_) untold += !statsLines_.contains(frame);
+    if (untold > 0)
+        notices_.push_back("\"" + paths_.stats().string() + "\" has no figures for " +
+                           std::to_string(untold) +
+                           " frames that are there: whether their overlap broke a limit is no "
+                           "longer known");
 }
 
-void TakeWriter::checkSameShot(const World& world, const std::string& programVersion)
+void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
 {
-    const TakeInfo info = decodeTakeInfo(readFileBytes(paths_.info()), paths_.info());
     const std::string name = "\"" + paths_.root.string() + "\"";
     if (info.shotHash != shotHash_)
         throw Error(ErrorKind::badInput,
@@ -224,17 +298,25 @@ void TakeWriter::checkSameShot(const World& world, const std::string& programVer
                         toHex(shotHash_) + ", the take's is " + toHex(info.shotHash) +
                         ". Compare `scree check SHOT --resolved` with \"shot\" in take.json, or "
                         "write to another folder with -o");
-    if (!info.branchTake.empty()) branchFrame_ = info.branchFrame;
-    const TakeInfo now =
-        makeTakeInfo(shot_, world, describeScene(shot_, world, 1.0), programVersion);
     for (std::size_t i = 0; i < std::min(info.inputs.size(), now.inputs.size()); ++i)
         if (info.inputs[i].hash != now.inputs[i].hash)
             throw Error(ErrorKind::badInput, name + " was made from another \"" +
                                                  now.inputs[i].path +
                                                  "\": the file has changed since");
-    if (info.programVersion != programVersion)
+    if (info.programVersion != now.programVersion)
         notices_.push_back(name + " was begun by scree " + info.programVersion + ", this is " +
-                           programVersion + ": the bits may differ from an unbroken run");
+                           now.programVersion + ": the bits may differ from an unbroken run");
+}
+
+void TakeWriter::writeMissingShapes(const World& world) const
+{
+    createFolder(paths_.shapes());
+    const SceneDescription scene = describeScene(shot_, world, 1.0);
+    const TakeInfo info = makeTakeInfo(shot_, world, scene, "");
+    for (const SceneMesh* mesh : keptMeshes(scene, info)) {
+        const fs::path path = paths_.shape(mesh->name);
+        if (!isThere(path)) writePlyMesh(path, meshOf(*mesh));
+    }
 }
 
 void TakeWriter::findWholeFrames(const World& world)
@@ -261,22 +343,50 @@ void TakeWriter::findWholeFrames(const World& world)
                         "changed since. --overwrite begins again, -o writes elsewhere");
 }
 
-/// Frames that another shot simulated cannot be made again by this one.
-void TakeWriter::requireBranch() const
+/// Frames that another shot simulated cannot be made again by this one: those that are not there,
+/// because the copying was interrupted or one was damaged since, are copied from their take.
+void TakeWriter::completeBranch(const TakeInfo& info)
 {
-    if (!branchFrame_) return;
-    for (int frame = shot_.firstFrame; frame <= *branchFrame_; ++frame) {
-        if (hasFrame(frame)) continue;
-        throw Error(ErrorKind::inputOutput,
-                    "frame " + std::to_string(frame) + " of \"" + paths_.root.string() +
-                        "\" is missing or damaged, and the take was branched off after it: begin "
-                        "again with --from and --overwrite");
+    if (info.branchTake.empty()) return;
+    std::vector<int> missing;
+    for (int frame = shot_.firstFrame; frame <= info.branchFrame; ++frame)
+        if (!hasFrame(frame)) missing.push_back(frame);
+    if (missing.empty()) return;
+    try {
+        copyBranchFrames(info, missing);
+    } catch (const Error& problem) {
+        if (problem.kind() != ErrorKind::missingInput && problem.kind() != ErrorKind::badInput)
+            throw;
+        throw Error(problem.kind(),
+                    "frame " + std::to_string(missing.front()) + " of \"" + paths_.root.string() +
+                        "\" is missing or damaged, and the take was branched off "
+                        "after it: " +
+                        problem.what() + "; --from TAKE@" + std::to_string(info.branchFrame) +
+                        " says where it stands now, or begins again with "
+                        "--overwrite");
+    }
+}
+
+void TakeWriter::copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing)
+{
+    const TakeBranch branch{info.branchTake, info.branchFrame};
+    if (hashText(readBranchFrame(branch, branch.frame, shotHash_)) != info.branchHash)
+        throw Error(ErrorKind::badInput,
+                    "\"" + branch.take.string() + "\" is not what it was when the take was begun");
+    // Statistics first, as in writeFrame.
+    const std::map<int, std::string> lines = readBranchStats(branch);
+    for (const int frame : missing)
+        if (const auto line = lines.find(frame); line != lines.end()) statsLines_.insert(*line);
+    rewriteStats();
+    for (const int frame : missing) {
+        writeFileBytes(paths_.frame(frame), readBranchFrame(branch, frame, shotHash_));
+        wholeFrames_.insert(frame);
     }
 }
 
 void TakeWriter::findCheckpoint(const World& world)
 {
-    if (!fs::exists(paths_.checkpoint())) return;
+    if (!isThere(paths_.checkpoint())) return;
     try {
         const FrameState state = readFrameFile(paths_.checkpoint());
         const bool fits = state.shotHash == shotHash_ && state.motion.size() == world.bodyCount();
@@ -353,11 +463,16 @@ void TakeWriter::rewriteStats() const
     writeFileBytes(paths_.stats(), text);
 }
 
-void TakeWriter::removeTake()
+/// Pictures and caches go with the take they were made from: left beside another they would be
+/// mixed with its own. In a folder that holds no take they are somebody else's.
+void TakeWriter::removeTake(bool hasInfo)
 {
-    // The description goes first: from then on nobody takes the rest for a take.
-    for (const fs::path& path :
-         {paths_.info(), paths_.frames(), paths_.shapes(), paths_.stats(), paths_.checkpoint()}) {
+    std::vector<fs::path> doomed;
+    if (hasInfo) doomed = {paths_.images(), paths_.exports()};
+    // The description goes before the frames: from then on nobody takes the rest for a take.
+    doomed.insert(doomed.end(), {paths_.info(), paths_.frames(), paths_.shapes(), paths_.stats(),
+                                 paths_.checkpoint()});
+    for (const fs::path& path : doomed) {
         std::error_code code;
         fs::remove_all(path, code);
         if (code)

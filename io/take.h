@@ -26,6 +26,8 @@ struct TakePaths {
     std::filesystem::path info() const { return root / "take.json"; }
     std::filesystem::path stats() const { return root / "stats.jsonl"; }
     std::filesystem::path checkpoint() const { return root / "checkpoint.scree"; }
+    std::filesystem::path images() const { return root / "images"; }
+    std::filesystem::path exports() const { return root / "exports"; }
     std::filesystem::path shapes() const { return root / "shapes"; }
     std::filesystem::path shape(const std::string& name) const
     {
@@ -48,7 +50,7 @@ void restoreState(World& world, const FrameState& state);
 enum class ExistingTake {
     refuse,     ///< say so and stop
     resume,     ///< go on where it ends; start when there is none
-    overwrite,  ///< remove it and begin again
+    overwrite,  ///< remove it, and what was made from it, and begin again
 };
 
 /// Writes frames one by one. Holds a lock on the folder, so that two writers cannot meet.
@@ -60,7 +62,12 @@ public:
     /// `world`, built from `shot`, stands at time zero; `shot` must outlive the writer. Throws
     /// Error{cannotCreate} when the folder is taken and may not be touched, Error{badInput} when it
     /// belongs to another shot, Error{inputOutput} when take.json is damaged.
-    /// A new take with a `branch` begins with the frames of another (io/take_branch.h).
+    ///
+    /// A new take with a `branch` begins with the frames of another (io/take_branch.h), which are
+    /// looked at before anything in the folder is touched: throws as checkBranch does, and
+    /// Error{usage} when the other is this very take. One that is resumed knows where it was
+    /// branched off; a `branch` then only says where that take stands now, and Error{badInput}
+    /// tells when it names another frame, or the take was never branched off.
     TakeWriter(const std::filesystem::path& folder, const Shot& shot, const World& world,
                const std::string& programVersion, ExistingTake existing,
                const std::optional<TakeBranch>& branch = std::nullopt);
@@ -95,14 +102,19 @@ public:
     std::vector<FrameSummary> summaries() const;
 
 private:
-    void start(const World& world, const std::string& programVersion,
-               const std::optional<TakeBranch>& branch);
-    void resume(const World& world, const std::string& programVersion);
-    void checkSameShot(const World& world, const std::string& programVersion);
+    void refuseToDisturb(bool hasInfo, ExistingTake existing) const;
+    TakeInfo describe(const World& world, const std::string& programVersion) const;
+    void refuseBranchOffItself(const TakeBranch& branch) const;
+    void recordBranch(const TakeBranch& branch, const World& world, TakeInfo& info) const;
+    void start(const World& world, const TakeInfo& info);
+    void resume(const World& world, const TakeInfo& now, const std::optional<TakeBranch>& branch);
+    void checkSameShot(const TakeInfo& info, const TakeInfo& now);
     void findWholeFrames(const World& world);
-    void requireBranch() const;
+    void writeMissingShapes(const World& world) const;
+    void completeBranch(const TakeInfo& info);
+    void copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing);
     void findCheckpoint(const World& world);
-    void removeTake();
+    void removeTake(bool hasInfo);
     void removeTemporaries() const;
     void appendStats(const FrameStats& stats, const World& world);
     void rewriteStats() const;
@@ -110,7 +122,6 @@ private:
     const Shot& shot_;
     TakePaths paths_;
     std::uint64_t shotHash_ = 0;
-    std::optional<int> branchFrame_;  // frames up to it were simulated by another shot
     int lock_ = -1;
     std::set<int> wholeFrames_;
     std::optional<Clock> checkpoint_;        // of the checkpoint file, if whole

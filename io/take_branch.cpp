@@ -41,15 +41,6 @@ void requireSameCast(const TakeBranch& branch, const TakeInfo& theirs, const Tak
     }
 }
 
-FrameState readState(const TakePaths& paths, int frame)
-{
-    if (!std::filesystem::exists(paths.frame(frame))) {
-        throw Error(ErrorKind::missingInput, "\"" + paths.root.string() + "\" has no frame " +
-                                                 std::to_string(frame) + " to begin with");
-    }
-    return readFrameFile(paths.frame(frame));
-}
-
 }  // namespace
 
 TakeBranch parseBranch(const std::string& text)
@@ -68,11 +59,10 @@ TakeBranch parseBranch(const std::string& text)
                     "takes/rings_100@1080");
 }
 
-std::map<int, std::string> copyBranch(const TakeBranch& branch, const Shot& shot,
-                                      const World& world, const TakeInfo& info,
-                                      const std::filesystem::path& root)
+void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
+                 const TakeInfo& info)
 {
-    const TakePaths from{branch.take}, to{root};
+    const TakePaths from{branch.take};
     const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());
     requireSameCast(branch, theirs, info);
     if (branch.frame < shot.firstFrame || branch.frame >= shot.lastFrame) {
@@ -80,17 +70,31 @@ std::map<int, std::string> copyBranch(const TakeBranch& branch, const Shot& shot
                            std::to_string(shot.firstFrame) + "-" + std::to_string(shot.lastFrame));
     }
     for (int frame = shot.firstFrame; frame <= branch.frame; ++frame) {
-        FrameState state = readState(from, frame);
-        state.shotHash = info.shotHash;
-        const std::string bytes = encodeFrame(state);
+        const std::string bytes = readBranchFrame(branch, frame, info.shotHash);
         // The same bodies in the same places: proved by the bits of the first frame.
         const bool isOther =
             frame == shot.firstFrame && bytes != encodeFrame(captureState(shot, world));
         if (isOther) refuse(branch, "its bodies begin elsewhere, with other speeds or seed");
-        writeFileBytes(to.frame(frame), bytes);
     }
+}
+
+std::string readBranchFrame(const TakeBranch& branch, int frame, std::uint64_t shotHash)
+{
+    const TakePaths from{branch.take};
+    std::error_code code;
+    if (!std::filesystem::exists(from.frame(frame), code)) {
+        throw Error(ErrorKind::missingInput, "\"" + branch.take.string() + "\" has no frame " +
+                                                 std::to_string(frame) + " to begin with");
+    }
+    FrameState state = readFrameFile(from.frame(frame));
+    state.shotHash = shotHash;
+    return encodeFrame(state);
+}
+
+std::map<int, std::string> readBranchStats(const TakeBranch& branch)
+{
     std::map<int, std::string> lines;
-    for (const FrameSummary& summary : readStats(from.stats())) {
+    for (const FrameSummary& summary : readStats(TakePaths{branch.take}.stats())) {
         if (summary.frame <= branch.frame) lines[summary.frame] = summary.line;
     }
     return lines;

@@ -20,12 +20,18 @@ struct TakeBranch {
 /// "takes/a@1080" → both parts. Throws Error{usage}.
 TakeBranch parseBranch(const std::string& text);
 
-/// Writes the frames into the folder `frames`, as frames of `shot`; returns their lines of
-/// stats.jsonl by number. `world` stands at time zero and `info` is the new take's. The two shots
+/// Looks at all that a branch needs before anything of the new take is touched: reads every frame
+/// that is to be copied. `world` stands at time zero and `info` is the new take's. The two shots
 /// may differ in settings only: Error{badInput} says which body, mass, mesh, frame rate or
-/// beginning is another, Error{missingInput} when a frame was not simulated.
-std::map<int, std::string> copyBranch(const TakeBranch& branch, const Shot& shot,
-                                      const World& world, const TakeInfo& info,
-                                      const std::filesystem::path& root);
+/// beginning is another; Error{missingInput} and Error{inputOutput} name a frame that is missing or
+/// damaged.
+void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
+                 const TakeInfo& info);
+
+/// The bytes of a frame of the branch's take as a frame of the shot with this hash.
+std::string readBranchFrame(const TakeBranch& branch, int frame, std::uint64_t shotHash);
+
+/// The lines of stats.jsonl of the frames up to the branch, by number.
+std::map<int, std::string> readBranchStats(const TakeBranch& branch);
 
 }  // namespace scree

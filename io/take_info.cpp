@@ -224,6 +224,7 @@ TakeInfo infoFromJson(const Json& json)
     if (json.contains("branch")) {
         info.branchTake = json.at("branch").at("take");
         info.branchFrame = json.at("branch").at("frame");
+        info.branchHash = fromHex(json.at("branch").value("hash", "0"));
     }
     for (const Json& input : json.at("inputs"))
         info.inputs.push_back({input.at("path"), fromHex(input.at("hash"))});
@@ -298,7 +299,9 @@ std::string encodeTakeInfo(const TakeInfo& info)
         {"shot", info.resolvedShot},
     };
     if (!info.branchTake.empty()) {
-        json["branch"] = {{"take", info.branchTake}, {"frame", info.branchFrame}};
+        json["branch"] = {{"take", info.branchTake},
+                          {"frame", info.branchFrame},
+                          {"hash", toHex(info.branchHash)}};
     }
     return json.dump(1) + "\n";
 }

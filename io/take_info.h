@@ -58,6 +58,8 @@ struct TakeInfo {
     int lastFrame = 1240;
     std::string branchTake;  ///< whose frames up to branchFrame this take begins with; or empty
     int branchFrame = 0;
+    /// Of the bytes of that frame as they stand in this take; 0 in takes older than this key.
+    std::uint64_t branchHash = 0;
     std::vector<TakeInput> inputs;
     std::vector<TakeShape> shapes;
     std::vector<TakeBody> bodies;

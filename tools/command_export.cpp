@@ -4,6 +4,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/stop_signals.h"
 #include "tools/take_export.h"
 
 namespace scree {
@@ -17,8 +18,12 @@ int runExport(const ExportOptions& options, Console& console)
 {
     const ProgressMode progress = parseProgressMode(options.progress);
     const TakeReader take(options.take);
-    exportTake(take, chooseFrames(options.frames, take.frames()), options.output, console,
-               progress);
+    const std::vector<int> frames = chooseFrames(options.frames, take.frames());
+    watchSignals();
+    if (!exportTake(take, frames, options.output, console, progress)) {
+        console.info("stopped before the end of \"" + options.output + "\"");
+        return kExitStopped;
+    }
     std::printf("%s\n", options.output.c_str());
     return kExitDone;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "io/take_reader.h"
 #include "tools/command_line.h"
@@ -26,6 +27,7 @@ struct TakeSummary {
     double wallSeconds = 0.0, cpuSeconds = 0.0;
     FrameSummary worst;  ///< the frame with the deepest overlap
     FrameSummary last;
+    std::size_t untold = 0;  ///< frames that stats.jsonl says nothing of
 };
 
 TakeSummary summarize(const TakeReader& take)
@@ -34,16 +36,36 @@ TakeSummary summarize(const TakeReader& take)
     summary.frames = take.frames();
     summary.isFinished = static_cast<int>(summary.frames.size()) ==
                          take.info().lastFrame - take.info().firstFrame + 1;
-    summary.hasCheckpoint = std::filesystem::exists(take.paths().checkpoint());
+    std::error_code ignored;
+    summary.hasCheckpoint = std::filesystem::exists(take.paths().checkpoint(), ignored);
     for (const TakeBody& body : take.info().bodies)
         summary.movable += body.kind == BodyKind::dynamic;
+    std::set<int> untold(summary.frames.begin(), summary.frames.end());
     for (const FrameSummary& frame : take.stats()) {
+        untold.erase(frame.frame);
         summary.wallSeconds += frame.wallSeconds;
         summary.cpuSeconds += frame.cpuSeconds;
         if (frame.overlapRatio >= summary.worst.overlapRatio) summary.worst = frame;
         if (frame.frame >= summary.last.frame) summary.last = frame;
     }
+    summary.untold = untold.size();
     return summary;
+}
+
+/// What the frames cost and how they went.
+void printFigures(const TakeSummary& summary)
+{
+    std::printf("time       %s wall, %s of processors\n",
+                describeDuration(summary.wallSeconds).c_str(),
+                describeDuration(summary.cpuSeconds).c_str());
+    std::printf("overlap    worst %.3g %% of a body's length, frame %d%s\n",
+                100.0 * summary.worst.overlapRatio, summary.worst.frame,
+                summary.worst.worstA.empty()
+                    ? ""
+                    : (" (" + summary.worst.worstA + ", " + summary.worst.worstB + ")").c_str());
+    std::printf("at the end kinetic energy %.4g J, %d awake, state %s\n",
+                summary.last.kineticEnergy, summary.last.bodiesAwake,
+                summary.last.stateHash.c_str());
 }
 
 void printText(const TakeReader& take, const TakeSummary& summary)
@@ -58,18 +80,10 @@ void printText(const TakeReader& take, const TakeSummary& summary)
     std::printf("take       %s: %s%s\n", summary.isFinished ? "finished" : "unfinished",
                 summary.frames.empty() ? "no frames" : describeFrames(summary.frames).c_str(),
                 summary.hasCheckpoint ? " and a checkpoint" : "");
-    std::printf("time       %s wall, %s of processors\n",
-                describeDuration(summary.wallSeconds).c_str(),
-                describeDuration(summary.cpuSeconds).c_str());
-    std::printf(
-        "overlap    worst %.3g %% of a body's length, frame %d%s\n",
-        100.0 * summary.worst.overlapRatio, summary.worst.frame,
-        summary.worst.worstA.empty()
-            ? ""
-            : (" (" + summary.worst.worstA + ", " + summary.worst.worstB + ")").c_str());
-    std::printf("at the end kinetic energy %.4g J, %d awake, state %s\n",
-                summary.last.kineticEnergy, summary.last.bodiesAwake,
-                summary.last.stateHash.c_str());
+    if (summary.untold > 0)
+        std::printf("figures    missing for %zu of %zu frames: stats.jsonl does not tell of them\n",
+                    summary.untold, summary.frames.size());
+    if (summary.untold < summary.frames.size()) printFigures(summary);
     std::printf("made by    scree %s, shot hash %s\n", info.programVersion.c_str(),
                 toHex(info.shotHash).c_str());
 }
@@ -77,7 +91,7 @@ void printText(const TakeReader& take, const TakeSummary& summary)
 void printJson(const TakeReader& take, const TakeSummary& summary)
 {
     const TakeInfo& info = take.info();
-    const nlohmann::ordered_json json = {
+    nlohmann::ordered_json json = {
         {"name", info.name},
         {"program_version", info.programVersion},
         {"shot_hash", toHex(info.shotHash)},
@@ -93,6 +107,7 @@ void printJson(const TakeReader& take, const TakeSummary& summary)
         {"frame_count", summary.frames.size()},
         {"finished", summary.isFinished},
         {"checkpoint", summary.hasCheckpoint},
+        {"frames_without_figures", summary.untold},
         {"wall_s", summary.wallSeconds},
         {"cpu_s", summary.cpuSeconds},
         {"worst_overlap_ratio", summary.worst.overlapRatio},
@@ -100,6 +115,11 @@ void printJson(const TakeReader& take, const TakeSummary& summary)
         {"last_kinetic_energy_J", summary.last.kineticEnergy},
         {"last_state_hash", summary.last.stateHash},
     };
+    // Zeros would be taken for figures.
+    if (summary.untold == summary.frames.size())
+        for (const char* key : {"wall_s", "cpu_s", "worst_overlap_ratio", "worst_overlap_frame",
+                                "last_kinetic_energy_J", "last_state_hash"})
+            json[key] = nullptr;
     std::printf("%s\n", json.dump(2).c_str());
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -20,6 +21,19 @@ namespace {
 
 /// More frames than any shot has: a slip of the keyboard, not a wish.
 constexpr long kMostFrames = 1000000;
+
+/// A flag that changes what an asset may hold.
+struct LimitFlag {
+    const char* flag;
+    std::uint32_t ImportLimits::*value;
+    const char* help;
+};
+constexpr LimitFlag kLimitFlags[] = {
+    {"--import-points", &ImportLimits::points, "Points of a mesh, and triangles, at most"},
+    {"--import-nodes", &ImportLimits::nodes, "Nodes of a file that show a mesh, at most"},
+    {"--import-depth", &ImportLimits::depth, "Nodes nested in each other, at most"},
+    {"--import-name", &ImportLimits::nameLength, "Letters in the name of a node, at most"},
+};
 
 [[noreturn]] void failFrames(const std::string& part)
 {
@@ -189,15 +203,36 @@ std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
 
 void addImportLimits(CLI::App& command, ImportLimits& limits)
 {
-    const auto add = [&](const char* flag, std::uint32_t& value, const std::string& help) {
-        command.add_option(flag, value, help + " [" + std::to_string(value) + "]")
+    for (const LimitFlag& limit : kLimitFlags) {
+        std::uint32_t& value = limits.*limit.value;
+        command
+            .add_option(limit.flag, value,
+                        std::string(limit.help) + " [" + std::to_string(value) + "]")
             ->check(CLI::Range(1u, 1'000'000'000u))
             ->group("What an asset may hold");
-    };
-    add("--import-points", limits.points, "Points of a mesh, and triangles, at most");
-    add("--import-nodes", limits.nodes, "Nodes of a file that show a mesh, at most");
-    add("--import-depth", limits.depth, "Nodes nested in each other, at most");
-    add("--import-name", limits.nameLength, "Letters in the name of a node, at most");
+    }
+}
+
+std::vector<std::pair<std::string, std::string>> changedLimits(const ImportLimits& limits)
+{
+    std::vector<std::pair<std::string, std::string>> changed;
+    for (const LimitFlag& limit : kLimitFlags) {
+        const std::uint32_t value = limits.*limit.value;
+        if (value != ImportLimits().*limit.value)
+            changed.emplace_back(limit.flag, std::to_string(value));
+    }
+    return changed;
+}
+
+void requirePngName(const std::string& name)
+{
+    std::string ending = std::filesystem::path(name).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char letter) { return std::tolower(letter); });
+    if (ending == ".png") return;
+    throw Error(
+        ErrorKind::usage,
+        "\"" + name + "\": pictures are written as PNG; expected a name " + "ending in .png");
 }
 
 std::string describeDuration(double seconds)

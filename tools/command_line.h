@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/import_limits.h"
@@ -45,6 +46,13 @@ std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
 /// Adds the flags that change what an asset may hold: --import-points and the like. `limits` must
 /// outlive the command.
 void addImportLimits(CLI::App& command, ImportLimits& limits);
+
+/// Those flags and their values that are not the defaults.
+std::vector<std::pair<std::string, std::string>> changedLimits(const ImportLimits& limits);
+
+/// Throws Error{usage} when the name of a picture does not end in .png, the format they are written
+/// in.
+void requirePngName(const std::string& name);
 
 /// Seconds as a person says them: "8.2 s", "3 min 05 s", "2 h 10 min".
 std::string describeDuration(double seconds);

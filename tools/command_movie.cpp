@@ -4,16 +4,21 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
-#include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <regex>
+#include <thread>
 
+#include "io/atomic_file.h"
 #include "io/frame_pattern.h"
 #include "io/take_reader.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/shell_line.h"
+#include "tools/stop_signals.h"
 #include "tools/take_export.h"
 
 extern char** environ;
@@ -22,6 +27,8 @@ namespace scree {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kLookAtChild{20};
 
 struct MovieOptions {
     std::string input, output;
@@ -60,7 +67,8 @@ std::vector<int> findFrames(const fs::path& pattern)
 PictureSequence findPictures(const MovieOptions& options)
 {
     PictureSequence sequence;
-    if (fs::exists(TakePaths{options.input}.info())) {
+    std::error_code code;
+    if (fs::exists(TakePaths{options.input}.info(), code)) {
         const TakeReader take(options.input);
         sequence.pattern = take.paths().root / "images" / (take.info().name + ".####.png");
         sequence.framesPerSecond = take.info().framesPerSecond;
@@ -187,20 +195,15 @@ std::vector<std::string> makeCommand(const PictureSequence& sequence, const std:
     return command;
 }
 
-/// As it would be typed.
-std::string quoted(const std::vector<std::string>& command)
+/// Waits for the child; passes on a request to stop, which may have reached this process alone.
+int waitFor(pid_t child)
 {
-    std::string text;
-    for (const std::string& word : command) {
-        const bool isPlain = word.find_first_not_of(
-                                 "abcdefghijklmnopqrstuvwxyz"
-                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                 "0123456789-_./%=:,+") == std::string::npos;
-        std::string inside;
-        for (const char letter : word) inside += letter == '\'' ? "'\\''" : std::string(1, letter);
-        text += (text.empty() ? "" : " ") + (isPlain ? word : "'" + inside + "'");
+    int status = 0;
+    for (bool isStopping = false; ::waitpid(child, &status, WNOHANG) == 0;) {
+        if (stopRequested() && !isStopping) isStopping = ::kill(child, SIGTERM) == 0;
+        std::this_thread::sleep_for(kLookAtChild);
     }
-    return text;
+    return status;
 }
 
 /// Runs a program found along PATH and waits for it. Its words go to stderr.
@@ -220,12 +223,11 @@ void runProgram(const std::vector<std::string>& command)
         throw Error(ErrorKind::missingInput, command[0] + " cannot be started (" +
                                                  std::strerror(problem) +
                                                  "); on Debian: apt-get install " + command[0]);
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = waitFor(child);
+    if (stopRequested()) return;
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         throw Error(ErrorKind::inputOutput,
-                    command[0] + " failed; the command was: " + quoted(command));
+                    command[0] + " failed; the command was: " + shellLine(command));
 }
 
 int runMovie(const MovieOptions& options, Console& console)
@@ -233,14 +235,21 @@ int runMovie(const MovieOptions& options, Console& console)
     const PictureSequence sequence = findPictures(options);
     const fs::path output = options.output;
     createFolderOf(output);
-    console.info(quoted(makeCommand(sequence, output.string())));
+    AtomicFile{output};  // says now, with its own error, when nothing can be created there
+    console.info(shellLine(makeCommand(sequence, output.string())));
 
     // Under another name first: an interrupted ffmpeg leaves half a film.
+    watchSignals();
     const fs::path temporary = output.parent_path() / ("." + output.filename().string() + "." +
                                                        std::to_string(::getpid()) + ".tmp");
     std::error_code code;
     try {
         runProgram(makeCommand(sequence, temporary.string()));
+        if (stopRequested()) {
+            fs::remove(temporary, code);
+            console.info("stopped; no film was made");
+            return kExitStopped;
+        }
         fs::rename(temporary, output, code);
         if (code)
             throw Error(ErrorKind::cannotCreate,

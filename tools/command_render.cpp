@@ -14,6 +14,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/progress.h"
+#include "tools/stop_signals.h"
 #include "tools/take_export.h"
 #include "tools/take_painter.h"
 
@@ -127,6 +128,7 @@ public:
                 : options.output;
         if (asked.size() > 1 || options.slate || hasFramePattern(pattern_))
             expandFramePattern(pattern_, asked[0]);
+        requirePngName(pattern_);
         createFolderOf(pattern_);
         size_ = options.size.empty() ? take_.info().pictureSize : parseSize(options.size);
         for (const FrameSummary& frame : take_.stats()) stats_[frame.frame] = frame;
@@ -142,13 +144,14 @@ public:
     {
         // Without a camera of its own the view follows from all frames, not from those asked for: a
         // frame rendered alone looks as it does in the sequence.
+        watchSignals();
         TakePainter painter(take_, options_.camera, size_, paintSettings(options_, take_.info()));
         Progress progress(console_, progressMode_, "render", static_cast<int>(frames_.size()));
         std::atomic<std::size_t> next = 0;
         std::mutex progressLock;
         // Encoding of one picture goes on beside the drawing of the next.
         parallelFor(painter.usefulThreads(), 1, [&](std::size_t, std::size_t) {
-            for (std::size_t i = next++; i < frames_.size(); i = next++) {
+            for (std::size_t i = next++; i < frames_.size() && !stopRequested(); i = next++) {
                 const auto started = std::chrono::steady_clock::now();
                 paint(painter, frames_[i]);
                 const std::chrono::duration<double> taken =
@@ -157,6 +160,12 @@ public:
                 progress.frameDone(frames_[i], taken.count() / painter.usefulThreads());
             }
         });
+        if (stopRequested()) {
+            console_.info(
+                "stopped; the pictures written so far are whole, --skip-existing keeps "
+                "them");
+            return kExitStopped;
+        }
         std::printf("%s\n", pattern_.c_str());
         return kExitDone;
     }

@@ -44,6 +44,11 @@ std::vector<LabelledImage> readPictures(const SheetOptions& options)
 {
     std::vector<LabelledImage> pictures;
     for (const std::string& path : options.inputs) {
+        std::error_code ignored;
+        if (fs::is_directory(path, ignored))
+            throw Error(ErrorKind::usage, "\"" + path +
+                                              "\" is a folder: a sheet is made of one take, or of "
+                                              "PNG files");
         const Image image = readPng(path).image;
         const int width = std::min(image.width, options.layout.cellWidth);
         const int height = std::max(1, image.height * width / image.width);
@@ -55,7 +60,9 @@ std::vector<LabelledImage> readPictures(const SheetOptions& options)
 int runSheet(const SheetOptions& options)
 {
     setThreadCount(threadsToUse(std::nullopt));
-    const bool isTake = options.inputs.size() == 1 && fs::is_directory(options.inputs[0]);
+    requirePngName(options.output);
+    std::error_code ignored;
+    const bool isTake = options.inputs.size() == 1 && fs::is_directory(options.inputs[0], ignored);
     if (!isTake && !(options.frames.empty() && options.camera.empty()))
         throw Error(ErrorKind::usage, "--frames and --camera belong to a take, not to pictures");
     const std::vector<LabelledImage> pictures = isTake ? paintTake(options) : readPictures(options);

@@ -22,6 +22,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/progress.h"
+#include "tools/shell_line.h"
 #include "tools/simulation.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
@@ -54,18 +55,73 @@ std::string percent(double ratio)
     return text;
 }
 
+/// The command that goes on with the take. It repeats all that decides what the take becomes: given
+/// other settings, --resume would refuse.
+std::string commandToGoOn(const SimOptions& options, const std::string& folder)
+{
+    std::vector<std::string> words = {"scree", "sim", options.shot, "-o", folder};
+    const auto add = [&](const std::string& flag, const std::string& value) {
+        words.insert(words.end(), {flag, value});
+    };
+    if (!options.frames.empty()) add("--frames", options.frames);
+    if (!options.from.empty()) add("--from", options.from);
+    for (const std::string& text : options.overrides) add("--set", text);
+    for (const auto& [flag, value] : changedLimits(options.importLimits)) add(flag, value);
+    if (options.threads) add("--threads", std::to_string(*options.threads));
+    if (options.noCache) words.push_back("--no-cache");
+    words.push_back("--resume");
+    return shellLine(words);
+}
+
+/// Thrown where a request to stop is heeded before there is anything to save.
+struct StoppedBeforeStart {};
+
+/// Passes on to a store what is asked of it. It is asked before a distance field is built, which
+/// can take minutes, and told after: the places where signals are heeded while the world comes
+/// about.
+class StoppableFields : public FieldStore {
+public:
+    StoppableFields(FieldStore& fields, Console& console) : fields_(fields), console_(console) {}
+
+    std::optional<DistanceField> find(std::uint64_t key) override
+    {
+        heedSignals();
+        return fields_.find(key);
+    }
+
+    void keep(std::uint64_t key, const DistanceField& field) override
+    {
+        fields_.keep(key, field);
+        heedSignals();
+    }
+
+    void heedSignals()
+    {
+        if (stopRequested()) throw StoppedBeforeStart();
+        if (takeSaveRequest())
+            console_.line("scree: still building distance fields; there is nothing to save yet");
+    }
+
+private:
+    FieldStore& fields_;
+    Console& console_;
+};
+
 /// One run of `scree sim`, from the first missing frame to the last.
 class SimRun {
 public:
     SimRun(const SimOptions& options, Console& console)
         : options_(options), console_(console), progressMode_(parseProgressMode(options.progress))
     {
+        std::optional<TakeBranch> branch;
+        if (!options.from.empty()) branch = parseBranch(options.from);
         setThreadCount(threadsToUse(options.threads));
         shot_ = parseShot(options.shot, options.overrides, options.importLimits);
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
         DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-        world_ = buildWorld(shot_, &cache);
+        StoppableFields fields(cache, console);
+        world_ = buildWorld(shot_, &fields);
         if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
@@ -76,8 +132,7 @@ public:
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
                                                         : ExistingTake::refuse;
-        std::optional<TakeBranch> branch;
-        if (!options.from.empty()) branch = parseBranch(options.from);
+        fields.heedSignals();
         take_.emplace(folder, shot_, world_, programVersion(), existing, branch);
         for (const std::string& notice : take_->notices()) console.warning(notice);
         std::vector<ShotBody>().swap(shot_.bodies);  // the world has them; a kilobyte each
@@ -85,17 +140,19 @@ public:
 
     int run()
     {
-        watchSignals();
         const std::string folder = take_->paths().root.string();
         const int simulated = simulate();
         if (isStopped_) {
             console_.info("stopped in frame " + std::to_string(stoppedIn_) +
-                          "; the state is saved, go on with: scree sim " + options_.shot + " -o " +
-                          folder + " --resume");
+                          "; the state is saved, go on with: " + commandToGoOn(options_, folder));
             return kExitStopped;
         }
         if (simulated == 0) console_.info("nothing to simulate: " + folder + " is complete");
-        writeExports(simulated > 0);
+        if (!writeExports(simulated > 0)) {
+            console_.info("stopped while exporting; the frames are saved, go on with: " +
+                          commandToGoOn(options_, folder));
+            return kExitStopped;
+        }
         if (options_.printsTake) std::printf("%s\n", folder.c_str());
         return judgeOverlap() ? kExitDone : kExitQuality;
     }
@@ -180,7 +237,7 @@ private:
         if (frame == shot_.lastFrame) warnOfUnborn();
         progress.frameDone(frame, stats.wallSeconds,
                            {stats.report.bodiesAwake, stats.report.sum.contactPairs});
-        if (takeSaveRequest()) saveAndTell(frame + 1);
+        if (takeSaveRequest()) tellSaved(frame);  // the frame itself is what to go on from
         if (stopRequested() && frame < lastFrame_) {
             isStopped_ = true;
             stoppedIn_ = frame + 1;
@@ -197,6 +254,11 @@ private:
     void saveAndTell(int frame)
     {
         take_->writeCheckpoint(world_, subframes_->samples());
+        tellSaved(frame);
+    }
+
+    void tellSaved(int frame)
+    {
         console_.line("scree: saved in frame " + std::to_string(frame) + " of " +
                       std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) +
                       ", sub-step " + std::to_string(world_.clock.subStep));
@@ -298,19 +360,22 @@ private:
         toldCap_ = true;
     }
 
-    /// Caches the shot asks for, made once the take is complete.
-    void writeExports(bool hasNewFrames)
+    /// Caches the shot asks for, made once the take is complete. False when stopped on the way.
+    bool writeExports(bool hasNewFrames)
     {
-        if (lastFrame_ != shot_.lastFrame) return;
+        if (lastFrame_ != shot_.lastFrame) return true;
         const TakeReader reader(take_->paths().root);
         for (const std::string& ending : shot_.output.exports) {
             const std::filesystem::path output = defaultExport(reader, ending);
-            if (!hasNewFrames && std::filesystem::exists(output)) continue;
+            std::error_code ignored;
+            if (!hasNewFrames && std::filesystem::exists(output, ignored)) continue;
             // Without progress of its own: the simulation's has reached the end and must not go
             // back.
-            exportTake(reader, reader.frames(), output, console_, ProgressMode::none);
+            if (!exportTake(reader, reader.frames(), output, console_, ProgressMode::none))
+                return false;
             console_.info("wrote " + output.string());
         }
+        return true;
     }
 
     /// Looks over the whole take, earlier sittings included. False when a frame broke the limit.
@@ -354,14 +419,21 @@ private:
 
 int simulate(const SimOptions& options, Console& console)
 {
-    return SimRun(options, console).run();
+    watchSignals();
+    try {
+        return SimRun(options, console).run();
+    } catch (const StoppedBeforeStart&) {
+        console.info("stopped before the first frame; nothing was written: run the same again");
+        return kExitStopped;
+    }
 }
 
 Command addSimCommand(CLI::App& program)
 {
     auto options = std::make_shared<SimOptions>();
     CLI::App* command = program.add_subcommand("sim", "Simulate a shot into a take directory");
-    command->add_option("SHOT", options->shot, "The shot file")->required();
+    command->add_option("SHOT", options->shot, "The shot file, or a folder with a shot.toml")
+        ->required();
     command->add_option("-o,--output", options->take, "The take directory [takes/NAME]");
     command->add_option("--frames", options->frames,
                         "Simulate up to the last of these: 1001-1100 (a later --resume goes on)");
@@ -371,13 +443,14 @@ Command addSimCommand(CLI::App& program)
     CLI::Option* resume =
         command->add_flag("--resume", options->resume,
                           "Go on with the take, to the same bits; begin when there is none");
-    command->add_flag("--overwrite", options->overwrite, "Replace the take that is there")
-        ->excludes(resume);
     command
-        ->add_option("--from", options->from,
-                     "TAKE@FRAME: begin with that take's frames up to this one; the shot may "
-                     "differ from the take's in settings, not in bodies")
+        ->add_flag("--overwrite", options->overwrite,
+                   "Replace the take that is there, with its images/ and exports/")
         ->excludes(resume);
+    command->add_option("--from", options->from,
+                        "TAKE@FRAME: begin with that take's frames up to this one; the shot may "
+                        "differ from the take's in settings, not in bodies. With --resume: begin "
+                        "so when there is nothing to resume");
     command->add_flag("--no-cache", options->noCache,
                       "Build every distance field anew and keep none");
     command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")

@@ -67,6 +67,7 @@ int runVerify(const VerifyOptions& options, Console& console)
         };
     }
     setThreadCount(threadsToUse(options.threads));
+    if (!options.report.empty()) AtomicFile{options.report};  // now, not after hours
 
     const auto chosen = verify::chooseExperiments(options.ids);
     std::vector<verify::Result> results;

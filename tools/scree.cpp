@@ -1,7 +1,11 @@
 // The program: picks a command, catches what went wrong, prints one line about it, returns a code.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <ios>
 #include <new>
 #include <string>
 #include <vector>
@@ -49,6 +53,18 @@ void addOptionNames(const CLI::App& command, std::vector<std::string>& names)
     }
 }
 
+/// The word where the command's name is expected: the first that is no option of the program and no
+/// value of one.
+std::string commandWord(const CLI::App& program, const std::vector<std::string>& words)
+{
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (!words[i].starts_with('-')) return words[i];
+        const CLI::Option* option = program.get_option_no_throw(words[i]);
+        if (option && option->get_expected_min() > 0) ++i;
+    }
+    return "";
+}
+
 /// "no command 'simm'; did you mean 'sim'?" or the same of an option; empty where the words are all
 /// known, and something else is wrong.
 std::string unknownWord(const CLI::App& program, const std::vector<std::string>& words)
@@ -56,12 +72,13 @@ std::string unknownWord(const CLI::App& program, const std::vector<std::string>&
     if (words.empty()) return "";
     std::vector<std::string> commands, options;
     const CLI::App* command = nullptr;
+    const std::string name = commandWord(program, words);
     for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; })) {
         commands.push_back(known->get_name());
-        if (words.front() == known->get_name()) command = known;
+        if (name == known->get_name()) command = known;
     }
-    if (!command && !words.front().starts_with('-')) {
-        return "no command '" + words.front() + "'" + didYouMean(words.front(), commands) +
+    if (!command && !name.empty()) {
+        return "no command '" + name + "'" + didYouMean(name, commands) +
                " (there are: " + joined(commands) + ")";
     }
     addOptionNames(program, options);
@@ -110,6 +127,26 @@ int runProgram(int argumentCount, char** arguments, Console& console)
     return kExitUsage;
 }
 
+/// A result that did not arrive is none: a full disk behind stdout shows when the last of it is
+/// handed over.
+void requireResultsWritten()
+{
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    throw Error(ErrorKind::inputOutput,
+                std::string("writing the results to stdout failed") +
+                    (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
+}
+
+/// What the system says of a name that is to be read. Outputs have errors of their own, thrown
+/// where it is known what was to be created.
+int reportUnreachable(const std::filesystem::filesystem_error& problem, Console& console)
+{
+    console.error("\"" + problem.path1().string() +
+                  "\" cannot be reached: " + problem.code().message());
+    return exitCodeFor(ErrorKind::missingInput);
+}
+
 }  // namespace
 }  // namespace scree
 
@@ -118,10 +155,17 @@ int main(int argumentCount, char** arguments)
     scree::Console console;
     scree::takeFileLimitsAsErrors();
     try {
-        return scree::runProgram(argumentCount, arguments, console);
+        const int code = scree::runProgram(argumentCount, arguments, console);
+        scree::requireResultsWritten();
+        return code;
     } catch (const scree::Error& problem) {
         console.error(problem.what());
         return scree::exitCodeFor(problem.kind());
+    } catch (const std::filesystem::filesystem_error& problem) {
+        return scree::reportUnreachable(problem, console);
+    } catch (const std::ios_base::failure& problem) {
+        console.error(std::string("reading or writing failed: ") + problem.what());
+        return scree::exitCodeFor(scree::ErrorKind::inputOutput);
     } catch (const std::bad_alloc&) {
         console.error("not enough memory");
         return scree::kExitInternal;

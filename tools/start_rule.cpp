@@ -1,6 +1,7 @@
 #include "tools/start_rule.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 
@@ -62,6 +63,12 @@ std::string likelierUnits(double units)
                 (text.empty() ? " it would be" : "") + formatted(" %.3g m", size);
     }
     return text + (text.empty() ? "" : " long");
+}
+
+std::string describeHaste(const FastBody& body)
+{
+    if (!std::isfinite(body.stepsNeeded)) return "is faster than any number of steps can follow";
+    return formatted("needs %.0f steps a frame at %.3g m/s", body.stepsNeeded, body.speed);
 }
 
 void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>& warnings)
@@ -143,9 +150,7 @@ std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& worl
         warnings.push_back(
             std::to_string(fast.size()) + (fast.size() == 1 ? " body is" : " bodies are") +
             " too fast for solver.substeps.max = " + std::to_string(shot.settings.substeps.max) +
-            "; '" + world.info[fast.front().body].name +
-            formatted("' needs %.0f steps a frame at %.3g m/s", fast.front().stepsNeeded,
-                      fast.front().speed) +
+            "; '" + world.info[fast.front().body].name + "' " + describeHaste(fast.front()) +
             (fast.front().whenItLands ? ", when it lands" : ", at the start"));
     }
     warnOfSizes(shot, world, warnings);

@@ -4,9 +4,9 @@
 
 namespace scree {
 
-/// From now on the signals are noted instead of obeyed. A second request to stop is obeyed at once;
-/// what stands on disk is whole at every instant. Writing to a pipe nobody reads becomes an error
-/// of the call that writes.
+/// To be called before anything that takes long. From now on the signals are noted instead of
+/// obeyed. A second request to stop is obeyed at once; what stands on disk is whole at every
+/// instant. Writing to a pipe nobody reads becomes an error of the call that writes.
 void watchSignals();
 
 /// From now on so does writing beyond a size limit, which would otherwise end the program and leave

@@ -6,11 +6,12 @@
 #include "core/base/error.h"
 #include "io/frame_writer.h"
 #include "tools/command_line.h"
+#include "tools/stop_signals.h"
 #include "tools/take_painter.h"
 
 namespace scree {
 
-void exportTake(const TakeReader& take, const std::vector<int>& frames,
+bool exportTake(const TakeReader& take, const std::vector<int>& frames,
                 const std::filesystem::path& output, Console& console, ProgressMode progress)
 {
     if (frames.empty())
@@ -31,6 +32,7 @@ void exportTake(const TakeReader& take, const std::vector<int>& frames,
     writer->begin(scene, frames.front(), frameCount,
                   withSubframes ? take.offsets() : std::vector<double>{0.0});
     for (const int frame : frames) {
+        if (stopRequested()) return false;
         const auto started = std::chrono::steady_clock::now();
         if (withSubframes)
             for (const SceneFrame& sample : take.readSamples(frame)) writer->write(sample);
@@ -40,6 +42,7 @@ void exportTake(const TakeReader& take, const std::vector<int>& frames,
         shown.frameDone(frame, taken.count());
     }
     writer->finish();
+    return true;
 }
 
 std::filesystem::path defaultExport(const TakeReader& take, const std::string& ending)

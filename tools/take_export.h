@@ -11,8 +11,9 @@
 
 namespace scree {
 
-/// Writes `frames`, which must follow each other without a gap. Folders are made as needed.
-void exportTake(const TakeReader& take, const std::vector<int>& frames,
+/// Writes `frames`, which must follow each other without a gap. Folders are made as needed. Signals
+/// must be watched (tools/stop_signals.h): false when it was stopped, and no half file is left.
+bool exportTake(const TakeReader& take, const std::vector<int>& frames,
                 const std::filesystem::path& output, Console& console, ProgressMode progress);
 
 /// <take>/exports/<shot>.abc, or <shot>.####.obj for formats that are one file a frame.

@@ -280,6 +280,10 @@ std::vector<BadShot> badShots()
          body("shape = \"block\"\ngrid = { count = [2, 1, 1], spacing = [2, 2, 2] }\n"
               "[[body]]\nname = \"b_0001\"\nmaterial = \"wood\"\nshape = \"block\"\n"),
          "bad.toml:13:8: body name 'b_0001' is taken by the body at bad.toml:8:8"},
+        {"NameOfAGrid",
+         body("shape = \"block\"\ngrid = { count = [2, 1, 1], spacing = [2, 2, 2] }\n"
+              "[[body]]\nname = \"b\"\nmaterial = \"wood\"\nshape = \"block\"\n"),
+         "bad.toml:13:8: body name 'b' is taken by the body at bad.toml:8:8"},
         {"NameWithSpace",
          kBase + "[[body]]\nname = \"a b\"\nmaterial = \"wood\"\nshape = \"block\"\n",
          "bad.toml:8:8: name \"a b\" must be letters, digits and _, not beginning with a digit"},
@@ -323,6 +327,11 @@ std::vector<BadShot> badShots()
         {"TwoCamerasOfOneName",
          kHead + "[[camera]]\neye = [1, 0, 0]\n[[camera]]\nname = \"main\"\neye = [2, 0, 0]\n",
          "bad.toml:7:8: camera name 'main' is taken by another camera"},
+        {"ThreeCamerasOfOneName",
+         kHead + "[[camera]]\neye = [1, 0, 0]\n[[camera]]\neye = [2, 0, 0]\n[[camera]]\n"
+                 "name = \"main\"\neye = [3, 0, 0]\n",
+         "bad.toml:6:1: camera name 'main' is taken by another camera\n"
+         "bad.toml:9:8: camera name 'main' is taken by another camera"},
         {"CameraNowhere", kHead + "[[camera]]\ntarget = [1, 0, 0]\n",
          "bad.toml:4:1: camera 'main' needs 'eye', 'keys', 'orbit' or 'file' to stand somewhere"},
         {"CameraWithEyeAndOrbit", kHead + "[[camera]]\neye = [1, 0, 0]\norbit = { radius = 3 }\n",
@@ -463,6 +472,78 @@ TEST(ShotErrors, BadOverridesNameTheirOwnText)
     EXPECT_EQ(message("shot.frames=end"),
               "--set shot.frames=end: 'frames' must be \"FIRST-LAST\", for example "
               "\"1001-1240\", not \"end\"");
+}
+
+TEST(ShotErrors, WhatAShotStandsOnCannotBeSet)
+{
+    for (const std::string setting : {"extends=\"x.toml\"", "extends=5", "extends.a=1"}) {
+        EXPECT_EQ(
+            messageOf(body("shape = \"block\"\n"), {setting}),
+            "--set " + setting + ": 'extends' cannot be set: what a shot stands on is read before");
+    }
+}
+
+TEST(ShotErrors, OverridesReachWhatHasNoNameByItsNumber)
+{
+    const std::string text = body("shape = \"block\"\n") +
+                             "[[force]]\ntype = \"wind\"\nstrength = 1\ndirection = [1, 0, 0]\n"
+                             "[[force]]\nname = \"draught\"\ntype = \"wind\"\nstrength = 1\n"
+                             "direction = [1, 0, 0]\n";
+    EXPECT_EQ(messageOf(text, {"force.0.strength=3"}), "");
+    EXPECT_EQ(messageOf(text, {"force.draught.strength=3"}), "");
+    EXPECT_EQ(messageOf(text, {"force.1.strength=3"}),
+              "--set force.1.strength=3: no force '1' in the shot (known: 0, draught)");
+}
+
+TEST(ShotErrors, OverridesReplaceAWholeListOfKeys)
+{
+    const std::string text = body(
+        "shape = \"block\"\nmotion = \"keyed\"\n"
+        "keys = [{ frame = 1001, position = [0, 0, 0] }]\n");
+    const Shot shot = parseShotText(
+        text, "s.toml",
+        {"body.b.keys=[{frame=1001,position=[0,5,0]},{frame=1010,position=[0,6,0]}]"});
+    ASSERT_EQ(shot.bodies.size(), 1u);
+    ASSERT_EQ(shot.bodies[0].keys.size(), 2u);
+    EXPECT_EQ(messageOf(text, {"body.b.keys=7"}).substr(0, 22), "--set body.b.keys=7: '");
+    EXPECT_EQ(messageOf(text, {"body=[]"}),
+              "--set body=[]: 'body' is followed by a name and a key: body.NAME.KEY=VALUE");
+}
+
+TEST(ShotErrors, NamesTheSystemWillNotLookAtAreMissingInputWithTheirPlace)
+{
+    const std::string longName(300, 'n');
+    const auto messageWith = [&](const std::string& text) -> std::string {
+        try {
+            parseShotText(text, "bad.toml");
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::missingInput);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(messageWith(body("shape = \"block\"\nposes = \"" + longName + "\"\n")),
+              "bad.toml:11:9: pose file '" + longName + "' cannot be reached: File name too long");
+    EXPECT_EQ(
+        messageWith(kHead + "[shape.a]\nfile = \"" + longName + ".obj\"\n"),
+        "bad.toml:5:8: mesh file '" + longName + ".obj' cannot be reached: File name too long");
+    EXPECT_EQ(messageWith("extends = \"" + longName + "\"\n" + kHead),
+              "bad.toml:1:11: shot file '" + longName + "' cannot be reached: File name too long");
+}
+
+TEST(ShotErrors, AFolderAsBaseIsToldWithItsPlace)
+{
+    EXPECT_EQ(messageOf("extends = \".\"\n" + kHead),
+              "bad.toml:1:11: shot file '.' is a folder without a shot.toml: name the .toml file "
+              "in it");
+}
+
+TEST(ShotErrors, AShotMayBeAFolderWithItsShotToml)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "shot.toml") << kBase << "[[body]]\nname = \"b\"\nmaterial = "
+                                        << "\"wood\"\nshape = \"block\"\n";
+    EXPECT_EQ(parseShot(folder.path().string()).bodies.size(), 1u);
 }
 
 }  // namespace

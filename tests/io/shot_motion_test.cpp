@@ -242,7 +242,7 @@ TEST(ShotExtends, ProblemsAreSaidWithTheFileTheyStandIn)
     const std::string over = (folder / "over.toml").string();
     const std::string base = (folder / "base.toml").string();
     EXPECT_EQ(message("extends = \"base.toml\"\n"),
-              over + ":1:11: shot file \"" + base + "\" does not exist");
+              over + ":1:11: shot file '" + base + "' does not exist");
     writeText(folder / "base.toml", "scree = 1\n[shot]\nname = \"b\"\nfsp = 24\n");
     EXPECT_NE(message("extends = \"base.toml\"\n").find(base + ":4:1: unknown key 'fsp'"),
               std::string::npos);

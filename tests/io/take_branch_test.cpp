@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
+
 #include "core/base/error.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
@@ -30,12 +33,13 @@ class BranchTest : public testing::Test {
 protected:
     /// Simulates into a take, from time zero or from a branch, and reads it.
     TakeReader simulate(const std::string& name, const std::vector<std::string>& overrides,
-                        const std::optional<TakeBranch>& branch = std::nullopt)
+                        const std::optional<TakeBranch>& branch = std::nullopt,
+                        ExistingTake existing = ExistingTake::refuse)
     {
         writeFileBytes(folder / "slide.toml", kShotText);
         const Shot shot = parseShot((folder / "slide.toml").string(), overrides);
         World world = buildWorld(shot);
-        TakeWriter take(folder / name, shot, world, "1.2.3", ExistingTake::refuse, branch);
+        TakeWriter take(folder / name, shot, world, "1.2.3", existing, branch);
         Stepper stepper(shot.settings);
         for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
             if (take.hasFrame(frame)) continue;
@@ -50,15 +54,43 @@ protected:
         return TakeReader(folder / name);
     }
 
-    std::string refusalOf(const std::vector<std::string>& overrides, const TakeBranch& branch)
+    /// Why it is not done; no file named `name` may come, go or change by that.
+    std::string refusalOf(const std::vector<std::string>& overrides, const TakeBranch& branch,
+                          const std::string& name = "refused",
+                          ExistingTake existing = ExistingTake::refuse)
     {
+        const std::map<std::string, std::string> before = filesOf(name);
         try {
-            simulate("refused", overrides, branch);
+            simulate(name, overrides, branch, existing);
         } catch (const Error& error) {
-            fs::remove_all(folder / "refused");
+            EXPECT_EQ(filesOf(name), before);
             return error.what();
         }
         return "not refused";
+    }
+
+    /// All files of a take by their names inside it, with their bytes.
+    std::map<std::string, std::string> filesOf(const std::string& name) const
+    {
+        std::map<std::string, std::string> files;
+        if (!fs::exists(folder / name)) return files;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder / name)) {
+            if (entry.is_regular_file()) files[entry.path()] = readFileBytes(entry.path());
+        }
+        return files;
+    }
+
+    /// Copies a take but for the files the predicate names.
+    void copyWithout(const std::string& from, const std::string& to,
+                     const std::function<bool(const fs::path&)>& isMissing) const
+    {
+        fs::remove_all(folder / to);
+        fs::copy(folder / from, folder / to, fs::copy_options::recursive);
+        std::vector<fs::path> doomed;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder / to)) {
+            if (entry.is_regular_file() && isMissing(entry.path())) doomed.push_back(entry.path());
+        }
+        for (const fs::path& path : doomed) fs::remove(path);
     }
 
     test::TemporaryFolder folder;
@@ -119,19 +151,108 @@ TEST_F(BranchTest, OtherBodiesAreRefusedWithWhatDiffers)
               std::string::npos);
 }
 
-TEST_F(BranchTest, FramesOfTheOriginalCannotBeSimulatedAgain)
+// Overwriting a take with a branch of itself emptied it, and so did a slip in --from.
+TEST_F(BranchTest, NothingIsRemovedBeforeTheBranchIsKnownToBeGood)
 {
     simulate("whole", {});
-    simulate("branch", {"material.wood.friction=0.0"}, TakeBranch{folder / "whole", 1005});
-    fs::remove(TakePaths{folder / "branch"}.frame(1003));
-    const Shot shot = parseShot((folder / "slide.toml").string(), {"material.wood.friction=0.0"});
-    const World world = buildWorld(shot);
-    try {
-        TakeWriter take(folder / "branch", shot, world, "1.2.3", ExistingTake::resume);
-        FAIL() << "a hole before the branch was accepted";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("--from"), std::string::npos);
+    simulate("target", {});
+    copyWithout("whole", "damaged", [](const fs::path&) { return false; });
+    std::string bytes = readFileBytes(TakePaths{folder / "damaged"}.frame(1003));
+    bytes[700] ^= 1;
+    writeFileBytes(TakePaths{folder / "damaged"}.frame(1003), bytes);
+    const auto refusal = [&](const std::string& take, int frame,
+                             const std::vector<std::string>& overrides = {}) {
+        return refusalOf(overrides, TakeBranch{folder / take, frame}, "target",
+                         ExistingTake::overwrite);
+    };
+    EXPECT_NE(refusal("nowhere", 1005).find("nowhere"), std::string::npos);
+    EXPECT_NE(refusal("whole", 1009).find("leaves nothing"), std::string::npos);
+    EXPECT_NE(refusal("whole", 1005, {"material.wood.density=700"}).find("mass of 'block'"),
+              std::string::npos);
+    EXPECT_NE(refusal("damaged", 1005).find("frame.001003.scree"), std::string::npos);
+
+    fs::create_directory_symlink(folder / "target", folder / "link");
+    for (const char* itself : {"target", "link", "target/../target/."}) {
+        EXPECT_NE(refusal(itself, 1005).find("the very take"), std::string::npos) << itself;
     }
+}
+
+// A branch that was killed while it began had frames and no take.json, and could not be resumed.
+TEST_F(BranchTest, ABranchKilledAtAnyInstantOfItsBeginningGoesOnToTheSameBits)
+{
+    const std::vector<std::string> slippery = {"material.wood.friction=0.0"};
+    simulate("whole", {});
+    const TakeReader unbroken = simulate("branch", slippery, TakeBranch{folder / "whole", 1005});
+    const auto numberOf = [](const fs::path& path) {
+        const std::string name = path.filename();
+        return name.starts_with("frame.") ? std::stoi(name.substr(6, 6)) : 0;
+    };
+    // The instants: the description is there, the shapes, the statistics, so many frames.
+    const std::vector<std::function<bool(const fs::path&)>> instants = {
+        [&](const fs::path& path) { return path.filename() != "take.json"; },
+        [&](const fs::path& path) { return numberOf(path) > 0 || path.extension() == ".jsonl"; },
+        [&](const fs::path& path) { return numberOf(path) > 0; },
+        [&](const fs::path& path) { return numberOf(path) > 1003; },
+        [&](const fs::path& path) { return numberOf(path) > 1005; }};
+    for (std::size_t i = 0; i < instants.size(); ++i) {
+        for (const bool isToldAgain : {false, true}) {
+            copyWithout("branch", "killed", instants[i]);
+            std::optional<TakeBranch> again;
+            if (isToldAgain) again = TakeBranch{folder / "whole", 1005};
+            const TakeReader resumed = simulate("killed", slippery, again, ExistingTake::resume);
+            EXPECT_TRUE(compareTakes(unbroken, resumed).isSame()) << "instant " << i;
+            EXPECT_EQ(resumed.stats().size(), unbroken.stats().size()) << "instant " << i;
+            EXPECT_NO_THROW(resumed.describe()) << "instant " << i;
+        }
+    }
+    // Before the first instant there is nothing that knows of a branch but the command.
+    const TakeReader begun =
+        simulate("begun", slippery, TakeBranch{folder / "whole", 1005}, ExistingTake::resume);
+    EXPECT_TRUE(compareTakes(unbroken, begun).isSame());
+}
+
+TEST_F(BranchTest, FramesOfTheOriginalAreCopiedAgainFromThatVeryTakeOrNotAtAll)
+{
+    const std::vector<std::string> slippery = {"material.wood.friction=0.0"};
+    const auto isHole = [](const fs::path& path) {
+        return path.filename() == "frame.001003.scree";
+    };
+    simulate("whole", {});
+    simulate("branch", slippery, TakeBranch{folder / "whole", 1005});
+    copyWithout("branch", "hole", isHole);
+    simulate("hole", slippery, std::nullopt, ExistingTake::resume);
+    EXPECT_EQ(readFileBytes(TakePaths{folder / "hole"}.frame(1003)),
+              readFileBytes(TakePaths{folder / "branch"}.frame(1003)));
+
+    // The original has moved, or is simulated anew with other settings.
+    const auto refusal = [&] {
+        try {
+            simulate("hole", slippery, std::nullopt, ExistingTake::resume);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("not refused");
+    };
+    copyWithout("branch", "hole", isHole);
+    fs::rename(folder / "whole", folder / "moved");
+    EXPECT_NE(refusal().find("--from"), std::string::npos);
+    simulate("whole", {"material.wood.friction=0.1"});
+    EXPECT_NE(refusal().find("not what it was"), std::string::npos);
+    simulate("hole", slippery, TakeBranch{folder / "moved", 1005}, ExistingTake::resume);
+    EXPECT_TRUE(compareTakes(TakeReader(folder / "branch"), TakeReader(folder / "hole")).isSame());
+}
+
+TEST_F(BranchTest, AResumeThatNamesAnotherBranchIsRefused)
+{
+    simulate("whole", {});
+    simulate("branch", {}, TakeBranch{folder / "whole", 1005});
+    const auto refusal = [&](const std::string& name, int frame) {
+        return refusalOf({}, TakeBranch{folder / "whole", frame}, name, ExistingTake::resume);
+    };
+    EXPECT_NE(refusal("branch", 1004).find("branched off at frame 1005, not 1004"),
+              std::string::npos);
+    simulate("plain", {});
+    EXPECT_NE(refusal("plain", 1005).find("not begun with --from"), std::string::npos);
 }
 
 TEST(ParseBranch, WantsATakeAndAFrame)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
@@ -149,7 +150,8 @@ TEST_F(TakeTest, AStateThatNoStepCouldGoOnFromIsRefusedThoughItsChecksumFits)
             EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
         }
     };
-    const auto remember = [](FrameState& state, std::initializer_list<std::pair<BodyId, BodyId>> pairs) {
+    const auto remember = [](FrameState& state,
+                             std::initializer_list<std::pair<BodyId, BodyId>> pairs) {
         state.contactMemory.dt = 0.01;
         for (const auto& [a, b] : pairs)
             state.contactMemory.contacts.push_back(
@@ -297,6 +299,59 @@ TEST_F(TakeTest, OverwritingLeavesNothingOfTheOldTake)
     EXPECT_FALSE(take.hasFrame(1001));
     EXPECT_FALSE(fs::exists(take.paths().frame(1003)));
     EXPECT_FALSE(fs::exists(take.paths().stats()));
+}
+
+TEST_F(TakeTest, OverwritingTakesPicturesAndCachesOfTheOldTakeWithIt)
+{
+    // In a folder that holds no take they are somebody else's.
+    for (const char* name : {"images", "exports"}) fs::create_directories(folder / "take" / name);
+    writeFileBytes(folder / "take/images/holiday.png", "mine");
+    open(ExistingTake::overwrite, shot);
+    EXPECT_TRUE(fs::exists(folder / "take/images/holiday.png"));
+
+    writeFileBytes(folder / "take/exports/old.abc", "old");
+    open(ExistingTake::overwrite, shot);
+    EXPECT_FALSE(fs::exists(folder / "take/images"));
+    EXPECT_FALSE(fs::exists(folder / "take/exports"));
+}
+
+TEST_F(TakeTest, ShapesThatAreNotThereAreWrittenOnResume)
+{
+    writeWholeTake();
+    fs::remove_all(TakePaths{folder / "take"}.shapes());
+    open(ExistingTake::resume, shot);
+    EXPECT_NO_THROW(TakeReader(folder / "take").describe());
+}
+
+TEST_F(TakeTest, FiguresLeftBehindByARemovedTakeAreNotTheNextOnes)
+{
+    writeWholeTake();
+    fs::remove(folder / "take/take.json");
+    fs::remove_all(folder / "take/frames");
+    EXPECT_TRUE(open(ExistingTake::refuse, shot).summaries().empty());
+}
+
+TEST_F(TakeTest, FramesWithoutFiguresAreTold)
+{
+    writeWholeTake();
+    EXPECT_TRUE(open(ExistingTake::resume, shot).notices().empty());
+    fs::remove(folder / "take/stats.jsonl");
+    const TakeWriter take = open(ExistingTake::resume, shot);
+    ASSERT_EQ(take.notices().size(), 1u);
+    EXPECT_NE(take.notices()[0].find("no figures for 5 frames"), std::string::npos)
+        << take.notices()[0];
+}
+
+TEST_F(TakeTest, FiguresThatAreNotFiniteAreKeptAndBreakEveryLimit)
+{
+    TakeWriter take = open(ExistingTake::refuse, shot);
+    FrameStats stats = statsOf(world);
+    stats.report.kineticEnergy = std::numeric_limits<double>::infinity();
+    stats.report.sum.worstOverlapRatio = std::numeric_limits<double>::quiet_NaN();
+    take.writeFrame(world, stats);
+    ASSERT_EQ(take.summaries().size(), 1u);
+    EXPECT_TRUE(std::isinf(take.summaries()[0].kineticEnergy));
+    EXPECT_GT(take.summaries()[0].overlapRatio, 1e300);
 }
 
 TEST_F(TakeTest, ResumeRefusesAnotherShot)

@@ -1,4 +1,5 @@
 // The whole program: exit codes, interruption and resume, as a shell or a farm meets them.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -417,6 +418,213 @@ TEST_F(ProgramTest, TakeBecomesPicturesSheetFilmAndCache)
     const Outcome cache = runScree({"export", output, "-o", take("boxes.abc")});
     EXPECT_EQ(cache.code, 0) << cache.err;
     EXPECT_GT(fs::file_size(take("boxes.abc")), 1000u);
+}
+
+// Overwriting a take with a branch of itself emptied it.
+TEST_F(ProgramTest, ATakeIsNotOverwrittenByABranchOfItself)
+{
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1001-1005"}).code, 0);
+    const std::vector<int> before = listFrames({take("t")});
+    const Outcome itself =
+        runScree({"sim", shot(), "--overwrite", "--from", take("t") + "@1003", "-o", take("t")});
+    EXPECT_EQ(itself.code, 64) << itself.err;
+    const Outcome missing =
+        runScree({"sim", shot(), "--overwrite", "--from", take("no") + "@1003", "-o", take("t")});
+    EXPECT_EQ(missing.code, 66) << missing.err;
+    EXPECT_EQ(listFrames({take("t")}), before);
+    EXPECT_TRUE(fs::exists(TakePaths{take("t")}.info()));
+}
+
+TEST_F(ProgramTest, ABranchKilledAtAnyInstantResumesToTheSameBytes)
+{
+    simulateUnbroken();
+    const std::string from = take("unbroken") + "@1035", set = "material.wood.friction=0.1";
+    ASSERT_EQ(runScree({"sim", shot(), "--from", from, "--set", set, "-o", take("branch")}).code,
+              0);
+    for (const int milliseconds : {5, 40, 60, 80, 100, 130, 200}) {
+        const std::string name = "killed" + std::to_string(milliseconds);
+        Program program({"sim", shot(), "--from", from, "--set", set, "-o", take(name)});
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        program.signal(SIGKILL);
+        program.wait();
+        const Outcome resumed =
+            runScree({"sim", shot(), "--from", from, "--set", set, "-o", take(name), "--resume"});
+        EXPECT_EQ(resumed.code, 0) << resumed.err;
+        expectSameFrames("branch", name);
+    }
+}
+
+/// The last line of the text that tells how to go on, from "scree" on.
+std::string commandIn(const std::string& text)
+{
+    const std::size_t begin = text.find("scree sim");
+    return begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
+}
+
+TEST_F(ProgramTest, TheCommandThatIsPrintedGoesOnInAShell)
+{
+    const std::string spaced = take("two words");
+    fs::create_directory(spaced);
+    fs::copy(shot(), spaced + "/my boxes.toml");
+    const std::vector<std::string> run = {
+        "sim", spaced + "/my boxes.toml", "--set",     "material.wood.friction = 0.3",
+        "-o",  spaced + "/take",          "--threads", "1"};
+    Program program(run);
+    ASSERT_TRUE(waitForFrame("two words/take", 1005));
+    program.signal(SIGTERM);
+    const Outcome stopped = program.wait();
+    ASSERT_EQ(stopped.code, 75) << stopped.err;
+    const std::string command = commandIn(stopped.err);
+    ASSERT_FALSE(command.empty()) << stopped.err;
+    const std::string path = fs::path(SCREE_PROGRAM).parent_path();
+    EXPECT_EQ(std::system(("PATH='" + path + "' " + command + " 2> /dev/null > /dev/null").c_str()),
+              0)
+        << command;
+    EXPECT_EQ(listFrames({spaced + "/take"}).back(), 1040);
+}
+
+// The field of this ring takes seconds; signals before the first frame ended the program unheard.
+TEST_F(ProgramTest, SignalsAreHeededWhileTheWorldIsBuilt)
+{
+    std::ofstream(take("slow.toml")) << test::shotTextOf(
+        {.name = "slow", .frames = "1001-1002"},
+        "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = [400, 200] }\n"
+        "sdf = { resolution = 400 }\n" +
+            test::bodyText("ring", "position = [0, 3, 0]", "ring"));
+    for (const int number : {SIGUSR1, SIGTERM}) {
+        Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache"});
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        ASSERT_FALSE(fs::exists(take("slow"))) << "the world was built too soon to tell";
+        program.signal(number);
+        const Outcome outcome = program.wait();
+        EXPECT_EQ(outcome.code, number == SIGTERM ? 75 : 0) << outcome.err;
+        const char* word = number == SIGTERM ? "stopped before the first frame" : "scree: ";
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+        fs::remove_all(take("slow"));
+    }
+}
+
+TEST_F(ProgramTest, AFullDiskBehindStdoutExitsWith74)
+{
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1002"}).code, 0);
+    const std::vector<std::vector<std::string>> commands = {
+        {"check", shot(), "--json"},
+        {"check", shot()},
+        {"info", take("t")},
+        {"explain", "solver"},
+        {"diff", take("t"), take("t")},
+        {"stats", take("t"), "--pictures", "0"},
+        {"verify", "--list"},
+        {"export", take("t"), "-o", take("t.abc")},
+        {"--version"}};
+    for (const std::vector<std::string>& words : commands) {
+        const Outcome full =
+            Program(words, [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); }).wait();
+        EXPECT_EQ(full.code, 74) << words[0] << ": " << full.err;
+        EXPECT_NE(full.err.find("stdout"), std::string::npos) << words[0] << ": " << full.err;
+    }
+}
+
+TEST_F(ProgramTest, NamesThatCannotBeReachedHaveTheCodeOfWhatTheyWereFor)
+{
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1002"}).code, 0);
+    const std::string longName = take(std::string(300, 'n'));
+    const std::vector<std::pair<int, std::vector<std::string>>> cases = {
+        {73, {"sim", shot(), "-o", longName}},
+        {73, {"export", take("t"), "-o", longName + ".abc"}},
+        {73, {"stats", take("t"), "--pictures", "0", "-o", longName}},
+        {73, {"verify", "E1", "-o", longName}},
+        {66, {"sim", longName, "-o", take("x")}},
+        {66, {"sim", shot(), "--from", longName + "@1001", "-o", take("x")}},
+        {66, {"check", longName}},
+        {66, {"info", longName}},
+        {66, {"render", longName}},
+        {66, {"diff", take("t"), longName}},
+        {66, {"movie", longName, "-o", take("x.mp4")}},
+        {64, {"sheet", take("t"), take("t"), "-o", take("x.png")}},
+        {64, {"render", take("t"), "-o", take("p.####.jpg")}},
+        {64, {"sheet", take("t"), "-o", take("x.jpg")}},
+    };
+    for (const auto& [code, words] : cases) {
+        const Outcome outcome = runScree(words);
+        EXPECT_EQ(outcome.code, code) << words[0] << ": " << outcome.err;
+        EXPECT_EQ(outcome.err.find("internal"), std::string::npos) << outcome.err;
+    }
+}
+
+TEST_F(ProgramTest, OptionsBeforeTheCommandChangeNoMessage)
+{
+    const std::vector<std::vector<std::string>> slips = {
+        {"render", take("t"), "--frames", "1009", "--engine", "foo"},
+        {"sim", shot(), "--overwrite", "--resume"},
+        {"check", shot(), "--estimte", "3"},
+        {"chekc", shot()}};
+    for (const std::vector<std::string>& slip : slips) {
+        const Outcome plain = runScree(slip);
+        EXPECT_EQ(plain.code, 64);
+        for (const std::vector<std::string>& options :
+             std::vector<std::vector<std::string>>{{"-q"}, {"-v"}, {"--log-format", "text"}}) {
+            std::vector<std::string> words = options;
+            words.insert(words.end(), slip.begin(), slip.end());
+            EXPECT_EQ(runScree(words).err, plain.err);
+        }
+    }
+}
+
+TEST_F(ProgramTest, InfoSaysThatFiguresAreMissingInsteadOfShowingZeros)
+{
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1003"}).code, 0);
+    EXPECT_EQ(runScree({"info", take("t")}).out.find("missing"), std::string::npos);
+    fs::remove(TakePaths{take("t")}.stats());
+    const std::string text = runScree({"info", take("t")}).out;
+    EXPECT_NE(text.find("missing for 3 of 3 frames"), std::string::npos) << text;
+    EXPECT_EQ(text.find("kinetic energy"), std::string::npos) << text;
+    const std::string json = runScree({"info", take("t"), "--json"}).out;
+    EXPECT_NE(json.find("\"worst_overlap_ratio\": null"), std::string::npos) << json;
+    const Outcome resumed =
+        runScree({"sim", shot(), "-o", take("t"), "--resume", "--frames", "1003"});
+    EXPECT_NE(resumed.err.find("no figures for 3 frames"), std::string::npos) << resumed.err;
+}
+
+/// Waits until something stands in the folder.
+bool waitForAnything(const fs::path& path)
+{
+    for (int i = 0; i < 20000 && namesIn(path).empty(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return !namesIn(path).empty();
+}
+
+TEST_F(ProgramTest, AStoppedExportLeavesNoTemporary)
+{
+    std::ofstream(take("long.toml")) << test::shotTextOf(
+        {.name = "long", .frames = "1001-2500"}, test::bodyText("b", "position = [0, 0.5, 0]"));
+    ASSERT_EQ(runScree({"sim", take("long.toml"), "-o", take("t")}).code, 0);
+    fs::create_directory(take("out"));
+    Program program({"export", take("t"), "-o", take("out/long.usda")});
+    ASSERT_TRUE(waitForAnything(take("out")));
+    program.signal(SIGTERM);
+    const Outcome stopped = program.wait();
+    EXPECT_EQ(stopped.code, 75) << stopped.err;
+    EXPECT_EQ(namesIn(take("out")), std::vector<std::string>());
+}
+
+// A program of that name stands in for ffmpeg: it writes half a film and never ends by itself.
+TEST_F(ProgramTest, AStoppedMovieStopsFfmpegAndLeavesNoTemporary)
+{
+    fs::create_directory(take("out"));
+    fs::create_directory(take("bin"));
+    writeFileBytes(take("p.1001.png"), "");
+    writeFileBytes(take("bin/ffmpeg"),
+                   "#!/bin/sh\nfor last; do :; done\necho half > \"$last\"\nexec sleep 60\n");
+    fs::permissions(take("bin/ffmpeg"), fs::perms::owner_all);
+    Program program({"movie", take("p.####.png"), "-o", take("out/x.mp4")},
+                    [&] { ::setenv("PATH", (take("bin") + ":/usr/bin:/bin").c_str(), 1); });
+    ASSERT_TRUE(waitForAnything(take("out")));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    program.signal(SIGTERM);
+    const Outcome stopped = program.wait();
+    EXPECT_EQ(stopped.code, 75) << stopped.err;
+    EXPECT_EQ(namesIn(take("out")), std::vector<std::string>());
 }
 
 }  // namespace
