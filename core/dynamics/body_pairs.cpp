@@ -39,7 +39,7 @@ bool acceptEachOther(const World& world, BodyPair bodies)
     return (a.collidesWith & b.group) && (b.collidesWith & a.group);
 }
 
-bool isHeldBy(const World& world, BodyId body, BodyId other)
+bool isUnmovedBy(const World& world, BodyId body, BodyId other)
 {
     return (world.info[body].groups.unmovedBy & world.info[other].groups.group) != 0;
 }
@@ -47,7 +47,7 @@ bool isHeldBy(const World& world, BodyId body, BodyId other)
 bool mayCollide(const World& world, BodyPair bodies)
 {
     const auto isMovedBy = [&](BodyId body, BodyId other) {
-        return world.mass[body].isMovable() && !isHeldBy(world, body, other);
+        return world.mass[body].isMovable() && !isUnmovedBy(world, body, other);
     };
     return acceptEachOther(world, bodies) &&
            (isMovedBy(bodies.a, bodies.b) || isMovedBy(bodies.b, bodies.a));

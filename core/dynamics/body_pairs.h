@@ -21,7 +21,7 @@ PairSurface surfaceOf(const World& world, const StepSettings& settings, BodyPair
 bool acceptEachOther(const World& world, BodyPair bodies);
 
 /// Whether the group of `body` keeps it from being moved by `other`.  [A57]
-bool isHeldBy(const World& world, BodyId body, BodyId other);
+bool isUnmovedBy(const World& world, BodyId body, BodyId other);
 
 /// Whether groups let the pair collide, and anything could come of it.  [A57]
 bool mayCollide(const World& world, BodyPair bodies);

@@ -48,8 +48,8 @@ CollisionVisit beginVisit(const World& world, const PairRecord& pair, const Step
     return {
         placed,
         placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody()),
-        {ofA.inverseInertia, ofB.inverseInertia, heldIf(pair.aIsHeld, ofA),
-         heldIf(pair.bIsHeld, ofB)}};
+        {ofA.inverseInertia, ofB.inverseInertia, fixedIf(pair.aIsUnmoved, ofA),
+         fixedIf(pair.bIsUnmoved, ofB)}};
 }
 
 /// Impulses at contacts found once: whichever is deepest among those that still approach, until

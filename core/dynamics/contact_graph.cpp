@@ -88,17 +88,17 @@ void findFalls(const World& world, double dt, StepScratch& scratch)
             const auto [a, b] = pair.bodies;
             const PlacedPair drifted =
                 placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);
-            const auto test = [&](BodyId body, bool isHeld, const Pose& poseA, const Pose& poseB,
+            const auto test = [&](BodyId body, bool isUnmoved, const Pose& poseA, const Pose& poseB,
                                   bool& falls, bool& leavesIt) {
                 const double fallHeight = dt * dt * scratch.forces[body].acceleration.norm();
                 const PlacedPair fallen = placePair(world, pair, poseA, poseB);
-                falls = world.mass[body].isMovable() && !isHeld &&
+                falls = world.mass[body].isMovable() && !isUnmoved &&
                         pair.proximity.interferes(fallen, pair.tau);
                 leavesIt = falls && leaves(pair, fallen, drifted, fallHeight);
             };
-            test(a, pair.aIsHeld, scratch.fallPose[a], scratch.driftPose[b], pair.aFallsOnB,
+            test(a, pair.aIsUnmoved, scratch.fallPose[a], scratch.driftPose[b], pair.aFallsOnB,
                  pair.aLeavesB);
-            test(b, pair.bIsHeld, scratch.driftPose[a], scratch.fallPose[b], pair.bFallsOnA,
+            test(b, pair.bIsUnmoved, scratch.driftPose[a], scratch.fallPose[b], pair.bFallsOnA,
                  pair.bLeavesA);
         }
     });
@@ -110,8 +110,8 @@ void settleWeightless(const World& world, StepScratch& scratch)
 {
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         PairRecord& pair = scratch.pairs[i];
-        const double inverseA = pair.aIsHeld ? 0.0 : world.mass[pair.bodies.a].inverseMass;
-        const double inverseB = pair.bIsHeld ? 0.0 : world.mass[pair.bodies.b].inverseMass;
+        const double inverseA = pair.aIsUnmoved ? 0.0 : world.mass[pair.bodies.a].inverseMass;
+        const double inverseB = pair.bIsUnmoved ? 0.0 : world.mass[pair.bodies.b].inverseMass;
         pair.aFallsOnB = pair.isTouched && inverseA >= inverseB;
         pair.bFallsOnA = pair.isTouched && inverseB >= inverseA;
     }

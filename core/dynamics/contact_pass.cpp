@@ -22,11 +22,11 @@ void resolvePair(World& world, const StepSettings& settings, double dt, int leve
     const auto [a, b] = pair.bodies;
     const auto inertiaOf = [&](BodyId body) {
         const bool isFrozen = sweep.frozen && sweep.frozen->isFrozen(body, level);
-        return heldIf(isFrozen, scratch.inertia[body]);
+        return fixedIf(isFrozen, scratch.inertia[body]);
     };
     const PairInertia inertia{scratch.inertia[a].inverseInertia, scratch.inertia[b].inverseInertia,
-                              heldIf(pair.aIsHeld, inertiaOf(a)),
-                              heldIf(pair.bIsHeld, inertiaOf(b))};
+                              fixedIf(pair.aIsUnmoved, inertiaOf(a)),
+                              fixedIf(pair.bIsUnmoved, inertiaOf(b))};
     if (!inertia.passA.isMovable() && !inertia.passB.isMovable()) return;
     // Whether a visit has anything to do depends on the motion of the two alone, not on e or on who
     // is frozen.

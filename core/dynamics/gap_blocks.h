@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

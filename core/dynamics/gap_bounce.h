@@ -2,7 +2,7 @@
 // [GBF03 “Collisions”], [A22–A26; algorithm 14.1]
 #pragma once
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

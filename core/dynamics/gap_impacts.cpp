@@ -250,7 +250,7 @@ GapRow ImpactVisits::rowAt(Impact& impact) const
         row.rB = impact.row->rB;
         return row;
     }
-    prepareRow(scratch_, row);
+    prepareRow(scratch_.bodies, row);
     row.target = velocityAt(row, a, b).dot(row.normal) - (1.0 + row.restitution) * speed;
     impact.velocity = velocity;
     impact.slid = slid;
@@ -344,7 +344,7 @@ void ImpactVisits::applyImpulses(const GapRow& row, const Vec3& impulse, double 
     if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, impactsOf(row.b), time);
 }
 
-void ImpactVisits::applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts,
+void ImpactVisits::applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& impacts,
                            double time)
 {
     const Vec3 dv = body.inverseMass * impulse;

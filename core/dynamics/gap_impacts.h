@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/dynamics/gap_held.h"
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 
@@ -20,7 +20,7 @@ constexpr std::int64_t kBeforeAll = 1;
 
 /// What the impacts of this step have done to a body so far. Two cache lines, since they are
 /// fetched by twos: two threads write to neighbours.
-struct alignas(128) Impacts {
+struct alignas(128) ImpactChange {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
     double earliest = std::numeric_limits<double>::infinity();
     std::int64_t changedAt = 0;  // the visit of a pair that changed it last
@@ -63,7 +63,7 @@ struct ImpactState {
     const GapBlock& block;
     GapScratch& scratch;
     std::vector<Held> held;
-    std::vector<Impacts> impacts;
+    std::vector<ImpactChange> impacts;
     // Of each pair, by the clock of its island: the last visit that ended with nothing left to be
     // hit, 0: none; and the last look at it.
     std::vector<std::int64_t> doneAt, gatheredAt;
@@ -112,7 +112,7 @@ private:
         std::size_t a, b;  // in after_
     };
 
-    Impacts& impactsOf(BodyId body) { return state_.impacts[state_.placeOf(body)]; }
+    ImpactChange& impactsOf(BodyId body) { return state_.impacts[state_.placeOf(body)]; }
     Vec3 gravityAt(const GapRow& row) const;
     bool impactOf(const GapPair& pair, GapRow& row, Impact& impact) const;
     bool resolvePair(std::size_t p);
@@ -128,7 +128,8 @@ private:
     std::size_t placeOf(BodyId body);
     void note(const Impact& impact, const Vec3& impulse, FrictionCase kind);
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time);
-    void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Impacts& impacts, double time);
+    void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& impacts,
+                 double time);
 
     ImpactState& state_;
     GapScratch& scratch_;

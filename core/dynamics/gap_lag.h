@@ -7,7 +7,7 @@
 // checkpoint, so that every so many steps, and where a frame begins, all are sought anew.
 #pragma once
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

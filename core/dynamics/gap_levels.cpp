@@ -23,49 +23,49 @@ constexpr double kWellBelow = 0.1;  // share of the visible that a level of shoc
 constexpr double kVisibleWhenSolved = 1e-5, kVisibleInHeaps = 1e-3;
 
 /// The bodies of a level's rows that its solve must not move, as they were.
-class HeldBodies {
+class PinnedBodies {
 public:
-    explicit HeldBodies(GapScratch& scratch) : scratch_(scratch), isHeld_(flags())
+    explicit PinnedBodies(GapScratch& scratch) : scratch_(scratch), isPinned_(flags())
     {
-        if (isHeld_.size() < scratch.bodies.size()) isHeld_.resize(scratch.bodies.size(), 0);
+        if (isPinned_.size() < scratch.bodies.size()) isPinned_.resize(scratch.bodies.size(), 0);
     }
-    bool isHeld(BodyId body) const { return isHeld_[body] != 0; }
-    /// What cannot be moved needs no holding; other threads look at it too.
-    void hold(BodyId body)
+    bool isPinned(BodyId body) const { return isPinned_[body] != 0; }
+    /// What cannot be moved needs no pin; other threads look at it too.
+    void pin(BodyId body)
     {
         GapBody& b = scratch_.bodies[body];
-        if (isHeld_[body] || b.inverseMass == 0.0) return;
-        isHeld_[body] = 1;
-        held_.push_back({body, b});
+        if (isPinned_[body] || b.inverseMass == 0.0) return;
+        isPinned_[body] = 1;
+        pinned_.push_back({body, b});
         b.inverseMass = 0.0;
         b.inverseInertia.setZero();
     }
     void release()
     {
-        for (const Held& held : held_) {
-            scratch_.bodies[held.body] = held.before;
-            isHeld_[held.body] = 0;
+        for (const Pinned& pinned : pinned_) {
+            scratch_.bodies[pinned.body] = pinned.before;
+            isPinned_[pinned.body] = 0;
         }
-        held_.clear();
+        pinned_.clear();
     }
 
 private:
-    struct Held {
+    struct Pinned {
         BodyId body;
         GapBody before;
     };
-    /// Of this thread, all clear between two uses: most islands hold few of many bodies.
+    /// Of this thread, all clear between two uses: most islands pin few of many bodies.
     static std::vector<char>& flags()
     {
         thread_local std::vector<char> flags;
         return flags;
     }
     GapScratch& scratch_;
-    std::vector<Held> held_;
-    std::vector<char>& isHeld_;
+    std::vector<Pinned> pinned_;
+    std::vector<char>& isPinned_;
 };
 
-/// The motion of the bodies that a solve may move, so that it can be undone. Held bodies
+/// The motion of the bodies that a solve may move, so that it can be undone. Pinned bodies
 /// are as heavy as the world: what is wedged between two of them that close cannot obey both, and
 /// each sweep throws it harder. More than twice the energy there was and that of a step's fall is
 /// such a throw.
@@ -133,6 +133,7 @@ void solveRows(GapScratch& scratch, const std::vector<std::size_t>& rows, double
         double residual = 0.0;
         const auto visit = [&](std::size_t r) {
             GapRow& row = scratch.rows[r];
+            if (!row.movesA && !row.movesB) return;  // one is pinned, and the other unmoved by it
             residual =
                 std::max(residual, visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]));
         };
@@ -216,7 +217,7 @@ struct Cluster {
     std::vector<std::size_t> rows;
 };
 
-/// Solves the rows of a cluster beside bodies that are held, if one closes visibly. The rows keep
+/// Solves the rows of a cluster beside bodies that are pinned, if one closes visibly. The rows keep
 /// their impulses. False when nothing was to be done.
 bool shake(const World& world, const StepSettings& settings, double dt, const Cluster& cluster,
            GapScratch& scratch)
@@ -231,7 +232,7 @@ bool shake(const World& world, const StepSettings& settings, double dt, const Cl
     for (const std::size_t r : rows) {
         GapRow& row = scratch.rows[r];
         remembered.push_back(row);
-        prepareRow(scratch, row);
+        prepareRow(scratch.bodies, row);
         enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, *island, row));
     }
     const LevelMotion before(scratch, rows);
@@ -256,42 +257,42 @@ void handWeightDown(const StepSettings& settings, double dt, const GapIsland& is
                     GapScratch& scratch)
 {
     const std::vector<std::vector<std::size_t>> byLevel = pairsByLevel(scratch, island.pairs);
-    HeldBodies held(scratch);
+    PinnedBodies pinned(scratch);
     for (std::size_t level = byLevel.size(); level-- > 0;) {
         const std::vector<std::size_t> rows = rowsOf(scratch, byLevel[level]);
-        const auto hold = [&](BodyId body) {
+        const auto pin = [&](BodyId body) {
             GapBody& b = scratch.bodies[body];
             if (b.inverseMass == 0.0 || scratch.levels.level[body] == static_cast<int>(level))
                 return;
-            held.hold(body);
+            pinned.pin(body);
             b.velocity = b.velocityBefore;
             b.spin = b.spinBefore;
         };
         for (std::size_t r : rows) {
-            hold(scratch.rows[r].a);
-            hold(scratch.rows[r].b);
+            pin(scratch.rows[r].a);
+            pin(scratch.rows[r].b);
         }
         for (std::size_t r : rows) {
             scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
-            prepareRow(scratch, scratch.rows[r]);
+            prepareRow(scratch.bodies, scratch.rows[r]);
         }
         solveRows(scratch, rows, solvedEnough(settings, dt));
-        std::vector<char> wasHeldA, wasHeldB;
+        std::vector<char> wasPinnedA, wasPinnedB;
         for (std::size_t r : rows) {
-            wasHeldA.push_back(held.isHeld(scratch.rows[r].a));
-            wasHeldB.push_back(held.isHeld(scratch.rows[r].b));
+            wasPinnedA.push_back(pinned.isPinned(scratch.rows[r].a));
+            wasPinnedB.push_back(pinned.isPinned(scratch.rows[r].b));
         }
-        held.release();
+        pinned.release();
         for (std::size_t i = 0; i < rows.size(); ++i) {
             GapRow& row = scratch.rows[rows[i]];
-            prepareRow(scratch, row);
+            prepareRow(scratch.bodies, row);
             const Vec3 impulse = row.worldImpulse();
             const auto hand = [&](BodyId body, const Vec3& r, const Vec3& j, const Vec3& couple) {
                 applyTo(scratch.bodies[body], r, j);
                 applyCoupleTo(scratch.bodies[body], couple);
             };
-            if (wasHeldA[i] && row.movesA) hand(row.a, row.rA, impulse, row.couple);
-            if (wasHeldB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);
+            if (wasPinnedA[i] && row.movesA) hand(row.a, row.rA, impulse, row.couple);
+            if (wasPinnedB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);
         }
     }
 }
@@ -314,8 +315,8 @@ void findLevels(double dt, const GapBlock& block, GapScratch& scratch)
                                  dt * velocityAt(row, a, b).dot(row.normal);
             const double fallOfA = dt * dt * a.pull.dot(row.normal);
             const double fallOfB = dt * dt * b.pull.dot(row.normal);
-            pair.fallsOnB |= a.inverseMass > 0.0 && drift + fallOfA < 0.0;
-            pair.fallsOnA |= b.inverseMass > 0.0 && drift - fallOfB < 0.0;
+            pair.fallsOnB |= row.movesA && drift + fallOfA < 0.0;
+            pair.fallsOnA |= row.movesB && drift - fallOfB < 0.0;
         }
     });
     // Node 0 is all that cannot be moved: nothing of it rests on anything.
@@ -361,14 +362,14 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
 {
     const std::vector<std::vector<std::size_t>> byLevel =
         pairsByLevel(scratch, pairsToShake(world, settings, dt, block, scratch));
-    HeldBodies held(scratch);
+    PinnedBodies pinned(scratch);
     for (std::size_t level = 0; level < byLevel.size(); ++level) {
         const std::vector<std::size_t>& pairs = byLevel[level];
         for (const std::size_t i : pairs) {
             for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
                 if (scratch.levels.isSupported[body] &&
                     scratch.levels.level[body] != static_cast<int>(level))
-                    held.hold(body);
+                    pinned.pin(body);
             }
         }
         std::vector<Cluster> clusters;
@@ -379,10 +380,11 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
         forEach(clusters.size(), 4, [&](std::size_t c) {
             isShaken[c] = shake(world, settings, dt, clusters[c], scratch);
         });
-        held.release();
+        pinned.release();
         for (std::size_t c = 0; c < clusters.size(); ++c) {
             if (!isShaken[c]) continue;
-            for (const std::size_t r : clusters[c].rows) prepareRow(scratch, scratch.rows[r]);
+            for (const std::size_t r : clusters[c].rows)
+                prepareRow(scratch.bodies, scratch.rows[r]);
         }
     }
 }

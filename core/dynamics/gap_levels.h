@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/dynamics/contact_graph.h"
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 
@@ -25,7 +25,7 @@ void handWeightDown(const StepSettings& settings, double dt, const GapBlock& blo
 
 /// One sweep up the levels of a block: what rests is made to rest on what is below as if that could
 /// not give way. Only where solved velocities would still overlap bodies visibly: of a level those
-/// clusters, connected by bodies that are not held, in which one does.
+/// clusters, connected by bodies that are not pinned, in which one does.
 /// The impulses that rows remember stay those of the symmetric problem: begun from shock's, the
 /// next step of a heap blew up.
 void propagateShockUp(const World& world, const StepSettings& settings, double dt,

@@ -2,7 +2,7 @@
 // still overlaps drawn apart.  [GBF03 “Time Integration”], [A17–A19, A52; algorithm 14.1]
 #pragma once
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

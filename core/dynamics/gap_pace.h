@@ -6,7 +6,7 @@
 // three quarters as far, and a step takes five sixths of the time.
 #pragma once
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

@@ -15,7 +15,7 @@ namespace {
 bool movesSomething(const World& world, const GapScratch& scratch, BodyPair bodies)
 {
     const auto isMovedBy = [&](BodyId body, BodyId other) {
-        return scratch.bodies[body].inverseMass > 0.0 && !isHeldBy(world, body, other);
+        return scratch.bodies[body].inverseMass > 0.0 && !isUnmovedBy(world, body, other);
     };
     return isMovedBy(bodies.a, bodies.b) || isMovedBy(bodies.b, bodies.a);
 }

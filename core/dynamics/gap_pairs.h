@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

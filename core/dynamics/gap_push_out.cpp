@@ -239,9 +239,9 @@ private:
             row.rB = contact.rA + world_.motion[a].position - world_.motion[b].position;
             row.normal = contact.normal;
             row.gap = contact.gap;
-            row.isHeldA = isHeldBy(world_, a, b) || isFrozen(a, level);
-            row.isHeldB = isHeldBy(world_, b, a) || isFrozen(b, level);
-            prepareRow(scratch_, row);
+            row.isUnmovedA = isUnmovedBy(world_, a, b) || isFrozen(a, level);
+            row.isUnmovedB = isUnmovedBy(world_, b, a) || isFrozen(b, level);
+            prepareRow(scratch_.bodies, row);
             if (row.movesA || row.movesB) rows_.push_back({row, left_[i]});
         }
     }

@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
+#include "core/dynamics/gap_scratch.h"
 #include "core/dynamics/rolling_friction.h"
 #include "core/geometry/surface_curvature.h"
 #include "core/math/lanes.h"
@@ -136,12 +137,12 @@ double deepestOf(const std::vector<GapContact>& contacts)
     return deepest;
 }
 
-void prepareRow(const GapScratch& scratch, GapRow& row)
+void prepareRow(const std::vector<GapBody>& bodies, GapRow& row)
 {
-    const GapBody& a = scratch.bodies[row.a];
-    const GapBody& b = scratch.bodies[row.b];
-    row.movesA = a.inverseMass > 0.0 && !row.isHeldA;
-    row.movesB = b.inverseMass > 0.0 && !row.isHeldB;
+    const GapBody& a = bodies[row.a];
+    const GapBody& b = bodies[row.b];
+    row.movesA = a.inverseMass > 0.0 && !row.isUnmovedA;
+    row.movesB = b.inverseMass > 0.0 && !row.isUnmovedB;
     row.tangent = anyTangent(row.normal);
 
     // The response in the axes of the row, a lane each: normal, tangent, second. What one turns
@@ -182,7 +183,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
             const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
-            const bool isHeldA = isHeldBy(world, a, b), isHeldB = isHeldBy(world, b, a);
+            const bool isUnmovedA = isUnmovedBy(world, a, b), isUnmovedB = isUnmovedBy(world, b, a);
             while (known != memory.end() && isBefore(*known, pair.bodies)) ++known;
             const auto firstKnown = known;
             while (known != memory.end() && bodiesOf(*known) == pair.bodies) ++known;
@@ -201,9 +202,9 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
                 row.target = 0.0;
                 row.wasHit = false;
                 row.impulse = Vec3::Zero();
-                row.isHeldA = isHeldA;
-                row.isHeldB = isHeldB;
-                prepareRow(scratch, row);
+                row.isUnmovedA = isUnmovedA;
+                row.isUnmovedB = isUnmovedB;
+                prepareRow(scratch.bodies, row);
                 SCREE_CHECK(row.movesA || row.movesB, "a contact that moves nobody has no impulse");
                 resistRolling(world, scratch, surface.rolling, row);
             }

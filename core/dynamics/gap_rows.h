@@ -6,20 +6,15 @@
 // stay in the second-level cache.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
-#include "core/base/fetch.h"
-#include "core/base/parallel.h"
-#include "core/collision/broad_phase.h"
-#include "core/collision/near_features.h"
-#include "core/dynamics/body_pairs.h"
-#include "core/dynamics/forces.h"
-#include "core/dynamics/friction.h"
-#include "core/dynamics/impulse.h"
+#include "core/dynamics/settings.h"
+#include "core/scene/world.h"
 
 namespace scree {
+
+struct GapBlock;
+struct GapScratch;
 
 /// A body as the solver sees it. Velocities are those of the phase that runs. What is looked at
 /// most comes first, in two cache lines.
@@ -40,15 +35,15 @@ struct alignas(64) GapBody {
 
 struct GapRow {
     BodyId a, b;
-    bool movesA, movesB;    ///< whether its impulses act on the body: not on what cannot be moved,
-                            ///< nor on one that the other's group does not move
-    bool isHeldA, isHeldB;  ///< by its group
-    bool wasHit;            ///< by an impact of this step
-    Vec3 rA, rB;            ///< contact point from either centre, world [m]
-    Vec3 normal;            ///< from B to A
-    double gap;             ///< [m]
-    Vec3 impulse;           ///< along normal, tangent and second tangent, on A [N s]
-    Vec3 tangent;           ///< the second tangent is normal × tangent
+    bool movesA, movesB;  ///< whether its impulses act on the body: not on what cannot be moved,
+                          ///< nor on one that the other's group does not move
+    bool isUnmovedA, isUnmovedB;  ///< by its group
+    bool wasHit;                  ///< by an impact of this step
+    Vec3 rA, rB;                  ///< contact point from either centre, world [m]
+    Vec3 normal;                  ///< from B to A
+    double gap;                   ///< [m]
+    Vec3 impulse;                 ///< along normal, tangent and second tangent, on A [N s]
+    Vec3 tangent;                 ///< the second tangent is normal × tangent
     double friction, restitution;
     double target;  ///< normal velocity that closes the gap within the step [m/s], ≤ 0
     double inverseNormalMass;
@@ -68,187 +63,16 @@ struct GapRow {
     }
 };
 
-/// Two bodies that may meet in a step, and what they remember. Small: every step lays them out
-/// anew.
-struct NearPair {
-    BodyPair bodies;
-    NearFeatures near;
-    std::vector<GapContact> contacts;
-    double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
-    double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
-    double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
-    bool isLagged = false;      ///< the contacts have gone along with the bodies since
-    int soughtIn = 0;           ///< the last attempt at a step for which contacts were sought
-};
-
-/// The few of these that have rows.
-struct GapPair {
-    BodyPair bodies;
-    std::size_t near;                         ///< index into GapScratch::nearPairs
-    std::size_t begin = 0, end = 0;           ///< its rows
-    std::size_t bearing = 0;                  ///< how many of them have an impulse, once solved
-    bool isCarried = false;                   ///< it had an impulse in the last step
-    bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
-    std::size_t island = 0;                   ///< index into GapScratch::islands
-    int part = 0;                             ///< gap_pairs.h
-    std::size_t place = 0;                    ///< in the pairs of its block
-};
-
-/// A blow.
-struct GapImpact {
-    std::size_t row;
-    Vec3 impulse;  ///< on A, world [N s]
-    Vec3 slid;     ///< what its lever arms have allowed for [m]
-    FrictionCase kind;
-};
-
-/// Rows that share bodies, directly or through others: a problem of its own. Islands share no
-/// movable body, so they may be solved at once and stop on their own.
-struct GapIsland {
-    std::vector<std::size_t> pairs;  ///< bottom to top
-    std::size_t rowCount = 0;
-    bool isRemembered = false;  ///< some of its pairs carried in the last step
-    bool isKept = false;        ///< as an earlier attempt at the step has solved it
-};
-
-/// Islands that are solved in one go.
-struct GapBlock {
-    std::vector<std::size_t> islands;  ///< indices into GapScratch::islands
-    std::vector<std::size_t> pairs;    ///< all of theirs, sorted
-    std::vector<BodyId> bodies;        ///< those of these that can be moved
-    std::size_t rowCount = 0;
-    std::vector<GapImpact> impacts;
-    bool isAtItsCap = false;  ///< impacts were left when their loops ended
-};
-
-/// Per body, of the graph of who rests on whom: contact_graph.h.
-struct GapLevels {
-    std::vector<int> level;
-    std::vector<char> isSupported;
-};
-
-/// What of a body's motion may close gaps within a step.
-struct GapPace {
-    double speed = 0.0;   ///< of its centre [m/s]
-    double bySpin = 0.0;  ///< of its surface about the centre, at the end of the step [m/s]
-    double pull = 0.0;    ///< [m/s²]
-
-    /// Of any point of the body, within dt.
-    double fastest(double dt) const { return speed + bySpin + dt * pull; }
-};
-
-/// How a body has moved in a step.
-struct BodyMove {
-    Mat3 turn = Mat3::Identity();
-    Vec3 shift = Vec3::Zero();  ///< of its centre of mass [m]
-    double way = 0.0;           ///< of any of its points, at most [m]
-    bool hasMoved = false;      ///< by as little as a bit
-};
-
-struct GapScratch {
-    BroadPhase broadPhase;
-    std::vector<Aabb> boxes;
-    std::vector<AppliedForce> forces;
-    std::vector<NearPair> nearPairs;        ///< sorted by bodies
-    std::vector<NearPair> formerNearPairs;  ///< of the last step, without those that are left
-    /// Per body: where it is, how it has come there in the last step, and how far its points have
-    /// moved in all at most [m].
-    std::vector<Pose> seenAt;
-    std::vector<BodyMove> moves;
-    std::vector<double> odometer;
-    /// Per body: the pace with which this step looks for gaps, what an earlier attempt has shown it
-    /// to gain besides [m/s], and whether it looks for all the speed it has in common with others.
-    std::vector<GapPace> paces;
-    std::vector<double> gain;
-    std::vector<char> looksFar;
-    std::vector<char> hasNews;       ///< per body: this step has not yet found all that is near it
-    std::vector<std::size_t> toAsk;  ///< the near pairs that this look is about
-    int attempt = 0;                 ///< at a step, of all
-    std::vector<GapBody> bodies;
-    std::vector<GapPair> pairs;      ///< sorted by bodies
-    std::vector<GapRow> rows;        ///< of each pair together; what is between them bears nothing
-    std::size_t rowCount = 0;        ///< of the pairs
-    std::vector<std::size_t> order;  ///< of the pairs: island by island, bottom to top
-    std::vector<GapIsland> islands;
-    std::vector<std::size_t> openIslands;    ///< those that are not kept
-    std::size_t openRowCount = 0;            ///< of these
-    std::vector<char> isSolvedAnew;          ///< per body: since gap_unseen.h has last looked
-    std::vector<GapBlock> blocks;            ///< of the islands that are not kept, in their order
-    std::vector<std::int32_t> placeInBlock;  ///< per body: in the bodies of its block, from 1; or 0
-    GapLevels levels;
-    std::vector<GapImpact> impacts;                 ///< of this step
-    std::vector<RememberedContact> formerContacts;  ///< room for what the world will remember
-
-    const std::vector<GapContact>& contactsOf(const GapPair& pair) const
-    {
-        return nearPairs[pair.near].contacts;
-    }
-};
-
 /// Fills the rows of a block from the contacts of its pairs, with the impulses that the world
 /// remembers. Keyed bodies must have been aimed.
 void buildRows(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
                GapScratch& scratch);
-
-/// Calls work(i) for every pair, shared by threads: it may write to what belongs to that pair
-/// alone, its rows among that.
-template <class Work>
-void forPairs(const GapScratch& scratch, const Work& work)
-{
-    forEach(scratch.pairs.size(), kShortWork, work);
-}
-
-/// The same for those of a block.
-template <class Work>
-void forPairs(const GapBlock& block, const Work& work)
-{
-    forEach(block.pairs.size(), kShortWork, [&](std::size_t i) { work(block.pairs[i]); });
-}
-
-/// Calls work(index) for the islands that are told, of so many rows in all; they share no movable
-/// body. What is most of all rows by itself may share its loops with all threads, the others are
-/// worked on at once, each by one.
-template <class Work>
-void forIslands(const GapScratch& scratch, std::span<const std::size_t> islands,
-                std::size_t rowCount, const Work& work)
-{
-    const auto isMost = [&](std::size_t i) { return 2 * scratch.islands[i].rowCount >= rowCount; };
-    for (const std::size_t i : islands) {
-        if (isMost(i)) work(i);
-    }
-    forEach(islands.size(), 1, [&](std::size_t n) {
-        if (!isMost(islands[n])) work(islands[n]);
-    });
-}
-
-template <class Work>
-void forIslands(const GapScratch& scratch, const GapBlock& block, const Work& work)
-{
-    forIslands(scratch, block.islands, block.rowCount, work);
-}
-
-/// Fetches the contacts of a pair that follows the i-th soon, for loops that read them.
-inline void fetchContactsAfter(const GapScratch& scratch, std::size_t i)
-{
-    constexpr std::size_t kPairsAhead = 4;
-    if (i + kPairsAhead >= scratch.pairs.size()) return;
-    fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
-}
 
 /// Cannot be moved by impulses, and moves.
 inline bool isDriven(const GapBody& body)
 {
     return body.inverseMass == 0.0 && !(body.velocity.isZero(0.0) && body.spin.isZero(0.0));
 }
-
-/// By these what is remembered is sorted.
-inline BodyPair bodiesOf(const RememberedContact& contact)
-{
-    return {contact.a, contact.b};
-}
-
-/// Depth of the deepest overlap; 0 when all are apart [m].
-double deepestOf(const std::vector<GapContact>& contacts);
 
 /// Friction beyond this share of its limit slides: sliding is solved to rounding.
 inline constexpr double kSlides = 1.0 - 1e-9;
@@ -273,7 +97,7 @@ inline double shiftAt(const GapRow& row, const GapBody& a, const GapBody& b)
 }
 
 /// Everything of a row that follows from its geometry.
-void prepareRow(const GapScratch& scratch, GapRow& row);
+void prepareRow(const std::vector<GapBody>& bodies, GapRow& row);
 
 /// How a couple between the bodies changes their relative spin.
 inline Mat3 coupleResponse(const GapRow& row, const GapBody& a, const GapBody& b)

@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_pace.h"
+#include "core/dynamics/impulse.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/sleep.h"
 

@@ -2,7 +2,7 @@
 // algorithm 14.1]
 #pragma once
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

@@ -6,7 +6,7 @@
 // fall side by side one may be stopped, and the other run into it.
 #pragma once
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

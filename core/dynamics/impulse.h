@@ -29,9 +29,9 @@ inline PassInertia passInertia(const BodyMass& mass, const Quat& orientation)
 }
 
 /// The same for a pass or a pair that may not move the body.  [A45, A57]
-inline PassInertia heldIf(bool isHeld, PassInertia inertia)
+inline PassInertia fixedIf(bool isFixed, PassInertia inertia)
 {
-    if (isHeld) inertia.inverseMass = 0.0;
+    if (isFixed) inertia.inverseMass = 0.0;
     return inertia;
 }
 

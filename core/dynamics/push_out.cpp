@@ -38,11 +38,11 @@ bool pushOnce(World& world, PairRecord& pair, const PairVisit& visit, const Froz
 {
     const auto [a, b] = pair.bodies;
     const auto inertiaOf = [&](BodyId body) {
-        return heldIf(frozen.isFrozen(body, visit.level),
-                      passInertia(world.mass[body], world.motion[body].orientation));
+        return fixedIf(frozen.isFrozen(body, visit.level),
+                       passInertia(world.mass[body], world.motion[body].orientation));
     };
-    const PassInertia inertiaA = heldIf(pair.aIsHeld, inertiaOf(a));
-    const PassInertia inertiaB = heldIf(pair.bIsHeld, inertiaOf(b));
+    const PassInertia inertiaA = fixedIf(pair.aIsUnmoved, inertiaOf(a));
+    const PassInertia inertiaB = fixedIf(pair.bIsUnmoved, inertiaOf(b));
     if (!inertiaA.isMovable() && !inertiaB.isMovable()) return false;
 
     const Pose poseA = world.motion[a].worldFromBody(), poseB = world.motion[b].worldFromBody();

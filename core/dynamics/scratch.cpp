@@ -91,8 +91,8 @@ void describePair(const World& world, const StepSettings& settings, PairRecord& 
     record.friction = surface.friction;
     record.restitution = surface.restitution;
     record.rolling = surface.rolling;
-    record.aIsHeld = isHeldBy(world, bodies.a, bodies.b);
-    record.bIsHeld = isHeldBy(world, bodies.b, bodies.a);
+    record.aIsUnmoved = isUnmovedBy(world, bodies.a, bodies.b);
+    record.bIsUnmoved = isUnmovedBy(world, bodies.b, bodies.a);
     record.interferesNow = record.isTouched = false;
     record.aFallsOnB = record.bFallsOnA = record.aLeavesB = record.bLeavesA = false;
 }

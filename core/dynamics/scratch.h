@@ -30,8 +30,8 @@ struct PairRecord {
     double tau = 0.0;                          ///< contour value [m]  [A7]
     double friction = 0.0, restitution = 0.0;  ///< of the pair  [A27]
     RollingFriction rolling;                   ///< of the pair  [A27, A49]
-    bool aIsHeld = false;  ///< b may not move a: of infinite mass in this pair  [A57]
-    bool bIsHeld = false;
+    bool aIsUnmoved = false;  ///< b may not move a: of infinite mass in this pair  [A57]
+    bool bIsUnmoved = false;
     bool interferesNow = false;  ///< at the common predicted positions of this collision iteration
     bool aFallsOnB = false;      ///< moved by its own fall alone, a interferes with b  [A36]
     bool bFallsOnA = false;

@@ -414,7 +414,8 @@ bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
         const GapBody& bodyB = scratch.bodies[b];
         const BodyId sleeper = aSleeps ? a : b, other = aSleeps ? b : a;
         // What may not move the other gives way to it; a load it would not feel.
-        const bool mustGiveWay = isDriven(scratch.bodies[other]) || isHeldBy(world, other, sleeper);
+        const bool mustGiveWay =
+            isDriven(scratch.bodies[other]) || isUnmovedBy(world, other, sleeper);
         if (bears[sleeper] && !mustGiveWay) continue;
         const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
         for (const GapContact& contact : pair.contacts) {

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

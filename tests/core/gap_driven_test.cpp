@@ -194,6 +194,26 @@ TEST(GapPairs, WhatLiesOnASleeperThatDoesNotMoveItDoesNotHarmEither)  // [A57]
     EXPECT_TRUE(world.motion[debris].position.allFinite());
 }
 
+TEST(GapPairs, WhatStandsOnOneThatDoesNotMoveItDoesNotHarmIt)  // [A57]
+{
+    // On a pillar that holds it up and on the top of a stack that does not: of the two that touch
+    // there one is unmoved, and the other is pinned while the heavier levels are solved.
+    World world;
+    const MaterialId wood = addMaterial(world, 0.5, 0.0);
+    addPlane(world, wood);
+    const auto cube = boxShape(Vec3::Ones(), 2);
+    for (int i = 0; i < 3; ++i) addBody(world, cube, wood, {{0.0, 0.5 + i, 0.0}, Quat::Identity()});
+    const BodyId debris =
+        addBody(world, boxShape({1.0, 3.0, 1.0}, 2), wood, {{1.5, 1.5, 0.0}, Quat::Identity()});
+    const BodyId hero =
+        addBody(world, boxShape({2.6, 1.0, 1.0}, 2), wood, {{0.3, 3.5, 0.0}, Quat::Identity()});
+    world.info[debris].groups.group = 2;
+    world.info[hero].groups.unmovedBy = 2;
+    runFrames(world, screeSettings(), 2.0);
+    EXPECT_NEAR(world.motion[hero].position.y(), 3.5, 1e-3);
+    EXPECT_NEAR(world.motion[debris].position.y(), 1.5, 1e-3);
+}
+
 TEST(GapPairs, AnExceptionForTwoMaterialsReplacesTheRule)  // [A27]
 {
     World world;

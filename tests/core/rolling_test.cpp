@@ -126,7 +126,7 @@ TEST(E9RollingFriction, TheInertiaOfABodyThatCannotBeMovedDoesNotMatter)  // [A5
 {
     StickingContact contact;
     contact.inertiaS = randomInertia(0, 0);
-    contact.inertiaF = heldIf(true, randomInertia(0, 1));
+    contact.inertiaF = fixedIf(true, randomInertia(0, 1));
     contact.rS = {0.1, -0.5, 0.2};
     contact.rF = {0.3, 0.4, -0.1};
     contact.normal = Vec3::UnitY();
