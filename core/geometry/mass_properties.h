@@ -1,5 +1,5 @@
-// Volume, centre of mass and principal moments of a closed mesh, exact for the polyhedron.  [A2,
-// A3]
+// Volume, centre of mass and principal moments of a closed mesh, exact for the polyhedron.
+// [Mir96], [A2, A3]
 #pragma once
 
 #include "core/geometry/tri_mesh.h"

@@ -17,7 +17,7 @@ namespace {
 constexpr double kNoSlope = 0.1;
 
 /// Angle-weighted corner normals and summed edge normals give the right sign everywhere off the
-/// surface (Bærentzen and Aanæs 2005).
+/// surface [BA05].
 struct PseudoNormals {
     std::vector<Vec3> corner;                  // per point
     std::map<std::pair<int, int>, Vec3> edge;  // per undirected edge

@@ -1,8 +1,8 @@
 // How often a surface winds around a point: 1 inside a closed mesh, 0 outside, and something in
 // between near the holes of an open one. It says what is inside where a mesh has no inside.
 //
-// Far triangles count as one flux through their common centre (Barill et al. 2018, "Fast Winding
-// Numbers for Soups and Clouds", first order), near ones by their exact solid angle.
+// Far triangles count as one flux through their common centre ([BDS18], first order), near ones
+// by their exact solid angle.
 #pragma once
 
 #include <vector>

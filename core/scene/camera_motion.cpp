@@ -20,8 +20,7 @@ KeyValues valuesOf(const CameraKey& key)
 }
 
 /// The slope with which a smooth curve passes a key between two stretches of mean slopes before and
-/// after: none at a turn, else their weighted harmonic mean, which never overshoots (Fritsch and
-/// Butland, “A Method for Constructing Local Monotone Piecewise Cubic Interpolants”, 1984).
+/// after: none at a turn, else their weighted harmonic mean, which never overshoots. [FB84]
 double slopeBetween(double before, double hBefore, double after, double hAfter)
 {
     if (before * after <= 0.0) return 0.0;

@@ -28,8 +28,7 @@ std::array<T, 3> cut(const std::array<T, 3>& c, double p, double q)
 
 /// The velocity with which a smooth curve passes a key between two stretches of mean velocities
 /// `before` and `after`. Turning back, or resting on one side, it stops; and it is never more than
-/// three times the slower one, which is what keeps a cubic from overshooting (Fritsch and Carlson,
-/// “Monotone Piecewise Cubic Interpolation”, 1980).
+/// three times the slower one, which is what keeps a cubic from overshooting. [FC80]
 Vec3 passingVelocity(const Vec3& before, const Vec3& after)
 {
     if (before.dot(after) <= 0.0) return Vec3::Zero();
