@@ -56,11 +56,11 @@ struct StepReport {
     std::int64_t loopsAtTheirCap =
         0;                       ///< pair visits that ended because the impulse cap was reached
     std::int64_t pushesCut = 0;  ///< pushes longer than the limit allows
-    double deepestBeforePushOut = 0.0;    ///< by the solver's own samples [m]
-    double deepestAfterPushOut = 0.0;     ///< [m]
-    double worstOverlapRatio = 0.0;       ///< largest depth / longest box edge of the smaller body
-    BodyId worstA = -1, worstB = -1;      ///< the pair of worstOverlapRatio
-    double pushOutWork = 0.0;             ///< potential energy that push-out added [J]
+    double deepestBeforePushOut = 0.0;  ///< by the solver's own samples [m]
+    double deepestAfterPushOut = 0.0;   ///< [m]
+    double worstOverlapRatio = 0.0;     ///< largest depth / longest box edge of the smaller body
+    BodyId worstA = -1, worstB = -1;    ///< the pair of worstOverlapRatio
+    double pushOutWork = 0.0;           ///< potential energy that push-out added [J]
     std::vector<BodyId> nonFinite;  ///< bodies that are no longer numbers: the run must stop  [A59]
     Phase nonFinitePhase = Phase::position;  ///< the phase after which they were found
     PhaseSeconds seconds = {};
@@ -78,14 +78,15 @@ struct BirthReport {
 struct FrameReport {
     int steps = 0;
     double shortestStep = 0.0, longestStep = 0.0;  ///< [s]
-    StepReport sum;  ///< counts and seconds summed, depths, ratio and levels the largest of any step
+    StepReport
+        sum;  ///< counts and seconds summed, depths, ratio and levels the largest of any step
     bool substepCapReached = false;
     BodyId fastestBody = -1;                            ///< who asked for the shortest step
     double kineticEnergy = 0.0, potentialEnergy = 0.0;  ///< at the end of the frame [J]
     Vec3 momentum = Vec3::Zero();                       ///< [kg m/s]
     Vec3 angularMomentum = Vec3::Zero();                ///< about the world's origin [kg m²/s]
     int bodiesAwake = 0;                                ///< dynamic bodies that are simulated
-    BirthReport births;              ///< at the end of the frame
+    BirthReport births;                                 ///< at the end of the frame
     std::uint64_t stateHash = 0;
     bool finished = true;  ///< false: stopped between two sub-steps, as asked
 };

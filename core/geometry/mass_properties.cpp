@@ -1,7 +1,6 @@
-// Symbols: o base point, d = det[a−o, b−o, c−o] of a triangle (six tetrahedron volumes), C
-// covariance
-//          of the solid about its centre, I inertia = tr(C) δ − C, D principal moments, Q their
-//          axes.
+// Symbols: o base point, d = det[a−o, b−o, c−o] of a triangle (six tetrahedron volumes),
+//          C covariance of the solid about its centre, I inertia = tr(C) δ − C, D principal
+//          moments, Q their axes.
 #include "core/geometry/mass_properties.h"
 
 #include <Eigen/Eigenvalues>

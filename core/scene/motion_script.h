@@ -1,8 +1,9 @@
 // Keyed motion: the pose of a body as a function of time, through keys an artist sets.  [A54]
 //
 // Every stretch between two keys is a cubic Bézier curve, for positions and orientations alike, in
-// its cumulative form [KKS95]: start, then three steps d1, d2, d3 of which growing shares are taken.
-// Velocities are then bounded by the steps alone, which is what the limit of the time step asks for.
+// its cumulative form [KKS95]: start, then three steps d1, d2, d3 of which growing shares are
+// taken. Velocities are then bounded by the steps alone, which is what the limit of the time step
+// asks for.
 //
 // Symbols: t time, T duration of a stretch, s share of it that has passed, d step of a position
 //          [m], w of an orientation (rotation vector, axes of the body) [rad].
