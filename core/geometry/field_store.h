@@ -19,7 +19,8 @@ struct DistanceField {
 class FieldStore {
 public:
     virtual ~FieldStore() = default;
-    /// The field kept under `key`, if it is there and sound.
+    /// The field kept under `key`, if it is there and sound in itself. Who asks looks whether it
+    /// fits the mesh.
     virtual std::optional<DistanceField> find(std::uint64_t key) = 0;
     virtual void keep(std::uint64_t key, const DistanceField& field) = 0;
 };

@@ -129,13 +129,25 @@ NodeLayout layOutNodes(const Aabb& box, double spacing)
     return nodes;
 }
 
+/// Whether a field that was kept can be one of this mesh on this lattice: nobody asks again before
+/// a face is looked up.
+bool fits(const DistanceField& kept, const TriMesh& mesh, const NodeLayout& layout)
+{
+    const NodeLayout& own = kept.nodes.layout;
+    const auto faceCount = static_cast<std::uint32_t>(mesh.triangles.cols());
+    return own.origin == layout.origin && own.spacing == layout.spacing &&
+           own.count == layout.count &&
+           std::ranges::all_of(kept.nearest.faces, [&](std::uint32_t f) { return f < faceCount; });
+}
+
 /// The field of the shape's mesh, from the store if it is there.
 DistanceField fieldOf(const Shape& shape, const NodeLayout& layout, const ShapeSettings& settings,
                       FieldStore* store)
 {
     const std::uint64_t key = fieldKey(shape.mesh, layout, settings.storage);
     if (store) {
-        if (auto kept = store->find(key)) return std::move(*kept);
+        std::optional<DistanceField> kept = store->find(key);
+        if (kept && fits(*kept, shape.mesh, layout)) return std::move(*kept);
     }
     DistanceField field;
     field.nodes = buildDistanceNodes(shape.mesh, shape.rays, layout, settings.storage);

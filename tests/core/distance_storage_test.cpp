@@ -95,6 +95,36 @@ TEST(E21FieldStorage, AutomaticTakesBricksWhereTheySaveMuchOfALargeField)
     EXPECT_EQ(storageOf(makeSphere(1.0, 2), 120), FieldStorage::bricks);
 }
 
+/// Keeps one field in memory, and can spoil it.
+class OneField : public FieldStore {
+public:
+    std::optional<DistanceField> find(std::uint64_t) override { return field; }
+    void keep(std::uint64_t, const DistanceField& built) override
+    {
+        field = built;
+        ++timesKept;
+    }
+    std::optional<DistanceField> field;
+    int timesKept = 0;
+};
+
+TEST(E21FieldStorage, AKeptFieldOfOtherFacesOrAnotherLatticeIsBuiltAnew)
+{
+    OneField store;
+    const TriMesh cube = makeBox(Vec3::Ones(), {2, 2, 2});
+    const auto build = [&] { return buildMeshShape("cube", cube, {}, &store); };
+    build();
+    build();
+    ASSERT_EQ(store.timesKept, 1);
+    store.field->nearest.faces.back() = static_cast<std::uint32_t>(cube.triangles.cols());
+    const auto shape = build();
+    EXPECT_EQ(store.timesKept, 2);
+    EXPECT_NEAR(shape->distance.value({0.5 + 1e-3, 0.1, 0.1}), 1e-3, 1e-12);
+    store.field->nodes.layout.origin.x() += 1.0;
+    build();
+    EXPECT_EQ(store.timesKept, 3);
+}
+
 TEST(E21FieldStorage, TheFieldHasTheSameBitsForAnyThreadCount)
 {
     const TriMesh mesh = makeTorus(1.0, 0.25, {32, 20});
