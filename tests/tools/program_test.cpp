@@ -190,6 +190,21 @@ TEST_F(ProgramTest, SaveRequestIsAnsweredAndChangesNothing)
     expectSameFrames("unbroken", "saved");
 }
 
+// A request during the last frame left a checkpoint of a frame that does not exist.
+TEST_F(ProgramTest, SaveRequestsUpToTheEndLeaveNoCheckpointInAFinishedTake)
+{
+    Program program({"sim", shot(), "-o", take("saved"), "--frames", "1001-1040"});
+    ASSERT_TRUE(waitForFrame("saved", 1001));
+    for (int i = 0; i < 20000 && !fs::exists(TakePaths{take("saved")}.frame(1040)); ++i) {
+        program.signal(SIGUSR1);
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("frame 1041"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(TakePaths{take("saved")}.checkpoint()));
+}
+
 TEST_F(ProgramTest, RunInTwoPartsEqualsTheUnbrokenOne)
 {
     simulateUnbroken();
@@ -569,6 +584,21 @@ TEST_F(ProgramTest, OptionsBeforeTheCommandChangeNoMessage)
             EXPECT_EQ(runScree(words).err, plain.err);
         }
     }
+}
+
+TEST_F(ProgramTest, ASpeedThatOverflowsIsToldInWordsAndItsFiguresAreKept)
+{
+    std::ofstream(take("fast.toml"))
+        << test::shotTextOf({.name = "fast", .frames = "1001-1002"},
+                            test::bodyText("b", "position = [0, 9, 0]\nvelocity = [1e300, 0, 0]"));
+    const Outcome outcome = runScree({"sim", take("fast.toml"), "-o", take("t")});
+    EXPECT_NE(outcome.err.find("faster than any number of steps"), std::string::npos)
+        << outcome.err;
+    const std::size_t lines = readStats(TakePaths{take("t")}.stats()).size();
+    EXPECT_EQ(lines, listFrames({take("t")}).size());
+    const Outcome resumed = runScree({"sim", take("fast.toml"), "-o", take("t"), "--resume"});
+    EXPECT_EQ(resumed.err.find("no figures"), std::string::npos) << resumed.err;
+    EXPECT_EQ(readStats(TakePaths{take("t")}.stats()).size(), lines);
 }
 
 TEST_F(ProgramTest, InfoSaysThatFiguresAreMissingInsteadOfShowingZeros)
