@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "io/atomic_file.h"
+#include "io/file_bytes.h"
 #include "io/frame_pattern.h"
 #include "io/take_reader.h"
 #include "tools/command_line.h"
@@ -67,6 +68,9 @@ std::vector<int> findFrames(const fs::path& pattern)
 PictureSequence findPictures(const MovieOptions& options)
 {
     PictureSequence sequence;
+    if (const std::string obstacle = obstacleTo(options.input); !obstacle.empty())
+        throw Error(ErrorKind::missingInput,
+                    "\"" + options.input + "\" cannot be reached: " + obstacle);
     std::error_code code;
     if (fs::exists(TakePaths{options.input}.info(), code)) {
         const TakeReader take(options.input);

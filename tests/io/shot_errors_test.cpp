@@ -527,6 +527,9 @@ TEST(ShotErrors, NamesTheSystemWillNotLookAtAreMissingInputWithTheirPlace)
     EXPECT_EQ(
         messageWith(kHead + "[shape.a]\nfile = \"" + longName + ".obj\"\n"),
         "bad.toml:5:8: mesh file '" + longName + ".obj' cannot be reached: File name too long");
+    EXPECT_EQ(
+        messageWith(kBase + "[[import]]\nfile = \"" + longName + ".glb\"\nmaterial = \"wood\"\n"),
+        "bad.toml:8:8: '" + longName + ".glb' cannot be reached: File name too long");
     EXPECT_EQ(messageWith("extends = \"" + longName + "\"\n" + kHead),
               "bad.toml:1:11: shot file '" + longName + "' cannot be reached: File name too long");
 }

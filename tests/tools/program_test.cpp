@@ -544,11 +544,13 @@ TEST_F(ProgramTest, NamesThatCannotBeReachedHaveTheCodeOfWhatTheyWereFor)
 {
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1002"}).code, 0);
     const std::string longName = take(std::string(300, 'n'));
+    writeFileBytes(take("p.1001.png"), "");
     const std::vector<std::pair<int, std::vector<std::string>>> cases = {
         {73, {"sim", shot(), "-o", longName}},
         {73, {"export", take("t"), "-o", longName + ".abc"}},
         {73, {"stats", take("t"), "--pictures", "0", "-o", longName}},
         {73, {"verify", "E1", "-o", longName}},
+        {73, {"movie", take("p.####.png"), "-o", longName + ".mp4"}},
         {66, {"sim", longName, "-o", take("x")}},
         {66, {"sim", shot(), "--from", longName + "@1001", "-o", take("x")}},
         {66, {"check", longName}},
