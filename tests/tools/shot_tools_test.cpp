@@ -141,6 +141,29 @@ TEST_F(ShotTools, DiffEndsWithOneAndNamesTheFrameAndTheBody)
     EXPECT_EQ(run("sim drop.toml -o d --from a").code, 64);
 }
 
+TEST_F(ShotTools, SettleWaitsForWhatTheShotHasInStore)
+{
+    const auto settle = [&](const std::string& more, const std::string& options) {
+        std::ofstream(folder / "later.toml") << readFileBytes(folder / "drop.toml") + more;
+        return run("settle later.toml -o later.json" + options);
+    };
+    const std::string released =
+        "[[body]]\nname = \"held\"\nshape = \"block\"\nmaterial = \"wood\"\n"
+        "motion = \"keyed\"\nkeys = [{ frame = 1001, position = [3, 2, 0] }]\nrelease = 1040\n";
+    const Outcome fallen = settle(released, "");
+    ASSERT_EQ(fallen.code, 0) << fallen.err;
+    const nlohmann::json json = nlohmann::json::parse(readFileBytes(folder / "later.json"));
+    EXPECT_NEAR(json["bodies"].back()["position"][1].get<double>(), 0.1, 0.01);
+    const Outcome early = settle(released, " --seconds 1.5");
+    EXPECT_EQ(early.code, 79);
+    EXPECT_TRUE(contains(early.err, "go on until")) << early.err;
+    const std::string gust =
+        "[[force]]\nname = \"gust\"\ntype = \"radial\"\n"
+        "keys = [{ frame = 1001, strength = 0 }, { frame = 1060, strength = 0 }]\n";
+    const Outcome blown = settle(gust, " --seconds 2");
+    EXPECT_TRUE(contains(blown.err, "go on until")) << blown.err;
+}
+
 TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
 {
     const Outcome settled = run("settle drop.toml -o pose.json");
