@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "tools/html_text.h"
+
 namespace scree {
 namespace {
 
@@ -161,30 +163,6 @@ document.documentElement.dataset.ready = plots.filter(p => p.canvas.width > 0).l
 </body>
 </html>
 )html";
-
-std::string escapedForHtml(const std::string& text)
-{
-    std::string result;
-    for (const char letter : text) {
-        switch (letter) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += letter;
-        }
-    }
-    return result;
-}
 
 /// JSON inside a script element: nothing in it may look like the element's end.
 std::string escapedForScript(const std::string& json)

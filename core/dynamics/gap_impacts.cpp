@@ -262,11 +262,8 @@ void ImpactVisits::applyOne(Impact& impact)
     const GapRow row = rowAt(impact);
     const GapBody& a = scratch_.bodies[row.a];
     const GapBody& b = scratch_.bodies[row.b];
-    const Mat3 k =
-        collisionMatrix(row.movesA ? PassInertia{a.inverseMass, a.inverseInertia} : PassInertia{},
-                        row.rA) +
-        collisionMatrix(row.movesB ? PassInertia{b.inverseMass, b.inverseInertia} : PassInertia{},
-                        row.rB);
+    const Mat3 k = collisionMatrix(inertiaOf(a, row.movesA), row.rA) +
+                   collisionMatrix(inertiaOf(b, row.movesB), row.rB);
     const ContactImpulse j =
         contactImpulse(k, impact.velocity, row.normal, row.restitution, row.friction);
     applyImpulses(row, j.impulse, impact.time);

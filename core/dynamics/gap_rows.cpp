@@ -43,12 +43,6 @@ double largestEigenvalue(double tt, double ts, double ss)
     return 0.5 * (tt + ss) + std::sqrt(half * half + ts * ts);
 }
 
-/// What the impulses of a row see of a body.
-PassInertia inertiaOf(const GapBody& body, bool moves)
-{
-    return moves ? PassInertia{body.inverseMass, body.inverseInertia} : PassInertia{};
-}
-
 /// The paper's raw coefficient takes an angular speed from the bodies for each unit of normal
 /// impulse, a lever arm a couple: what turns one into the other is the response to a couple. A
 /// couple against rolling has to stop the centre too; one against spinning about the normal only

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "core/dynamics/impulse.h"
 #include "core/dynamics/settings.h"
 #include "core/scene/world.h"
 
@@ -98,6 +99,12 @@ inline double shiftAt(const GapRow& row, const GapBody& a, const GapBody& b)
 
 /// Everything of a row that follows from its geometry.
 void prepareRow(const std::vector<GapBody>& bodies, GapRow& row);
+
+/// What the impulses of a row see of a body.
+inline PassInertia inertiaOf(const GapBody& body, bool moves)
+{
+    return moves ? PassInertia{body.inverseMass, body.inverseInertia} : PassInertia{};
+}
 
 /// How a couple between the bodies changes their relative spin.
 inline Mat3 coupleResponse(const GapRow& row, const GapBody& a, const GapBody& b)

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "tests/support/support.h"
+#include "tools/html_text.h"
 #include "tools/verify/plot.h"
 #include "tools/verify/report.h"
 
@@ -184,7 +185,7 @@ TEST(Verify, ThePageHoldsTablesPlotsAndPicturesAndNeedsNothingElse)
     EXPECT_NE(page.find("<polyline"), std::string::npos);
     EXPECT_EQ(page.find("src=\"http"), std::string::npos);
     for (const Measurement& row : result.findings.rows) {
-        EXPECT_NE(page.find(escaped(row.what)), std::string::npos);
+        EXPECT_NE(page.find(escapedForHtml(row.what)), std::string::npos);
     }
 }
 

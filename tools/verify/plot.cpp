@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/html_text.h"
+
 namespace scree::verify {
 namespace {
 
@@ -42,7 +44,7 @@ std::string label(double x, double y, const char* anchor, const std::string& tex
                   const std::string& more = "")
 {
     return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\"" +
-           more + ">" + escaped(text) + "</text>\n";
+           more + ">" + escapedForHtml(text) + "</text>\n";
 }
 
 std::string line(double x1, double y1, double x2, double y2, const char* style)
@@ -152,30 +154,6 @@ private:
 std::string toSvg(const Plot& plot)
 {
     return Drawing(plot).text();
-}
-
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
 }
 
 double niceStep(double span)

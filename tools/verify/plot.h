@@ -10,9 +10,6 @@ namespace scree::verify {
 /// An <svg> element that needs nothing outside itself; equal plots give equal text.
 std::string toSvg(const Plot& plot);
 
-/// Text with &, <, > and " replaced.
-std::string escaped(const std::string& text);
-
 /// The largest of 1, 2 and 5 times a power of ten that divides `span` into at least four.
 double niceStep(double span);
 

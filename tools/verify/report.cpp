@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/command_line.h"
+#include "tools/html_text.h"
 #include "tools/verify/plot.h"
 #include "tools/version.h"
 
@@ -49,10 +50,10 @@ figcaption { font-size: 13px; color: #444 }
 std::string rowHtml(const Measurement& row)
 {
     const std::string verdict = nameOf(row.verdict);
-    std::string html = "<tr><td>" + escaped(row.what);
-    if (!row.note.empty()) html += "<br><span class=\"note\">" + escaped(row.note) + "</span>";
-    html += "</td><td class=\"number\">" + shortNumber(row.measured) + " " + escaped(row.unit);
-    html += "</td><td>" + escaped(row.theory) + "</td><td>" + escaped(row.tolerance) + "</td><td>" +
+    std::string html = "<tr><td>" + escapedForHtml(row.what);
+    if (!row.note.empty()) html += "<br><span class=\"note\">" + escapedForHtml(row.note) + "</span>";
+    html += "</td><td class=\"number\">" + shortNumber(row.measured) + " " + escapedForHtml(row.unit);
+    html += "</td><td>" + escapedForHtml(row.theory) + "</td><td>" + escapedForHtml(row.tolerance) + "</td><td>" +
             nameOf(row.weight) + "</td>";
     html +=
         "<td class=\"" + verdict.substr(0, verdict.find(' ')) + "\">" + verdict + "</td></tr>\n";
@@ -65,9 +66,9 @@ std::string figuresHtml(const Findings& findings)
     std::string html = "<div class=\"figures\">\n";
     for (const Plot& plot : findings.plots) html += "<figure>" + toSvg(plot) + "</figure>\n";
     for (const Picture& picture : findings.pictures) {
-        html += "<figure><img alt=\"" + escaped(picture.caption) +
+        html += "<figure><img alt=\"" + escapedForHtml(picture.caption) +
                 "\" src=\"data:image/png;base64," + toBase64(picture.png) + "\"><figcaption>" +
-                escaped(picture.caption) + "</figcaption></figure>\n";
+                escapedForHtml(picture.caption) + "</figcaption></figure>\n";
     }
     return html + "</div>\n";
 }
@@ -77,11 +78,11 @@ std::string sectionHtml(const Result& result)
     const Experiment& experiment = *result.experiment;
     const std::string id = experiment.id;
     std::string html = "<h2 id=\"" + id + "_" + result.method + "\">" + id + " " +
-                       escaped(experiment.title) + "</h2>\n<p>" + escaped(experiment.claim) +
+                       escapedForHtml(experiment.title) + "</h2>\n<p>" + escapedForHtml(experiment.claim) +
                        " Method " + result.method + ", " + (experiment.isMust ? "must" : "goal") +
                        ", " + describeDuration(result.cpuSeconds) + " of processor.</p>\n";
     if (*experiment.paper) {
-        html += "<p class=\"paper\">In the paper: " + escaped(experiment.paper) + "</p>\n";
+        html += "<p class=\"paper\">In the paper: " + escapedForHtml(experiment.paper) + "</p>\n";
     }
     html +=
         "<table><tr><th>what</th><th>measured</th><th>theory</th><th>tolerance</th>"
@@ -167,11 +168,11 @@ std::string toHtml(const std::vector<Result>& results, const Context& context)
     html += kStyle;
     html += "</head><body>\n<h1>The experiments of Scree " + programVersion() + "</h1>\n<p>" +
             (context.isFull() ? "Full form. " : "Brief form. ") +
-            escaped(toText(summarize(results))) + "</p>\n<ul>\n";
+            escapedForHtml(toText(summarize(results))) + "</p>\n<ul>\n";
     for (const Result& result : results) {
         const Summary summary = summarize({result});
         html += std::string("<li><a href=\"#") + result.experiment->id + "_" + result.method +
-                "\">" + result.experiment->id + " " + escaped(result.experiment->title) + "</a>, " +
+                "\">" + result.experiment->id + " " + escapedForHtml(result.experiment->title) + "</a>, " +
                 result.method + ": " + std::to_string(summary.passed) + " of " +
                 std::to_string(summary.rows) + " rows pass" +
                 (summary.broken ? ", <b>" + std::to_string(summary.broken) + " fail</b>" : "") +
