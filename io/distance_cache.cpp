@@ -2,7 +2,6 @@
 // hash of all before it.
 #include "io/distance_cache.h"
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -63,13 +62,6 @@ private:
     std::string_view bytes_;
     bool isWhole_ = true;
 };
-
-std::array<int, 3> blocksAlong(const NodeLayout& layout)
-{
-    std::array<int, 3> blocks;
-    for (int axis = 0; axis < 3; ++axis) blocks[axis] = (layout.count[axis] - 2) / kBlockCells + 1;
-    return blocks;
-}
 
 /// Whether points have places in the lattice: divisions by the spacing stay finite, too.
 bool isLattice(const NodeLayout& layout)

@@ -59,14 +59,19 @@ std::array<int, 3> cellsOfBlock(const NodeLayout& layout, const std::array<int, 
     return cells;
 }
 
+std::array<int, 3> blocksAlong(const NodeLayout& layout)
+{
+    std::array<int, 3> blocks;
+    for (int axis = 0; axis < 3; ++axis) blocks[axis] = (layout.count[axis] - 2) / kBlockCells + 1;
+    return blocks;
+}
+
 DistanceNodes emptyNodes(const NodeLayout& layout, FieldStorage storage)
 {
     DistanceNodes nodes;
     nodes.layout = layout;
     nodes.storage = storage;
-    for (int axis = 0; axis < 3; ++axis) {
-        nodes.blockCount[axis] = (layout.count[axis] - 2) / kBlockCells + 1;
-    }
+    nodes.blockCount = blocksAlong(layout);
     nodes.blocks.resize(static_cast<std::size_t>(nodes.blockCount[0]) * nodes.blockCount[1] *
                         nodes.blockCount[2]);
     return nodes;

@@ -191,6 +191,9 @@ struct DistanceNodes {
     }
 };
 
+/// Blocks along each axis of a lattice.
+std::array<int, 3> blocksAlong(const NodeLayout& layout);
+
 /// Cells along each axis of the block: 8 but for the last ones.
 std::array<int, 3> cellsOfBlock(const NodeLayout& layout, const std::array<int, 3>& block);
 
