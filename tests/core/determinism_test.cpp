@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -132,6 +133,31 @@ TEST(Determinism, StoppingBetweenSubStepsAndGoingOnElsewhereChangesNothing)
     }
     EXPECT_GT(stops, 20);
     EXPECT_EQ(stateHash(broken), stateHash(unbroken));
+}
+
+TEST(StateHash, TellsApartWhateverAStepReadsOfItsMemory)  // [A21]
+{
+    World world;
+    addBody(world, boxShape(Vec3::Ones(), 1), addMaterial(world, 0.5, 0.0), {});
+    world.contactMemory.contacts.resize(1);
+    world.contactMemory.rest.resize(1);
+    std::set<std::uint64_t> hashes = {stateHash(world)};
+    const auto expectNew = [&](const char* what, const auto& change) {
+        World other = world;
+        change(other.contactMemory, other.contactMemory.contacts[0], other.contactMemory.rest[0]);
+        EXPECT_TRUE(hashes.insert(stateHash(other)).second) << what;
+    };
+    expectNew("dt", [](auto& memory, auto&, auto&) { memory.dt = 0.01; });
+    expectNew("body", [](auto&, auto& contact, auto&) { contact.b = 1; });
+    expectNew("feature", [](auto&, auto& contact, auto&) { contact.feature = 7; });
+    expectNew("place", [](auto&, auto& contact, auto&) { contact.place.z() = 1.0; });
+    expectNew("force", [](auto&, auto& contact, auto&) { contact.force.z() = 1.0; });
+    expectNew("couple", [](auto&, auto& contact, auto&) { contact.couple.z() = 1.0; });
+    expectNew("still", [](auto&, auto&, auto& rest) { rest.still.position.z() = 1.0; });
+    expectNew("nearby", [](auto&, auto&, auto& rest) { rest.nearby.orientation.z() = 1.0; });
+    expectNew("frames", [](auto&, auto&, auto& rest) { rest.nearby.frames = 1; });
+    expectNew("pull", [](auto&, auto&, auto& rest) { rest.pull.z() = 1.0; });
+    expectNew("asleep", [](auto&, auto&, auto& rest) { rest.isAsleep = true; });
 }
 
 }  // namespace
