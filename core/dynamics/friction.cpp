@@ -54,6 +54,7 @@ Vec3 blend(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double mu,
     const double w0 = workOf(frictionless, collisionMatrix, u);
     const double w1 = u.dot(step) + frictionless.dot(collisionMatrix * step);
     const double w2 = 0.5 * step.dot(collisionMatrix * step);
+    if (w2 == 0.0) return frictionless;  // head-on they are the same, and neither's work is exact
     if (w0 + share * (w1 + share * w2) > 0.0) {
         const double root = std::sqrt(std::max(0.0, w1 * w1 - 4.0 * w2 * w0));
         // Of the two equal forms of the larger root, the one without cancellation.

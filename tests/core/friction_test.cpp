@@ -18,6 +18,16 @@ TEST(Impulses, EqualSpheresHeadOnExchangeTheirVelocities)  // [A30]
     EXPECT_LE((contactImpulse(k, u, n, 0.0, 0.5).impulse - Vec3(-1.5, 0.0, 0.0)).norm(), 1e-12);
 }
 
+TEST(Impulses, AnElasticBlowHeadOnIsANumberHoweverItIsRounded)  // [A33]
+{
+    for (int i = 1; i <= 20000; ++i) {
+        const Mat3 k = (1.0 + 1.0 / i) * Mat3::Identity();
+        const Vec3 u(0.0, -0.01 * i / 7.0, 0.0);
+        const Vec3 j = contactImpulse(k, u, Vec3::UnitY(), 1.0, 0.5).impulse;
+        ASSERT_LE((u + k * j + u).norm(), 1e-12 * u.norm()) << i;
+    }
+}
+
 TEST(Impulses, AJammedRodIsNeitherPulledNorGivenEnergy)  // [A32, A33]
 {
     // A rod at 60° pushed into a floor of friction 3: the sliding formula would divide by less than
