@@ -8,6 +8,7 @@
 #include "core/collision/near_features.h"
 #include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/forces.h"
+#include "core/dynamics/impulse.h"
 
 namespace scree {
 namespace {
@@ -15,8 +16,16 @@ namespace {
 /// A body that stays within this share of its size of one place is still: an eighth of a millimetre
 /// on a ring of 2.5 m. A domino at the point of falling passes it within a few frames.
 constexpr double kStill = 1e-4;
+
+/// For so long, in √(size / acceleration), half a second for that ring, and for so many frames: a
+/// tower that is leaning has to show it, also where a second has a thousand frames.
+constexpr double kStillTime = 1.4;
 constexpr std::int32_t kStillFrames = 12;
-constexpr std::int32_t kCheckFrames = 4;  // of one that has been woken and did not move
+constexpr std::int32_t kCheckShare = 3;  // of that for one that has been woken and did not move
+
+/// What goes farther than this share of its size in a frame does not lie where it is seen at the
+/// end of each: it may have turned once around.
+constexpr double kFarInAFrame = 0.5;
 
 /// What has stayed within this share of its size of one place for kSettleWait loses its motion by
 /// and by, 1/e of it in kSettleTime; both times in √(size / acceleration), a third of a second for
@@ -33,10 +42,26 @@ constexpr double kBalanced = 0.02, kUnbalanced = 0.1;
 /// ring, is no blow: it learns of it by its load, after the step.
 constexpr double kGentle = 0.01;
 
-void wake(BodyRest& rest)
+/// Of the time scale on which a body gives way to an acceleration [s]; infinite without any.
+double unitOfTime(const World& world, BodyId body, double acceleration)
 {
+    return std::sqrt(world.shapeOf(body).boundingRadius / acceleration);
+}
+
+/// How long a body must lie still, in frames.
+double framesToSleep(const World& world, BodyId body, double acceleration)
+{
+    const double time = kStillTime * unitOfTime(world, body, acceleration);
+    return std::max(std::ceil(time / world.frameDuration), double{kStillFrames});
+}
+
+void wake(World& world, BodyId body)
+{
+    BodyRest& rest = world.contactMemory.rest[body];
+    const double pull = rest.pull.norm();
+    const double frames = pull > 0.0 ? framesToSleep(world, body, pull) : double{kStillFrames};
     rest.isAsleep = false;
-    rest.still.frames = kStillFrames - kCheckFrames;
+    rest.still.frames = static_cast<std::int32_t>(frames - std::floor(frames / kCheckShare));
 }
 
 /// Upper bound of how far a point of the body has come from where it was.
@@ -47,10 +72,21 @@ double travelled(const World& world, BodyId body, const Stay& since)
     return (motion.position - since.position).norm() + turned * world.shapeOf(body).boundingRadius;
 }
 
+bool goesFarInAFrame(const World& world, BodyId body)
+{
+    const BodyMotion& motion = world.motion[body];
+    const PassInertia inertia = passInertia(world.mass[body], motion.orientation);
+    const double radius = world.shapeOf(body).boundingRadius;
+    const Vec3 spin = inertia.inverseInertia * motion.angularMomentum;
+    const double speed = motion.velocity.norm() + spin.norm() * radius;
+    return speed * world.frameDuration > kFarInAFrame * radius;
+}
+
 /// One more frame within `share` of its size of the place, or a new place.
 void goOn(const World& world, BodyId body, double share, Stay& stay)
 {
-    if (travelled(world, body, stay) <= share * world.shapeOf(body).boundingRadius) {
+    const double allowed = share * world.shapeOf(body).boundingRadius;
+    if (travelled(world, body, stay) <= allowed && !goesFarInAFrame(world, body)) {
         ++stay.frames;
     } else {
         stay = {world.motion[body].position, world.motion[body].orientation, 0};
@@ -62,7 +98,7 @@ void goOn(const World& world, BodyId body, double share, Stay& stay)
 void settle(World& world, BodyId body, double acceleration, const Stay& nearby)
 {
     if (acceleration == 0.0) return;
-    const double unit = std::sqrt(world.shapeOf(body).boundingRadius / acceleration);
+    const double unit = unitOfTime(world, body, acceleration);
     if (nearby.frames * world.frameDuration < kSettleWait * unit) return;
     const double kept = 1.0 / (1.0 + world.frameDuration / (kSettleTime * unit));
     world.motion[body].velocity *= kept;
@@ -98,8 +134,8 @@ void wakeAround(World& world, const std::vector<BodyId>& roots)
         }
     }
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        BodyRest& rest = world.contactMemory.rest[i];
-        if (rest.isAsleep && wakes[sets.find(i)]) wake(rest);
+        const auto body = static_cast<BodyId>(i);
+        if (memory.isAsleep(body) && wakes[sets.find(i)]) wake(world, body);
     }
 }
 
@@ -244,6 +280,19 @@ bool isBalanced(const World& world, BodyId body, const ContactLoad& load, const 
     return rest.force <= allowed && rest.torque <= allowed * world.shapeOf(body).boundingRadius;
 }
 
+/// Whether a body that has not been seen to move for so many frames, and on which nothing but what
+/// balances acts, lies. What flies where nothing pulls does not.
+bool liesStill(const World& world, BodyId body, double frames, const ContactLoad& load,
+               const AppliedForce& other)
+{
+    const BodyMotion& motion = world.motion[body];
+    if (motion.velocity.isZero(0.0) && motion.angularMomentum.isZero(0.0))
+        return frames >= kStillFrames;
+    const double held = load.total * world.mass[body].inverseMass;
+    const double acceleration = std::max(other.acceleration.norm(), held);
+    return acceleration > 0.0 && frames >= framesToSleep(world, body, acceleration);
+}
+
 /// Whether the impulse of a row on a body holds it up against what pulls it; in a world without
 /// pull everything that touches does.
 bool isHeldUpBy(const GapRow& row, const Vec3& impulse, const Vec3& pull)
@@ -335,7 +384,7 @@ void fallAsleep(World& world, const GapScratch& scratch)
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (!world.isStepped(body)) continue;
-        maySleep[i] = rest[i].still.frames >= kStillFrames &&
+        maySleep[i] = liesStill(world, body, rest[i].still.frames, loads[i], scratch.forces[i]) &&
                       isBalanced(world, body, loads[i], scratch.forces[i], kBalanced);
         if (isCarried[i] && !isDrivenSet[sets.find(i)])
             settle(world, body, scratch.forces[i].acceleration.norm(), rest[i].nearby);
@@ -381,7 +430,7 @@ void wakeUnbalanced(World& world, const std::vector<AppliedForce>& forces)
         const auto body = static_cast<BodyId>(i);
         if (!rest[i].isAsleep || awaitsTouch(world, body, loads[i])) continue;
         if (isBalanced(world, body, loads[i], forces[i], kUnbalanced)) continue;
-        wake(rest[i]);
+        wake(world, body);
     }
 }
 
@@ -401,10 +450,16 @@ bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
 {
     if (!anyAsleep(world)) return false;
     std::vector<char> bears(world.bodyCount(), 0);
+    std::vector<BodyId> roots;
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         if (!contact.force.isZero(0.0)) bears[contact.a] = bears[contact.b] = 1;
+        const auto [a, b] = bodiesOf(contact);
+        // What a script takes away from under a sleeper comes no closer to it.
+        for (const auto& [sleeper, other] : {std::pair{a, b}, std::pair{b, a}}) {
+            if (world.contactMemory.isAsleep(sleeper) && isDriven(scratch.bodies[other]))
+                roots.push_back(sleeper);
+        }
     }
-    std::vector<BodyId> roots;
     for (const std::size_t i : scratch.toAsk) {
         const NearPair& pair = scratch.nearPairs[i];
         const auto [a, b] = pair.bodies;

@@ -247,5 +247,28 @@ TEST(GapBirths, NothingMeetsABodyBeforeItsBirth)
     EXPECT_NEAR(world.motion[falling].position.y(), 0.5, 1e-6);
 }
 
+TEST(GapKeyed, SleepersFollowASupportThatSinksOrSetsOff)  // [A54]
+{
+    for (const Vec3& way : {Vec3(0.0, -1.0, 0.0), Vec3(1.0, 0.0, 0.0)}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.0);
+        const Pose start{{0.0, 1.9, 0.0}, Quat::Identity()};
+        addKeyed(world, {2.0, 0.2, 2.0}, material,
+                 {{0.0, start}, {2.0, start}, {4.0, {start.position + way, start.orientation}}});
+        BodyId top = 0;
+        for (const double height : {2.25, 2.75})
+            top = addBody(world, boxShape(Vec3::Constant(0.5), 1), material,
+                          {{0.0, height, 0.0}, Quat::Identity()});
+        const World before = world;
+        runFrames(world, screeSettings(), 2.0);
+        ASSERT_TRUE(world.contactMemory.isAsleep(top));
+        Stepper stepper(screeSettings());
+        for (int f = 0; f < 144; ++f) stepper.advanceFrame(world, kDt);
+        const Vec3 moved = world.motion[top].position - before.motion[top].position;
+        EXPECT_LE((moved - way).norm(), 0.01) << way.transpose();
+        EXPECT_TRUE(world.contactMemory.isAsleep(top));
+    }
+}
+
 }  // namespace
 }  // namespace scree::test

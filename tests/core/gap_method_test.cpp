@@ -437,5 +437,36 @@ TEST(GapMethod, SleepersThatLoseWhatHoldsThemFall)
     EXPECT_NEAR(world.motion[3].position.y(), 1.5, 1e-2);
 }
 
+TEST(GapMethod, SlowMotionPutsNothingToSleepThatIsAboutToMove)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.57, 0.0);  // holds up to 29.7 degrees
+    const Quat tilt = fromEulerXyz({0.0, 0.0, -30.0 * kPi / 180.0});
+    addPlane(world, material, Vec3::Zero(), tilt * Vec3::UnitY());
+    addBody(world, boxShape(Vec3::Constant(0.5), 1), material, {tilt * Vec3(0.0, 0.25, 0.0), tilt});
+    const World before = world;
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 1000; ++f) stepper.advanceFrame(world, 1e-3);
+    const double pull = 9.8 * (std::sin(kPi / 6.0) - 0.57 * std::cos(kPi / 6.0));
+    EXPECT_NEAR(largestShift(before, world), 0.5 * pull, 0.02 * pull);
+}
+
+TEST(GapMethod, WhatFliesNeverSleepsHoweverSlowlyOrSteadily)
+{
+    StepSettings settings = screeSettings();
+    settings.gravity.setZero();
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const Vec3 oneTurnAFrame(0.0, 2.0 * kPi / kFrame, 0.0);
+    addBody(world, boxShape({1.0, 0.1, 0.1}, 1), material, {Vec3::Zero(), Quat::Identity()}, 1.0,
+            Vec3::Zero(), oneTurnAFrame);
+    addBody(world, boxShape(Vec3::Constant(100.0), 1), material,
+            {Vec3(200.0, 0.0, 0.0), Quat::Identity()}, 1.0, {0.015, 0.0, 0.0});
+    Stepper stepper(settings);
+    for (int f = 0; f < 48; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_LE((angularVelocityOf(world, 0) - oneTurnAFrame).norm(), 1e-6);
+    EXPECT_NEAR(world.motion[1].position.x(), 200.03, 1e-9);
+}
+
 }  // namespace
 }  // namespace scree::test
