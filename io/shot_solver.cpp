@@ -34,9 +34,10 @@ void readPhases(const ShotNode& table, StepSettings& settings)
     settings.pushOut = table.find("push_out")->boolean;
     settings.pushOutLevelIterations = whole("push_out_level_iterations");
     settings.pushOutPairImpulses = whole("push_out_pair_impulses");
-    settings.orientation = table.find("orientation")->text == "euler"
-                               ? OrientationUpdate::euler
-                               : OrientationUpdate::secondOrder;
+    const std::string& orientation = table.find("orientation")->text;
+    settings.orientation = orientation == "euler"          ? OrientationUpdate::euler
+                           : orientation == "second_order" ? OrientationUpdate::secondOrder
+                                                           : OrientationUpdate::symplectic;
     settings.collision = table.find("collision")->text == "lagged" ? CollisionVariant::lagged
                                                                    : CollisionVariant::reevolve;
     const ShotNode& combine = *table.find("combine");

@@ -13,6 +13,7 @@ namespace scree {
 enum class OrientationUpdate {
     euler,        ///< the paper's: gains energy when tumbling
     secondOrder,  ///< one more 3-vector solve, error of third order per step
+    symplectic,   ///< energy does not drift, and symmetric bodies turn exactly
 };
 
 /// How a colliding pair is worked on.  [A24, A25]
@@ -50,7 +51,7 @@ struct StepSettings {
     bool shockPropagation = true;    ///< without it tall stacks sink and fall
     bool pushOut = true;             ///< first-order removal of overlap that is left
     int pushOutLevelIterations = 4;  ///< gradual: fraction l/n of the depth in iteration l [-]
-    OrientationUpdate orientation = OrientationUpdate::secondOrder;
+    OrientationUpdate orientation = OrientationUpdate::symplectic;
     CombineRule frictionRule = CombineRule::maximum;     ///< of a pair, from its materials  [A27]
     CombineRule restitutionRule = CombineRule::minimum;  ///< likewise
     bool freezeUnsupported = false;  ///< shock also freezes what rests on nothing fixed: the

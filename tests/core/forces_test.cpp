@@ -226,5 +226,27 @@ TEST(CombineRules, DecideWhetherASlipperyBodySlidesOnARoughSlope)  // [A27]
     EXPECT_NEAR(speedOnSlope(CombineRule::minimum, 0.7), 0.0, 1e-9);
 }
 
+TEST(Forces, WhatSwingsThroughAPointOfAttractionSwingsNoFarther)  // [A56]
+{
+    for (const Method method : {Method::paper, Method::scree}) {
+        StepSettings settings = weightless();
+        settings.method = method;
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.0);
+        ForceField field;
+        field.strength = -10.0;
+        world.fields.push_back(field);
+        const BodyId body = addBody(world, exactSphere(0.1), material,
+                                    {{2.0, 0.0, 0.0}, Quat::Identity()}, 1.0, {0.0, 0.0, 3.0});
+        Stepper stepper(settings);
+        double farthest = 0.0;
+        for (int f = 0; f < 480; ++f) {
+            stepper.advanceFrame(world, 1.0 / 24.0);
+            farthest = std::max(farthest, world.motion[body].position.norm());
+        }
+        EXPECT_NEAR(farthest, 2.0, 0.08) << (method == Method::paper ? "paper" : "scree");
+    }
+}
+
 }  // namespace
 }  // namespace scree::test

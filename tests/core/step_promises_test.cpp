@@ -43,8 +43,8 @@ World makeColumns()
 
 TEST(Prediction, IsWhereTheStepThenTakesTheBodyToTheLastBit)  // [A20]
 {
-    for (const OrientationUpdate update :
-         {OrientationUpdate::euler, OrientationUpdate::secondOrder}) {
+    for (const OrientationUpdate update : {OrientationUpdate::euler, OrientationUpdate::secondOrder,
+                                           OrientationUpdate::symplectic}) {
         StepSettings settings = experimentSettings();
         settings.orientation = update;
         World world;

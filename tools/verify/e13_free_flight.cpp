@@ -155,6 +155,14 @@ void runTumbling(const Context&, Findings& findings)
                   0.02 * 13.5298, "s");
     findings.near(must, "time of the fourth flip, 960 Hz", fourthFlip(fine), 13.5298,
                   0.001 * 13.5298, "s");
+    const Tumble byDefault = tumble(24.0, settingsOf().orientation);
+    findings.atMost(must, "energy changes by default, at one step a frame",
+                    std::abs(byDefault.energyChange), 1e-3, "relative");
+    findings.near(must, "time of the fourth flip by default, at one step a frame",
+                  fourthFlip(byDefault), 13.5298, 0.002 * 13.5298, "s");
+    const Tumble secondOrder = tumble(24.0, OrientationUpdate::secondOrder);
+    findings.atLeast(control, "second order at one step a frame: energy gained",
+                     secondOrder.energyChange, 0.01, "relative");
     Tumble euler = tumble(240.0, OrientationUpdate::euler);
     findings.atLeast(control, "forward Euler, the paper's: energy gained", euler.energyChange, 1.0,
                      "relative");
