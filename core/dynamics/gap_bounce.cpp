@@ -120,9 +120,10 @@ std::vector<std::size_t> inOrderOfTime(ImpactState& state)
 
 }  // namespace
 
-void resolveImpacts(const StepSettings& settings, double dt, GapBlock& block, GapScratch& scratch)
+void resolveImpacts(const StepSettings& settings, double dt, const std::vector<Held>& held,
+                    GapBlock& block, GapScratch& scratch)
 {
-    ImpactState state(settings, dt, block, scratch);
+    ImpactState state(settings, dt, held, block, scratch);
     const std::vector<std::size_t> hit = inOrderOfTime(state);
     if (hit.empty()) return;
     state.findPairsOfBodies();

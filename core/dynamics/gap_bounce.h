@@ -2,13 +2,17 @@
 // [GBF03 “Collisions”], [A22–A26; algorithm 14.1]
 #pragma once
 
+#include <vector>
+
+#include "core/dynamics/gap_held.h"
 #include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 
 /// Gives every impact that the step brings to a block its impulse. Velocities are those before
 /// gravity, and stay so. Bodies get shifts that let them move with the old velocity up to the
-/// impact.
-void resolveImpacts(const StepSettings& settings, double dt, GapBlock& block, GapScratch& scratch);
+/// impact. `held`: as heldAsBefore tells.
+void resolveImpacts(const StepSettings& settings, double dt, const std::vector<Held>& held,
+                    GapBlock& block, GapScratch& scratch);
 
 }  // namespace scree

@@ -59,14 +59,14 @@ PairsOfBodies::PairsOfBodies(const GapBlock& block, const GapScratch& scratch)
     forBodies([&](std::int32_t place, std::size_t i) { pairs_[next[place]++] = i; });
 }
 
-ImpactState::ImpactState(const StepSettings& chosen, double step, const GapBlock& islands,
-                         GapScratch& rows)
+ImpactState::ImpactState(const StepSettings& chosen, double step, const std::vector<Held>& carried,
+                         const GapBlock& islands, GapScratch& rows)
     : settings(chosen),
       dt(step),
       slowest(slowestApproach(chosen, step)),
       block(islands),
       scratch(rows),
-      held(heldAsBefore(step, islands, rows)),
+      held(carried),
       impacts(islands.bodies.size() + 1),
       doneAt(islands.pairs.size(), 0),
       gatheredAt(islands.pairs.size(), 0)

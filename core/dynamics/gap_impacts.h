@@ -52,7 +52,8 @@ private:
 /// What is known of the impacts of a block, by the places of bodies and pairs in it. Visits of
 /// pairs that share no movable body read and write different parts of it.
 struct ImpactState {
-    ImpactState(const StepSettings& chosen, double step, const GapBlock& islands, GapScratch& rows);
+    ImpactState(const StepSettings& chosen, double step, const std::vector<Held>& carried,
+                const GapBlock& islands, GapScratch& rows);
 
     std::int32_t placeOf(BodyId body) const { return scratch.placeInBlock[body]; }
     void findPairsOfBodies() { pairsOf_.emplace(block, scratch); }
@@ -62,7 +63,7 @@ struct ImpactState {
     double dt, slowest;
     const GapBlock& block;
     GapScratch& scratch;
-    std::vector<Held> held;
+    const std::vector<Held>& held;
     std::vector<ImpactChange> impacts;
     // Of each pair, by the clock of its island: the last visit that ended with nothing left to be
     // hit, 0: none; and the last look at it.

@@ -19,6 +19,7 @@
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
 #include "core/dynamics/gap_pairs.h"
+#include "core/dynamics/gap_passing.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_search.h"
 #include "core/dynamics/gap_unseen.h"
@@ -291,7 +292,9 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
     // never mistaken for what has just landed.
     {
         const PhaseTimer timer(seconds, Phase::collision);
-        resolveImpacts(settings_, dt, block, scratch);
+        const std::vector<Held> held = heldAsBefore(dt, block, scratch);
+        letPass(world, dt, held, block, scratch);
+        resolveImpacts(settings_, dt, held, block, scratch);
         findLevels(dt, block, scratch);
     }
     {

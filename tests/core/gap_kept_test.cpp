@@ -70,7 +70,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
     addForcesToOthers(kStep, scratch);
     for (GapBlock& block : scratch.blocks) {
         buildRows(world, settings, kStep, block, scratch);
-        resolveImpacts(settings, kStep, block, scratch);
+        resolveImpacts(settings, kStep, heldAsBefore(kStep, block, scratch), block, scratch);
         findLevels(kStep, block, scratch);
         addForcesToGaps(kStep, block, scratch);
         resolveGaps(settings, kStep, block, scratch);

@@ -1,0 +1,23 @@
+// What only passes: rows that foresee a blow which does not come.
+//
+// A row knows its gap along the normal that it has when the step begins. What goes by may close
+// that gap and never touch: an edge of a cube flies a hand above that of a table, and the row
+// between the two, almost level while they are far, foresees a head-on blow. So does a corner that
+// slides over the seam between two flush blocks, for which the wall of the second is ahead. Before
+// anything is answered, bodies that are about to hit each other are looked at where they would be
+// a little later, on their ways as they are: what hits has gone in by then.
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/gap_held.h"
+#include "core/dynamics/gap_scratch.h"
+
+namespace scree {
+
+/// Widens the gaps of those rows of a block that their bodies would only pass, as far as these go
+/// within the step, held up as `held` says. Before impacts.
+void letPass(const World& world, double dt, const std::vector<Held>& held, const GapBlock& block,
+             GapScratch& scratch);
+
+}  // namespace scree

@@ -1,0 +1,156 @@
+// Method `scree`: what goes by is not hit, and what hits is not let through.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kFrame = 1.0 / 24.0;
+
+BodyId addSlab(World& world, MaterialId material, const Vec3& size, const Vec3& centre)
+{
+    BodyDefinition definition;
+    definition.name = "slab_" + std::to_string(world.bodyCount());
+    definition.shape = world.addShape(boxShape(size, 1));
+    definition.material = material;
+    definition.kind = BodyKind::fixed;
+    definition.worldFromAsset.position = centre;
+    return world.addBody(definition);
+}
+
+StepSettings settingsWith(double gravity)
+{
+    StepSettings settings = screeSettings();
+    settings.gravity = {0.0, -gravity, 0.0};
+    return settings;
+}
+
+void run(World& world, double gravity, double seconds, double frame = kFrame)
+{
+    Stepper stepper(settingsWith(gravity));
+    for (int f = 0; f < std::lround(seconds / frame); ++f) stepper.advanceFrame(world, frame);
+}
+
+/// What flies at 5 m/s to +x over the edge of a block, whose top is at y = 0, with room to spare.
+World overAnEdge(std::shared_ptr<const Shape> shape, double lowest, double clearance)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 0.0);
+    addSlab(world, material, {4.0, 1.0, 2.0}, {3.03, -0.5, 0.0});
+    addBody(world, std::move(shape), material, {{-1.0, clearance - lowest, 0.0}, Quat::Identity()},
+            1.0, {5.0, 0.0, 0.0});
+    return world;
+}
+
+TEST(GapPassing, WhatFliesOverAnEdgeDoesNotFeelIt)
+{
+    for (const double clearance : {0.001, 0.005, 0.02, 0.05}) {
+        for (const bool isBall : {false, true}) {
+            World world = overAnEdge(isBall ? exactSphere(0.25) : boxShape(Vec3::Constant(0.5), 1),
+                                     -0.25, clearance);
+            run(world, 0.0, 1.0);
+            EXPECT_LE((world.motion[1].velocity - Vec3(5.0, 0.0, 0.0)).norm(), 1e-3)
+                << clearance << (isBall ? " ball" : " cube");
+            EXPECT_LE(angularVelocityOf(world, 1).norm(), 1e-3) << clearance;
+        }
+    }
+}
+
+TEST(GapPassing, WhatStandsInTheWayOfItIsHit)
+{
+    for (const double clearance : {-0.02, -0.1, -0.3}) {
+        World world = overAnEdge(boxShape(Vec3::Constant(0.5), 1), -0.25, clearance);
+        run(world, 0.0, 1.0);
+        EXPECT_LE(world.motion[1].velocity.x(), 4.0) << clearance;
+    }
+}
+
+TEST(GapPassing, TwoThatFlyPastEachOtherDoNotMeet)
+{
+    for (const bool isBall : {false, true}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.5);
+        const auto shape = isBall ? exactSphere(0.2) : boxShape(Vec3::Constant(0.4), 1);
+        addBody(world, shape, material, {{-2.0, 0.42, 0.0}, Quat::Identity()}, 1.0,
+                {5.0, 0.0, 0.0});
+        addBody(world, shape, material, {{0.013, 0.0, 0.0}, Quat::Identity()});
+        run(world, 0.0, 1.0);
+        EXPECT_LE((world.motion[0].velocity - Vec3(5.0, 0.0, 0.0)).norm(), 1e-3) << isBall;
+        EXPECT_LE(world.motion[1].velocity.norm(), 1e-3) << isBall;
+    }
+}
+
+/// What slides without friction over four blocks, each `lower` than the one before, at a speed.
+World overSeams(std::shared_ptr<const Shape> shape, const Quat& orientation, double lower,
+                double speed)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 0.0);
+    for (int i = 0; i < 4; ++i)
+        addSlab(world, material, {4.0, 1.0, 4.0}, {4.0 * i, -0.5 - lower * i, 0.0});
+    addBody(world, std::move(shape), material, {{0.0, 0.25, 0.0}, orientation}, 1.0,
+            {speed, 0.0, 0.0});
+    return world;
+}
+
+TEST(GapPassing, SeamsBetweenFlushBlocksStopNothing)
+{
+    const Quat yawed = fromEulerXyz({0.0, 10.0 * kPi / 180.0, 0.0});
+    for (const double frame : {kFrame, 1.0 / 240.0}) {
+        for (const double lower : {0.0, 0.001}) {
+            for (const Quat& orientation : {Quat(Quat::Identity()), yawed}) {
+                World world = overSeams(boxShape(Vec3::Constant(0.5), 1), orientation, lower, 5.0);
+                double highest = 0.0;
+                Stepper stepper(settingsWith(9.81));
+                for (int f = 0; f < std::lround(2.0 / frame); ++f) {
+                    stepper.advanceFrame(world, frame);
+                    highest = std::max(highest, world.motion[4].position.y());
+                }
+                EXPECT_NEAR(world.motion[4].velocity.x(), 5.0, 0.05)
+                    << 1.0 / frame << " " << lower << " " << orientation.y();
+                EXPECT_LE(highest, 0.252) << 1.0 / frame << " " << lower << " " << orientation.y();
+            }
+        }
+    }
+}
+
+TEST(GapPassing, ABallRollsOverASeamWithoutAHop)
+{
+    World world = overSeams(exactSphere(0.25), Quat::Identity(), 0.0, 5.0);
+    double highest = 0.0;
+    Stepper stepper(settingsWith(9.81));
+    for (int f = 0; f < 48; ++f) {
+        stepper.advanceFrame(world, kFrame);
+        highest = std::max(highest, world.motion[4].position.y());
+    }
+    EXPECT_NEAR(world.motion[4].velocity.x(), 5.0, 0.01);
+    EXPECT_LE(highest, 0.251);
+}
+
+TEST(GapPassing, AStepAtASeamIsHit)
+{
+    World world = overSeams(boxShape(Vec3::Constant(0.5), 1), Quat::Identity(), -0.05, 5.0);
+    run(world, 9.81, 1.0);
+    EXPECT_LE(world.motion[4].velocity.x(), 4.0);
+}
+
+TEST(GapPassing, NothingIsShotThroughAThinWall)
+{
+    for (const double speed : {20.0, 60.0, 200.0}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.3, 0.2);
+        addSlab(world, material, {0.05, 2.0, 2.0}, Vec3::Zero());
+        addBody(world, boxShape(Vec3::Constant(0.5), 1), material,
+                {{-2.0, 0.03, 0.02}, fromEulerXyz({0.3, 0.5, 0.7})}, 1.0, {speed, 0.0, 0.0});
+        run(world, 0.0, 0.5);
+        EXPECT_LT(world.motion[1].position.x(), 0.0) << speed;
+    }
+}
+
+}  // namespace
+}  // namespace scree::test
