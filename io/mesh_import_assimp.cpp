@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostKeys = 10'000'000;  // of all nodes
 constexpr float kScaleMoves = 1e-3f;           // relative; of sampled rotations times scale
+constexpr float kRounding = 1e-5f;             // relative; of products of single precision
 
 /// Opens files for reading, in the asset's folder and below; remembers what it refused.
 class FolderSystem final : public Assimp::DefaultIOSystem {
@@ -46,7 +47,7 @@ private:
     bool isInside(const char* file) const
     {
         std::error_code code;
-        const fs::path path = fs::weakly_canonical(file, code);
+        const fs::path path = fs::weakly_canonical(fs::absolute(file), code);
         const fs::path relative = path.lexically_relative(folder_);
         const bool isIn = !code && !relative.empty() && *relative.begin() != "..";
         if (!isIn) refused_ = file;
@@ -71,6 +72,59 @@ void keepLoadersOf(const std::string& ending, Assimp::Importer& importer)
     for (Assimp::BaseImporter* other : others) importer.UnregisterLoader(other);
 }
 
+Pose poseOf(const aiQuaternion& q, const aiVector3D& p)
+{
+    return {Vec3(p.x, p.y, p.z), Quat(q.w, q.x, q.y, q.z)};
+}
+
+/// A transform in parts. Of one that shears the rotation is near it, and the rest is no scale.
+struct Parts {
+    aiVector3D scale, position;
+    aiQuaternion rotation;
+
+    explicit Parts(const aiMatrix4x4& transform)
+    {
+        transform.Decompose(scale, rotation, position);
+        rotation.Normalize();  // of what shears it is no unit
+    }
+    Pose pose() const { return poseOf(rotation, position); }
+};
+
+/// What is left of transforms without their rigid parts. Nodes that show one mesh in many places
+/// have scales that differ by rounding: with these baked in each would have a shape of its own, so
+/// that what differs by no more has the scale that came first.
+class Stretches {
+public:
+    aiMatrix4x4 of(const aiMatrix4x4& transform, const Parts& parts)
+    {
+        const aiMatrix4x4 rigid(aiVector3D(1.0f), parts.rotation, parts.position);
+        const aiMatrix4x4 rest = aiMatrix4x4(rigid).Inverse() * transform;
+        const aiVector3D scale(rest.a1, rest.b2, rest.c3);
+        const float reach =
+            aiVector3D(transform.a4, transform.b4, transform.c4).Length() + scale.Length();
+        for (unsigned i = 0; i < 3; ++i) {
+            for (unsigned k = 0; k < 3; ++k) {
+                if (i != k && std::abs(rest[i][k]) > kRounding * scale.Length()) return rest;
+            }
+            if (std::abs(rest[i][3]) > kRounding * reach) return rest;
+        }
+        aiMatrix4x4 stretch;
+        return aiMatrix4x4::Scaling(first(scale), stretch);
+    }
+
+private:
+    aiVector3D first(const aiVector3D& scale)
+    {
+        for (const aiVector3D& known : known_) {
+            if ((known - scale).Length() <= kRounding * known.Length()) return known;
+        }
+        known_.push_back(scale);
+        return scale;
+    }
+
+    std::vector<aiVector3D> known_{aiVector3D(1.0f)};
+};
+
 /// The node's transform as an animation has it, in double precision between its keys.
 class Channel {
 public:
@@ -92,9 +146,7 @@ public:
     /// What has no keys stays as the node has it.
     aiMatrix4x4 at(double seconds, const aiMatrix4x4& still) const
     {
-        aiVector3D scale, position;
-        aiQuaternion rotation;
-        still.Decompose(scale, rotation, position);
+        auto [scale, position, rotation] = Parts(still);
         const double ticks = seconds * ticksPerSecond_;
         const auto mix = [](const aiVector3D& a, const aiVector3D& b, float share) {
             return a + share * (b - a);
@@ -130,11 +182,6 @@ private:
     double ticksPerSecond_;
 };
 
-Pose poseOf(const aiQuaternion& q, const aiVector3D& p)
-{
-    return {Vec3(p.x, p.y, p.z), Quat(q.w, q.x, q.y, q.z)};
-}
-
 /// What a node shows, in the node's axes with its scale baked.
 class NodeReader {
 public:
@@ -149,6 +196,7 @@ public:
                 channels_.try_emplace(keys.mNodeName.C_Str(), keys, rate);
             }
         }
+        countNames(*scene.mRootNode, 0);
         for (unsigned c = 0; c < scene.mNumCameras; ++c) {
             cameraOfNode_.try_emplace(scene.mCameras[c]->mName.C_Str(), scene.mCameras[c]);
         }
@@ -172,25 +220,39 @@ public:
     std::vector<ImportedCamera> takeCameras() { return std::move(cameras_); }
 
 private:
+    /// Assimp tells nodes apart by their names alone.
+    void countNames(const aiNode& node, std::uint32_t depth)
+    {
+        if (depth > mostDepth_) return;  // visit() says so
+        ++namesakes_[node.mName.C_Str()];
+        for (unsigned i = 0; i < node.mNumChildren; ++i) countNames(*node.mChildren[i], depth + 1);
+    }
+
+    const Channel* channelOf(const aiNode& node) const
+    {
+        const std::string name = node.mName.C_Str();
+        const auto channel = channels_.find(name);
+        if (channel == channels_.end()) return nullptr;
+        if (namesakes_.at(name) > 1)
+            throw Error(ErrorKind::badInput, "several nodes are called '" + name +
+                                                 "', and which of them its animation moves "
+                                                 "cannot be told: name them apart");
+        return &channel->second;
+    }
+
     void read(const aiNode& node)
     {
         // Split the transform into what is rigid and the rest, which goes into the mesh.
         aiMatrix4x4 fileFromNode;
         for (const aiNode* link : chain_) fileFromNode = fileFromNode * link->mTransformation;
-        aiVector3D scale, position;
-        aiQuaternion rotation;
-        fileFromNode.Decompose(scale, rotation, position);
-        const aiMatrix4x4 rigid(aiVector3D(1.0f), rotation, position);
-        const bool isRigid = scale == aiVector3D(1.0f);
-        const aiMatrix4x4 nodeFromMesh =
-            isRigid ? aiMatrix4x4() : aiMatrix4x4(rigid).Inverse() * fileFromNode;
+        const Parts parts(fileFromNode);
 
         ImportedNode result;
-        result.mesh = meshOf(node, nodeFromMesh);
+        result.mesh = meshOf(node, stretches_.of(fileFromNode, parts));
         if (result.mesh.triangles.cols() == 0) return;
         result.name = node.mName.C_Str();
-        result.fileFromNode = poseOf(rotation, position);
-        readKeys(scale, result);
+        result.fileFromNode = parts.pose();
+        readKeys(parts.scale, result);
         nodes_.push_back(std::move(result));
     }
 
@@ -201,10 +263,7 @@ private:
         result.fovDegrees = verticalDegrees(camera);
         const Pose nodeFromCamera = poseInNode(camera);
         const auto fileFromCamera = [&](const aiMatrix4x4& fileFromNode) {
-            aiVector3D scale, position;
-            aiQuaternion rotation;
-            fileFromNode.Decompose(scale, rotation, position);
-            return poseOf(rotation, position) * nodeFromCamera;
+            return Parts(fileFromNode).pose() * nodeFromCamera;
         };
         aiMatrix4x4 fileFromNode;
         for (const aiNode* link : chain_) fileFromNode = fileFromNode * link->mTransformation;
@@ -246,8 +305,7 @@ private:
     {
         std::set<double> seconds;
         for (const aiNode* link : chain_) {
-            const auto channel = channels_.find(link->mName.C_Str());
-            if (channel != channels_.end()) channel->second.addTimes(seconds);
+            if (const Channel* channel = channelOf(*link)) channel->addTimes(seconds);
         }
         keyCount_ += seconds.size();
         if (keyCount_ > kMostKeys) throw Error(ErrorKind::badInput, "it has too many keys");
@@ -257,15 +315,13 @@ private:
     void readKeys(const aiVector3D& scale, ImportedNode& result)
     {
         for (const double time : keyTimes()) {
-            aiVector3D scaleNow, position;
-            aiQuaternion rotation;
-            chainAt(time).Decompose(scaleNow, rotation, position);
-            if (!((scaleNow - scale).Length() <= kScaleMoves * scale.Length())) {
+            const Parts now(chainAt(time));
+            if (!((now.scale - scale).Length() <= kScaleMoves * scale.Length())) {
                 result.keys.clear();
                 result.obstacle = "its scale changes over time";
                 return;
             }
-            result.keys.push_back({time, poseOf(rotation, position)});
+            result.keys.push_back({time, now.pose()});
         }
     }
 
@@ -273,10 +329,9 @@ private:
     {
         aiMatrix4x4 result;
         for (const aiNode* link : chain_) {
-            const auto channel = channels_.find(link->mName.C_Str());
-            result = result * (channel == channels_.end()
-                                   ? link->mTransformation
-                                   : channel->second.at(seconds, link->mTransformation));
+            const Channel* channel = channelOf(*link);
+            result = result * (channel ? channel->at(seconds, link->mTransformation)
+                                       : link->mTransformation);
         }
         return result;
     }
@@ -332,7 +387,9 @@ private:
     std::uint32_t mostDepth_;
     bool isGltf_;
     std::map<std::string, Channel> channels_;  // by the name of their node
-    std::vector<const aiNode*> chain_;         // from the root to the node that is visited
+    Stretches stretches_;
+    std::map<std::string, int> namesakes_;  // how many nodes have a name
+    std::vector<const aiNode*> chain_;      // from the root to the node that is visited
     std::map<std::string, const aiCamera*> cameraOfNode_;
     std::vector<ImportedNode> nodes_;
     std::vector<ImportedCamera> cameras_;
@@ -351,6 +408,16 @@ bool animatesLens(const std::string& path)
         if (bytes.find(name + "\0\1AnimCurveNode"s) != std::string::npos) return true;
     }
     return bytes.find("/perspective/yfov") != std::string::npos;
+}
+
+/// Whether a PLY file has all of its header: assimp goes on looking for the rest for a minute.
+bool endsItsHeader(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::string line;
+    while (std::getline(file, line) && !line.starts_with("end_header")) {
+    }
+    return file.good() || line.starts_with("end_header");
 }
 
 /// Whether the texture coordinates of a PLY file belong to faces. assimp gives points that faces
@@ -385,6 +452,8 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
 {
     Assimp::Importer importer;
     keepLoadersOf(ending, importer);
+    if (ending == "ply" && !endsItsHeader(path))
+        throw Error(ErrorKind::badInput, "its header has no end: the file is cut short");
     auto* files = new FolderSystem(fs::weakly_canonical(fs::absolute(path)).parent_path());
     importer.SetIOHandler(files);  // which deletes it
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);

@@ -36,7 +36,7 @@ TakeReader::TakeReader(const std::filesystem::path& folder) : paths_{folder}
     frames_ = listFrames(paths_);
 }
 
-SceneDescription TakeReader::describe() const
+SceneDescription TakeReader::describe(PlaneSize planes) const
 {
     SceneDescription scene;
     scene.name = info_.name;
@@ -72,7 +72,8 @@ SceneDescription TakeReader::describe() const
                                 body.kind != BodyKind::fixed, info_.firstFrame});
     }
     tellBirths(scene);
-    const double half = planeHalfWidth(scene);
+    const bool isSized = planes == PlaneSize::ofAction && !planeMeshes.empty();
+    const double half = isSized ? planeHalfWidth(scene) : 1.0;
     for (const std::size_t mesh : planeMeshes)
         scene.meshes[mesh] = makePlaneMesh(scene.meshes[mesh].name, half);
 

@@ -25,9 +25,12 @@ public:
     /// Frames that have a file, ascending.
     const std::vector<int>& frames() const { return frames_; }
 
-    /// Bodies and meshes, in the shot's unit. A plane becomes a square as large as the action:
-    /// reads the frames to see how far that goes. Throws when a mesh is missing or damaged.
-    SceneDescription describe() const;
+    /// How large the squares are that stand for planes: as the action, for which all frames have to
+    /// be read, or anyhow, for those who draw planes without end.
+    enum class PlaneSize { ofAction, any };
+
+    /// Bodies and meshes, in the shot's unit. Throws when a mesh is missing or damaged.
+    SceneDescription describe(PlaneSize planes = PlaneSize::ofAction) const;
 
     /// Throws Error{missingInput} when the frame was not simulated, Error{inputOutput} when its
     /// file is damaged.

@@ -23,9 +23,11 @@ public:
     /// How bodies look from now on; parallel to the scene's bodies.
     virtual void setLooks(const std::vector<Look>& looks) = 0;
 
-    /// One picture. One thread at a time; which thread does not matter. Throws Error{usage} for a
-    /// size that cannot be drawn.
-    virtual Image draw(const SceneFrame& frame, const Camera& camera, int width, int height) = 0;
+    /// One picture, the first or a later one of several to be mixed: where chance decides, it
+    /// decides anew for each of these. One thread at a time; which thread does not matter. Throws
+    /// Error{usage} for a size that cannot be drawn.
+    virtual Image draw(const SceneFrame& frame, const Camera& camera, int width, int height,
+                       int ofMix = 0) = 0;
 };
 
 }  // namespace scree

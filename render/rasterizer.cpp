@@ -493,7 +493,8 @@ void Rasterizer::setLooks(const std::vector<Look>& looks)
     context_->setLooks(looks);
 }
 
-Image Rasterizer::draw(const SceneFrame& frame, const Camera& camera, int width, int height)
+Image Rasterizer::draw(const SceneFrame& frame, const Camera& camera, int width, int height,
+                       int /*ofMix*/)
 {
     return context_->draw(frame, camera, width, height);
 }

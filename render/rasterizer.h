@@ -31,7 +31,8 @@ public:
     Rasterizer& operator=(const Rasterizer&) = delete;
 
     void setLooks(const std::vector<Look>& looks) override;
-    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height) override;
+    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height,
+               int ofMix = 0) override;
 
 private:
     class Context;

@@ -106,7 +106,7 @@ public:
         SCREE_CHECK(looks.size() == bodyMesh_.size(), "one look per body is needed");
         looks_ = looks;
     }
-    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height);
+    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height, int ofMix);
 
 private:
     /// What all rays of a picture share.
@@ -425,7 +425,8 @@ Vec3 RayTracer::Tracer::colorOf(const View& view, std::uint64_t pixel, int sampl
     return tonedForDisplay(mixed(shaded(view, *hit, pixel, sample), behind, hit->haze));
 }
 
-Image RayTracer::Tracer::draw(const SceneFrame& frame, const Camera& camera, int width, int height)
+Image RayTracer::Tracer::draw(const SceneFrame& frame, const Camera& camera, int width, int height,
+                              int ofMix)
 {
     SCREE_CHECK(frame.worldFromAsset.size() == bodyMesh_.size(), "a frame of another scene");
     if (width < 1 || height < 1 || width > kLargestEdge || height > kLargestEdge)
@@ -439,7 +440,8 @@ Image RayTracer::Tracer::draw(const SceneFrame& frame, const Camera& camera, int
             for (int x = 0; x < width; ++x) {
                 const auto pixel = static_cast<std::uint64_t>(y) * width + x;
                 Vec3 sum = Vec3::Zero();
-                for (int sample = 0; sample < settings_.samples; ++sample) {
+                const int first = ofMix * settings_.samples;
+                for (int sample = first; sample < first + settings_.samples; ++sample) {
                     const Eigen::Vector2d place = spread(pixel, 0, sample);
                     sum += colorOf(view, pixel, sample, x + place.x(), y + place.y());
                 }
@@ -463,9 +465,10 @@ void RayTracer::setLooks(const std::vector<Look>& looks)
     tracer_->setLooks(looks);
 }
 
-Image RayTracer::draw(const SceneFrame& frame, const Camera& camera, int width, int height)
+Image RayTracer::draw(const SceneFrame& frame, const Camera& camera, int width, int height,
+                      int ofMix)
 {
-    return tracer_->draw(frame, camera, width, height);
+    return tracer_->draw(frame, camera, width, height, ofMix);
 }
 
 }  // namespace scree

@@ -26,7 +26,8 @@ public:
     RayTracer& operator=(const RayTracer&) = delete;
 
     void setLooks(const std::vector<Look>& looks) override;
-    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height) override;
+    Image draw(const SceneFrame& frame, const Camera& camera, int width, int height,
+               int ofMix = 0) override;
 
 private:
     class Tracer;

@@ -107,7 +107,16 @@ std::vector<int> parseFrames(const std::string& text)
 
 std::vector<int> chooseFrames(const std::string& text, const std::vector<int>& available)
 {
-    if (text.empty()) return available;
+    if (text.empty()) {
+        for (std::size_t i = 1; i < available.size(); ++i) {
+            if (available[i] == available[i - 1] + 1) continue;
+            throw Error(ErrorKind::missingInput, "frame " + std::to_string(available[i - 1] + 1) +
+                                                     " is not there; --frames " +
+                                                     describeFrames(available) +
+                                                     " asks for those that are");
+        }
+        return available;
+    }
     const std::vector<int> wanted = parseFrames(text);
     for (const int frame : wanted)
         if (!std::binary_search(available.begin(), available.end(), frame))

@@ -21,8 +21,8 @@ namespace scree {
 std::vector<int> parseFrames(const std::string& text);
 
 /// Those of `available` (ascending) that `text` asks for; all for an empty text. Throws
-/// Error{usage} for a bad text and Error{missingInput} when a frame that was asked for is not
-/// available.
+/// Error{usage} for a bad text and Error{missingInput} when a frame that was asked for, or one
+/// between those that are there, is not available.
 std::vector<int> chooseFrames(const std::string& text, const std::vector<int>& available);
 
 /// At most `count` of the frames, evenly spread, first and last among them.

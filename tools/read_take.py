@@ -31,7 +31,10 @@ def read_frame(path):
 def read_motion(take):
     """All samples in order of time, those between frames included: frame (with its fraction),
     positions, orientations w x y z."""
-    for path in sorted(pathlib.Path(take).glob("frames/*.scree")):
+    def number(path):  # names sort otherwise below zero
+        return int(path.stem.split(".")[-1])
+
+    for path in sorted(pathlib.Path(take).glob("frames/*.scree"), key=number):
         frame, blocks = read_frame(path)
         for i, offset in enumerate(blocks.get("sub.offset", np.empty((0, 1)))[:, 0]):
             rows = slice(i * len(blocks["asset.position"]), (i + 1) * len(blocks["asset.position"]))

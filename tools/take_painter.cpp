@@ -125,7 +125,7 @@ private:
 TakePainter::TakePainter(const TakeReader& take, const std::string& cameraName,
                          const std::array<int, 2>& size, const PaintSettings& settings)
     : take_(take),
-      scene_(take.describe()),
+      scene_(take.describe(TakeReader::PlaneSize::any)),
       camera_(chooseCamera(take, scene_, cameraName, static_cast<double>(size[0]) / size[1])),
       size_(size),
       settings_(settings),
@@ -185,7 +185,7 @@ Image TakePainter::drawBlurred(PictureEngine& engine, int frame) const
     for (int i = 0; i < settings_.motionBlur; ++i) {
         const double offset = opens + (closes - opens) * (i + 0.5) / settings_.motionBlur;
         const SceneFrame moment = sampleAt(samples, offset, take_.info().framesPerSecond);
-        addShare(image, engine.draw(moment, cameraAtFrame(frame + offset), size_[0], size_[1]),
+        addShare(image, engine.draw(moment, cameraAtFrame(frame + offset), size_[0], size_[1], i),
                  1.0f / static_cast<float>(settings_.motionBlur));
     }
     return image;

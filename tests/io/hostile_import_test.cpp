@@ -2,6 +2,7 @@
 // formats lives in a process of its own.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -88,6 +89,97 @@ TEST(MeshImport, GivesTheNodesOfAGltfWithTheirScaleBakedAndItsUnit)
     EXPECT_TRUE((file.nodes[0].fileFromNode * Vec3(0, 1, 0)).isApprox(Vec3(1, 1, 3), 1e-6));
     EXPECT_NEAR(signedVolume(file.nodes[0].mesh), 8.0 / 6.0, 1e-6);
     EXPECT_DOUBLE_EQ(signedVolume(file.nodes[1].mesh), 1.0 / 6.0);
+}
+
+/// The nodes of small_gltf.h replaced by others that show the same tetrahedron.
+ImportedFile importNodes(const test::TemporaryFolder& folder, const std::string& roots,
+                         const std::string& nodes, const std::string& accessors = "",
+                         const std::string& more = "")
+{
+    test::writeGltf(folder);
+    std::string text = test::gltfText("data.bin");
+    text.replace(text.find("[0,1,2]"), 7, roots);
+    const std::size_t begin = text.find("\"nodes\":[\n") + 9, end = text.find("],\n\"meshes\"");
+    text.replace(begin, end - begin, nodes);
+    text.insert(text.find("],\n\"bufferViews\""), accessors);
+    text.insert(text.rfind('}'), more);
+    std::ofstream(folder / "set.gltf") << text;
+    return importFile((folder / "set.gltf").string());
+}
+
+TEST(MeshImport, PointsOfAShearedNodeAreWhereTheFileHasThem)
+{
+    const test::TemporaryFolder folder;
+    // Turned by 45 degrees about z under a scale of (1, 3, 0.5).
+    const ImportedFile file = importNodes(folder, "[0]",
+                                          R"({"name":"root","scale":[1,3,0.5],"children":[1]},
+{"name":"leaf","mesh":0,"rotation":[0,0,0.3826834323650898,0.9238795325112867]})");
+    ASSERT_EQ(file.nodes.size(), 1u);
+    const ImportedNode& leaf = file.nodes[0];
+    const double h = std::sqrt(0.5);
+    Points expected(3, 4);
+    expected.transpose() << 0, 0, 0, h, 3 * h, 0, -h, 3 * h, 0, 0, 0, 0.5;
+    for (Eigen::Index i = 0; i < 4; ++i) {
+        const Vec3 there = leaf.fileFromNode * leaf.mesh.points.col(i);
+        EXPECT_LE((there - expected.col(i)).norm(), 1e-6) << i;
+    }
+}
+
+TEST(MeshImport, NodesThatShowOneMeshTurnedShareItToTheBit)
+{
+    const test::TemporaryFolder folder;
+    std::string nodes = R"({"name":"root","rotation":[0.1,0.2,0.3,0.9273618495495704],
+"scale":[1.7,1.7,1.7],"children":[1,2,3,4,5,6,7,8]})";
+    for (int i = 1; i <= 8; ++i) {
+        const double angle = 0.37 * i;
+        nodes += ",\n{\"name\":\"n" + std::to_string(i) + "\",\"mesh\":0,\"rotation\":[0," +
+                 std::to_string(std::sin(angle)) + ",0," + std::to_string(std::cos(angle)) + "]}";
+    }
+    const ImportedFile file = importNodes(folder, "[0]", nodes);
+    ASSERT_EQ(file.nodes.size(), 8u);
+    for (const ImportedNode& node : file.nodes)
+        EXPECT_EQ(node.mesh.points, file.nodes[0].mesh.points) << node.name;
+}
+
+TEST(MeshImport, AnAnimationThatMayMeanEitherOfTwoNodesIsRefused)
+{
+    const test::TemporaryFolder folder;
+    const char* nodes = R"({"name":"dup","mesh":0},{"name":"dup","mesh":0})";
+    EXPECT_EQ(importNodes(folder, "[0,1]", nodes).nodes.size(), 2u);
+    const char* times = R"(,{"bufferView":0,"byteOffset":8,"componentType":5126,"count":2,
+"type":"SCALAR","min":[0],"max":[1]},{"bufferView":0,"componentType":5126,"count":2,"type":"VEC3"})";
+    const char* animation = R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":1,
+"path":"translation"}}],"samplers":[{"input":2,"output":3}]}])";
+    try {
+        importNodes(folder, "[0,1]", nodes, times, animation);
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::badInput);
+        EXPECT_NE(std::string(error.what()).find("'dup'"), std::string::npos) << error.what();
+    }
+}
+
+TEST(MeshImport, APlyThatEndsInItsHeaderIsRefusedAtOnce)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "cut.ply") << "ply\nformat ascii 1.0\nelement vertex 4\n";
+    try {
+        importFile((folder / "cut.ply").string());
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("cut short"), std::string::npos) << error.what();
+    }
+}
+
+TEST(MeshImport, AnObjWithoutItsMaterialsIsReadFromItsOwnFolder)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a.obj") << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(std::filesystem::path(folder / "a.obj").parent_path());
+    EXPECT_NO_THROW(importFile("a.obj"));
+    std::filesystem::current_path(before);
 }
 
 TEST(MeshImport, RefusesReferencesOutsideTheFolder)

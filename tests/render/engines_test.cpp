@@ -143,6 +143,22 @@ TEST(Engines, RaysGiveTheSameBytesOnAnyNumberOfThreads)
     EXPECT_EQ(one.values, three.values);
 }
 
+TEST(Engines, MixedPicturesTraceTheRaysOfOneAndNotTheSameOnesAgain)
+{
+    const test::PreviewScene scene = heap();
+    constexpr int kMixed = 8;
+    RayTracer one(scene.scene, scene.looks, tracing(1));
+    Image mix(kWidth, kHeight);
+    for (int i = 0; i < kMixed; ++i)
+        addShare(mix, one.draw(scene.frame, scene.camera, kWidth, kHeight, i), 1.0f / kMixed);
+    const Image whole = traced(scene, tracing(kMixed));
+    float worst = 0.0f;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            worst = std::max(worst, (mix.at(x, y) - whole.at(x, y)).cwiseAbs().maxCoeff());
+    EXPECT_LE(worst, 1e-5f);
+}
+
 TEST(Engines, ATracedSceneMayChangeLooksAndLoseABodyAndFindItAgain)
 {
     test::PreviewScene scene = heap();

@@ -46,6 +46,8 @@ TEST(FrameRange, AskingForAFrameThatIsMissingIsAnErrorOfTheInput)
 {
     EXPECT_EQ(chooseFrames("", {1, 2}), (Frames{1, 2}));
     EXPECT_EQ(chooseFrames("2", {1, 2}), (Frames{2}));
+    EXPECT_EQ(chooseFrames("1,3", {1, 3}), (Frames{1, 3}));
+    EXPECT_THROW(chooseFrames("", {1, 3}), Error);
     try {
         chooseFrames("2-3", {1, 2});
         FAIL() << "frame 3 was accepted";
