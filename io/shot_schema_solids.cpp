@@ -298,7 +298,8 @@ const std::vector<ShotKey> kShapeKeys = {
      .choices = "mesh|exact",
      .help = "Whether a generated sphere, box or cylinder collides as its mesh, which is what is "
              "drawn, or as its exact solid: true roundness and the solid's own mass, but few "
-             "segments then show gaps, since the mesh lies inside."},
+             "segments then show gaps, since the mesh lies inside. Of a cylinder method \"scree\" "
+             "takes the mass alone: it rolls on the sides of its mesh, so give it many sectors."},
 };
 
 }  // namespace
