@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/dynamics/body_pairs.h"
 #include "core/math/rotation.h"
@@ -79,12 +80,12 @@ public:
           a_(world, scratch, held, bodies_.a),
           b_(world, scratch, held, bodies_.b),
           dt_(dt),
-          fastEnough_(kOfFastest * fastest),
-          thinner_(
-              std::min(world.shapeOf(bodies_.a).thickness(), world.shapeOf(bodies_.b).thickness())),
-          after_(std::min(kAfter * smallerRadius(world, bodies_.a, bodies_.b),
-                          kOfThickness * thinner_))
+          fastEnough_(kOfFastest * fastest)
     {
+        const double thinner =
+            std::min(world.shapeOf(bodies_.a).thickness(), world.shapeOf(bodies_.b).thickness());
+        after_ =
+            std::min(kAfter * smallerRadius(world, bodies_.a, bodies_.b), kOfThickness * thinner);
     }
 
     bool isFast(double u) const { return -u > fastEnough_; }
@@ -161,7 +162,7 @@ private:
     BodyPair bodies_;
     NearFeatures& near_;
     Course a_, b_;
-    double dt_, fastEnough_, thinner_, after_;
+    double dt_, fastEnough_, after_;
     std::vector<GapContact> found_;
 };
 
@@ -186,22 +187,22 @@ void letPass(const World& world, double dt, const std::vector<Held>& held, const
             return velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
         };
         // What already bears is there to be borne by.
-        const auto foreseesBlow = [&](const GapRow& row, double u) {
-            return row.impulse.x() == 0.0 && closedBy(scratch, row, u, dt) > 0.0;
-        };
-        double fastest = 0.0;
+        const auto bears = [](const GapRow& row) { return row.impulse.x() > 0.0; };
+        const double slow = kSlow * smallerRadius(world, pair.bodies.a, pair.bodies.b) / dt;
+        double fastest = slow;
         for (const GapRow& row : rows) {
+            if (bears(row)) continue;
             const double u = speedOf(row);
-            if (-u > fastest && foreseesBlow(row, u)) fastest = -u;
+            if (-u > fastest && closedBy(scratch, row, u, dt) > 0.0) fastest = -u;
         }
-        if (fastest * dt <= kSlow * smallerRadius(world, pair.bodies.a, pair.bodies.b)) return;
+        if (fastest == slow) return;
         Passing passing(world, held, scratch, pair, dt, fastest);
         const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
         if (!passing.passes(contacts)) return;
         for (GapRow& row : rows) {
             const double u = speedOf(row);
-            if (passing.isFast(u) && foreseesBlow(row, u))
-                row.gap = std::max(row.gap, 0.0) + closedBy(scratch, row, u, dt);
+            if (bears(row) || !passing.isFast(u)) continue;
+            row.gap = std::max(row.gap, 0.0) + std::max(closedBy(scratch, row, u, dt), 0.0);
         }
     });
 }
