@@ -468,5 +468,18 @@ TEST(GapMethod, WhatFliesNeverSleepsHoweverSlowlyOrSteadily)
     EXPECT_NEAR(world.motion[1].position.x(), 200.03, 1e-9);
 }
 
+TEST(GapMethod, WhatTurnsOnceAFrameWhereItStandsDoesNotSleep)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 0.0);
+    const Vec3 oneTurnAFrame(0.0, 2.0 * kPi / kFrame, 0.0);
+    addPlane(world, material);
+    addBody(world, exactSphere(0.5), material, {{0.0, 0.5, 0.0}, Quat::Identity()}, 1.0,
+            Vec3::Zero(), oneTurnAFrame);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 96; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_LE((angularVelocityOf(world, 1) - oneTurnAFrame).norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace scree::test
