@@ -104,6 +104,42 @@ TEST(GapMethod, WithoutShockTheHeavyTopFallsOff)
     EXPECT_GE(shiftAfter(makeStack(2, 10000.0, 0.01), 5.0, kFrame, false), 0.5);
 }
 
+/// Of blocks of 0.1 m and 1 kg, one upon the other, and one of 0.4 m and 8 t that falls a metre on
+/// them: how deep the lowest was in the floor, and the heavy one in the place of those below, at
+/// worst [m].
+double crushedBy8Tons(int lightOnes, double restitution, bool withShock = true)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, restitution);
+    addPlane(world, material);
+    for (int i = 0; i < lightOnes; ++i) {
+        addBody(world, boxShape({0.1, 0.1, 0.1}, 1), material,
+                {Vec3(0.0, 0.05 + 0.1 * i, 0.0), Quat::Identity()}, 1.0);
+    }
+    const double top = 0.1 * lightOnes;
+    addBody(world, boxShape({0.4, 0.4, 0.4}, 1), material,
+            {Vec3(0.0, top + 1.2, 0.0), Quat::Identity()}, 8000.0);
+    StepSettings settings = screeSettings();
+    settings.shockPropagation = withShock;
+    Stepper stepper(settings);
+    double deepest = 0.0;
+    for (int frame = 0; frame < 48; ++frame) {
+        stepper.advanceFrame(world, kFrame);
+        const auto heightOf = [&](int body) { return world.motion[body].position.y(); };
+        deepest = std::max({deepest, 0.05 - heightOf(1), top + 0.2 - heightOf(lightOnes + 1)});
+    }
+    return deepest;
+}
+
+TEST(GapMethod, WhatIsEightThousandTimesHeavierLandsOnWhatLiesThere)
+{
+    for (const double restitution : {0.0, 0.3, 0.8}) {
+        EXPECT_LE(crushedBy8Tons(1, restitution), 1e-3) << restitution;
+        EXPECT_LE(crushedBy8Tons(3, restitution), 1e-3) << restitution;
+    }
+    EXPECT_GE(crushedBy8Tons(1, 0.0, false), 0.02) << "without shock";
+}
+
 TEST(GapMethod, ABallOfManyCornersBouncesToItsHeightAtAnyStep)
 {
     for (double dt : {1.0 / 96.0, 1.0 / 240.0}) {
