@@ -246,7 +246,7 @@ void TakeWriter::recordBranch(const TakeBranch& branch, const World& world, Take
     const fs::path absolute = fs::absolute(branch.take, code).lexically_normal();
     info.branchTake = (code ? branch.take : absolute).string();
     info.branchFrame = branch.frame;
-    info.branchHash = hashText(readBranchFrame(branch, branch.frame, shotHash_));
+    info.branchHash = hashText(readBranchFrame(branch, branch.frame, shot_));
 }
 
 /// The description comes first: from then on a resume knows what this take is to be, whatever
@@ -370,7 +370,7 @@ void TakeWriter::completeBranch(const TakeInfo& info)
 void TakeWriter::copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing)
 {
     const TakeBranch branch{info.branchTake, info.branchFrame};
-    if (hashText(readBranchFrame(branch, branch.frame, shotHash_)) != info.branchHash)
+    if (hashText(readBranchFrame(branch, branch.frame, shot_)) != info.branchHash)
         throw Error(ErrorKind::badInput,
                     "\"" + branch.take.string() + "\" is not what it was when the take was begun");
     // Statistics first, as in writeFrame.
@@ -379,7 +379,7 @@ void TakeWriter::copyBranchFrames(const TakeInfo& info, const std::vector<int>& 
         if (const auto line = lines.find(frame); line != lines.end()) statsLines_.insert(*line);
     rewriteStats();
     for (const int frame : missing) {
-        writeFileBytes(paths_.frame(frame), readBranchFrame(branch, frame, shotHash_));
+        writeFileBytes(paths_.frame(frame), readBranchFrame(branch, frame, shot_));
         wholeFrames_.insert(frame);
     }
 }

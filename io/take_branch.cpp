@@ -1,8 +1,11 @@
 #include "io/take_branch.h"
 
+#include <algorithm>
 #include <charconv>
+#include <sstream>
 
 #include "core/base/error.h"
+#include "core/base/hash.h"
 #include "io/file_bytes.h"
 #include "io/frame_stats.h"
 #include "io/take.h"
@@ -41,6 +44,38 @@ void requireSameCast(const TakeBranch& branch, const TakeInfo& theirs, const Tak
     }
 }
 
+/// The lines of a resolved shot that bodies feel: not how long it is, how it looks and what is
+/// written of it.
+std::string settingsOf(const std::string& resolvedShot)
+{
+    const auto beginsWithAny = [](const std::string& line, const auto& beginnings) {
+        return std::ranges::any_of(beginnings,
+                                   [&](const char* text) { return line.starts_with(text); });
+    };
+    constexpr std::array kTables{"[[camera]]", "[render]", "[output]"};
+    constexpr std::array kKeys{"frames = ", "color = ", "roughness = "};
+    std::string settings;
+    bool isFelt = true;
+    std::istringstream lines(resolvedShot);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("[")) isFelt = !beginsWithAny(line, kTables);
+        if (isFelt && !beginsWithAny(line, kKeys)) settings += line + "\n";
+    }
+    return settings;
+}
+
+/// Whoever fell asleep did so under the settings of the other take: on a slope that has become
+/// slippery nothing would tell it to move.
+void wakeWhoSettled(ContactMemory& memory)
+{
+    for (BodyRest& rest : memory.rest) {
+        const bool waitsSinceTheStart = rest.still.frames == 0;
+        if (!rest.isAsleep || waitsSinceTheStart) continue;
+        rest.isAsleep = false;
+        rest.still.frames = rest.nearby.frames = 0;
+    }
+}
+
 }  // namespace
 
 TakeBranch parseBranch(const std::string& text)
@@ -70,7 +105,7 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
                            std::to_string(shot.firstFrame) + "-" + std::to_string(shot.lastFrame));
     }
     for (int frame = shot.firstFrame; frame <= branch.frame; ++frame) {
-        const std::string bytes = readBranchFrame(branch, frame, info.shotHash);
+        const std::string bytes = readBranchFrame(branch, frame, shot);
         // The same bodies in the same places: proved by the bits of the first frame.
         const bool isOther =
             frame == shot.firstFrame && bytes != encodeFrame(captureState(shot, world));
@@ -78,7 +113,7 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
     }
 }
 
-std::string readBranchFrame(const TakeBranch& branch, int frame, std::uint64_t shotHash)
+std::string readBranchFrame(const TakeBranch& branch, int frame, const Shot& shot)
 {
     const TakePaths from{branch.take};
     std::error_code code;
@@ -87,7 +122,12 @@ std::string readBranchFrame(const TakeBranch& branch, int frame, std::uint64_t s
                                                  std::to_string(frame) + " to begin with");
     }
     FrameState state = readFrameFile(from.frame(frame));
-    state.shotHash = shotHash;
+    state.shotHash = hashText(shot.resolvedText);
+    if (frame == branch.frame) {
+        const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());
+        if (settingsOf(theirs.resolvedShot) != settingsOf(shot.resolvedText))
+            wakeWhoSettled(state.contactMemory);
+    }
     return encodeFrame(state);
 }
 

@@ -28,8 +28,9 @@ TakeBranch parseBranch(const std::string& text);
 void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
                  const TakeInfo& info);
 
-/// The bytes of a frame of the branch's take as a frame of the shot with this hash.
-std::string readBranchFrame(const TakeBranch& branch, int frame, std::uint64_t shotHash);
+/// The bytes of a frame of the branch's take as a frame of the shot. In the last one, where bodies
+/// are to feel other settings from there on, those that had fallen asleep are awake.
+std::string readBranchFrame(const TakeBranch& branch, int frame, const Shot& shot);
 
 /// The lines of stats.jsonl of the frames up to the branch, by number.
 std::map<int, std::string> readBranchStats(const TakeBranch& branch);

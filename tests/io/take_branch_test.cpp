@@ -121,6 +121,37 @@ TEST_F(BranchTest, AVariantPartsFromItsOriginalAfterTheBranchAndOnlyInWhatItChan
     EXPECT_EQ(comparison.framesCompared, 6);
 }
 
+// A block slept on a slope, and when its friction was taken from it, it slept on.
+TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
+{
+    const auto with = [](const std::string& change, const std::string& frames = "1001-1080") {
+        return std::vector<std::string>{"shot.gravity=[3.0, -9.81, 0.0]",
+                                        "shot.frames=\"" + frames + "\"", change};
+    };
+    const std::string nothing = "material.wood.friction=0.5";
+    const TakeReader whole = simulate("whole", with(nothing));
+    const TakeBranch branch{folder / "whole", 1075};
+    constexpr BodyId kBlock = 1;
+    const auto stateOf = [](const TakeReader& take, int frame) {
+        return readFrameFile(take.paths().frame(frame));
+    };
+    const auto sleepsIn = [&](const TakeReader& take, int frame) {
+        return stateOf(take, frame).contactMemory.isAsleep(kBlock);
+    };
+    ASSERT_TRUE(sleepsIn(whole, 1075));
+    const TakeReader red = simulate("red", with("material.wood.color=[1, 0, 0]"), branch);
+    const TakeReader brief = simulate("brief", with(nothing, "1001-1077"), branch);
+    EXPECT_FALSE(compareTakes(whole, red).difference);
+    EXPECT_TRUE(sleepsIn(brief, 1077));
+
+    const TakeReader slippery = simulate("slippery", with("material.wood.friction=0.1"), branch);
+    EXPECT_TRUE(sleepsIn(slippery, 1074));
+    EXPECT_FALSE(sleepsIn(slippery, 1075));
+    const auto placeIn = [&](int frame) { return stateOf(slippery, frame).motion[kBlock].position; };
+    const double time = 5.0 / 24.0, acceleration = 3.0 - 0.1 * 9.81;
+    EXPECT_NEAR(placeIn(1080).x() - placeIn(1075).x(), 0.5 * acceleration * time * time, 1e-3);
+}
+
 TEST_F(BranchTest, TakesThatOnlyRememberOtherContactsDiffer)
 {
     const TakeReader whole = simulate("whole", {});
