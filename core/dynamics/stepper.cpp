@@ -35,7 +35,7 @@ namespace {
 
 /// How often a step of method `scree` is solved again because something was struck so that it ran
 /// into what nobody had looked at.
-constexpr int kMostLooks = 2;
+constexpr int kMostLooks = 64;
 
 using WallClock = std::chrono::steady_clock;
 
