@@ -4,14 +4,10 @@
 
 #include <vector>
 
+#include "core/math/ball.h"
 #include "render/camera.h"
 
 namespace scree {
-
-struct Ball {
-    Vec3 centre = Vec3::Zero();
-    double radius = 0.0;
-};
 
 /// Surface of an infinite half space; the normal points out of the solid.
 struct PlaneSurface {

@@ -14,6 +14,7 @@
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
 #include "core/collision/crease_contacts.h"
+#include "core/collision/deep_contact.h"
 #include "core/collision/edge_lanes.h"
 #include "core/geometry/distance_lanes.h"
 
@@ -24,6 +25,9 @@ namespace {
 /// depends on it.
 constexpr double kLookAhead = 0.3;        // times the reach
 constexpr double kLeastLookAhead = 0.03;  // times the bounding radius of the smaller body
+
+/// The feature that a ball inside is, among the places of round surfaces.
+constexpr std::int32_t kInnerBall = std::numeric_limits<std::int32_t>::max();
 
 constexpr double kFarAway = 1e15;  // [m]; its square is a float
 
@@ -39,7 +43,7 @@ RelativePair relativePair(const PlacedPair& bodies, const Mat3& worldFromA, cons
 /// Facets lie below the round surface that they stand for, and must be seen from farther away.
 double bulgeOf(const RelativePair& pair)
 {
-    return pair.first.smooth.bulge() + pair.second.smooth.bulge();
+    return pair.first.bulge() + pair.second.bulge();
 }
 
 /// Lower bound of the distance between what the spheres hold and the field.
@@ -524,26 +528,34 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         return 0.0;
     }
 
+    const std::optional<DeepContact> deep = findDeepContact(pair, back);
+    if (deep) {
+        const std::uint64_t feature =
+            featureId(FeatureKind::round, kInnerBall, deep->isOfFirst ? 0 : 1);
+        contacts.push_back((deep->isOfFirst ? ofA : ofB)(feature, deep->contact));
+        if (deep->speaksAlone) return deep->contact.gap;
+    }
+    const double least = deep ? deep->contact.gap : std::numeric_limits<double>::infinity();
     const bool isNew = !memory_ || memory_->isStaleAt(pair, reach);
     const double far = reach + lookAhead(pair, reach);
     if (!memory_) {
         // Most pairs whose boxes meet are far apart: a few spheres say how far.
         const double apart = apartAtLeast(pair, back);
-        if (apart > far) return apart - bulge;
+        if (apart > far) return std::min(least, apart - bulge);
         memory_ = std::make_unique<Memory>();
     }
     if (isNew) {
         const double apart = memory_->look(pair, back, reach);
         if (apart > far) {
             memory_.reset();
-            return apart - bulge;
+            return std::min(least, apart - bulge);
         }
     }
     memory_->addContacts(pair, back, ofA, ofB, reach, isNew, list);
     list.finish();
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? worldFromA : worldFromB, smaller);
-    return memory_->farFor(pair) - bulge;
+    return std::min(least, memory_->farFor(pair) - bulge);
 }
 
 void NearFeatures::prefetch() const

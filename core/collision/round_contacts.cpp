@@ -38,15 +38,17 @@ public:
             place_ = {translation, 0.0, shape.distance.solid()->half().x() * Mat3::Identity()};
         } else if (shape.smooth.hasRoundFacets()) {
             facet_ = shape.smooth.roundFacetAt(vertexNear(near), rotation.transpose() * outward);
-            isRound_ = facet_ >= 0;
         }
+        if (facet_ < 0 && part.kind == Kind::corner) rim_ = shape.rims.atCorner(part.index);
+        if (facet_ < 0 && part.kind == Kind::edge) rim_ = shape.rims.ofEdge(part.index);
+        isRound_ = isRound_ || isRoundMesh();
         if (isRound_) return;
         place_ = {near, 0.0, Mat3::Zero()};
         if (part.kind == Kind::edge) axis_ = rotation * edge().direction;
     }
 
     bool isRound() const { return isRound_; }
-    bool isRoundMesh() const { return facet_ >= 0; }
+    bool isRoundMesh() const { return facet_ >= 0 || rim_ >= 0; }
     bool isFlat() const { return !isRound_ && part_.kind == Kind::face; }
     /// Of a sharp edge; n stays across it.
     const std::optional<Vec3>& axis() const { return axis_; }
@@ -59,8 +61,9 @@ public:
             place_.point = translation_ + shape_.distance.solid()->half().x() * outward;
             return Search::found;
         }
-        const Search search =
-            shape_.smooth.findFacing(facet_, rotation_.transpose() * outward, place_);
+        const Vec3 own = rotation_.transpose() * outward;
+        const Search search = rim_ >= 0 ? shape_.rims.findFacing(rim_, own, place_)
+                                        : shape_.smooth.findFacing(facet_, own, place_);
         place_.point = rotation_ * place_.point + translation_;
         place_.advance = rotation_ * place_.advance * rotation_.transpose();
         return search;
@@ -109,7 +112,7 @@ private:
     ContactPart part_;
     const Mat3& rotation_;
     const Vec3& translation_;
-    std::int32_t facet_ = -1;
+    std::int32_t facet_ = -1, rim_ = -1;  // the one or the other where a mesh is round
     bool isRound_ = false;
     RoundPlace place_;
     std::optional<Vec3> axis_;

@@ -94,7 +94,7 @@ Aabb boxWithin(const World& world, const GapScratch& scratch, BodyId body, doubl
     const Aabb box = boxAt(shape, world.motion[body].worldFromBody());
     if (shape.isPlane) return box;
     return box.grown(dt * (scratch.paces[body].fastest(dt) + scratch.gain[body]) +
-                     kLeastReach * shape.boundingRadius + shape.smooth.bulge());
+                     kLeastReach * shape.boundingRadius + shape.bulge());
 }
 
 void readBodies(const World& world, double dt, bool isAgain, GapScratch& scratch)

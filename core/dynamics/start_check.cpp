@@ -12,9 +12,15 @@
 #include "core/base/parallel.h"
 #include "core/collision/near_features.h"
 #include "core/dynamics/contact_graph.h"
+#include "core/dynamics/gap_blocks.h"
+#include "core/dynamics/gap_layout.h"
+#include "core/dynamics/gap_levels.h"
+#include "core/dynamics/gap_push_out.h"
+#include "core/dynamics/gap_rows.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
+#include "core/dynamics/sleep.h"
 
 namespace scree {
 namespace {
@@ -38,25 +44,6 @@ double depthOf(const PlacedPair& pair, double least)
 {
     const std::optional<Touch> deepest = deepestTouch(pair, -least);
     return deepest ? -deepest->phi : 0.0;
-}
-
-/// Points of a shape half its thickness below every corner of its mesh, in the object frame.
-Points pointsInside(const Shape& shape)
-{
-    const TriMesh& mesh = shape.mesh;
-    Points normals = Points::Zero(3, mesh.points.cols());
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        const Vec3 normal = (b - a).cross(c - a);
-        for (int k = 0; k < 3; ++k) normals.col(mesh.triangles(k, f)) += normal;
-    }
-    Points inside = mesh.points;
-    for (Eigen::Index v = 0; v < inside.cols(); ++v) {
-        inside.col(v) -= 0.5 * shape.innerThickness * normals.col(v).normalized();
-    }
-    return inside;
 }
 
 /// How deep bodies are in each other whose surfaces tell nothing: where a body stands in the place
@@ -84,7 +71,7 @@ private:
         SphereTree tree;
 
         Inside() = default;
-        explicit Inside(const Shape& shape) : points(pointsInside(shape))
+        explicit Inside(const Shape& shape) : points(pointsInside(shape.mesh, shape.innerThickness))
         {
             std::vector<Sphere> spheres;
             for (const auto& point : points.colwise()) spheres.push_back({point, 0.0});
@@ -116,9 +103,21 @@ private:
     std::map<const Shape*, Inside> inside_;
 };
 
-/// One sweep of push-out over everything that overlaps.
+/// One sweep of push-out over everything that overlaps, as the methods do it.
+void separateGapsOnce(World& world, const StepSettings& settings)
+{
+    GapScratch scratch;
+    layOutGaps(world, settings, kSeparationStep, SolvedIslands(), scratch);
+    forBlocks(scratch, [&](const GapBlock& block) {
+        buildRows(world, settings, kSeparationStep, block, scratch);
+        findLevels(kSeparationStep, block, scratch);
+    });
+    separateGaps(world, settings, scratch);
+}
+
 void separateOnce(World& world, const StepSettings& settings)
 {
+    if (settings.method == Method::scree) return separateGapsOnce(world, settings);
     StepScratch scratch;
     findPairs(world, settings, 0.0, scratch);
     beginStep(world, settings, kSeparationStep, scratch);
@@ -264,6 +263,12 @@ bool separateAtStart(World& world, const StepSettings& settings, double leastRat
         motion.velocity.setZero();
         motion.angularMomentum.setZero();
     }
+    // Who sleeps would not be moved.
+    std::vector<BodyId> sleepers;
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        if (world.contactMemory.isAsleep(body)) sleepers.push_back(body);
+    }
+    world.contactMemory = {};
     bool isApart = findStartOverlaps(world, 0.5 * leastRatio).empty();
     for (int round = 0; round < kMostRounds && !isApart; ++round) {
         separateOnce(world, settings);
@@ -273,6 +278,7 @@ bool separateAtStart(World& world, const StepSettings& settings, double leastRat
         world.motion[body].velocity = before[body].velocity;
         world.motion[body].angularMomentum = before[body].angularMomentum;
     }
+    sleepFromTheStart(world, settings, sleepers);
     return isApart;
 }
 

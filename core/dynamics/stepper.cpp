@@ -16,6 +16,7 @@
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_lag.h"
+#include "core/dynamics/gap_layout.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
 #include "core/dynamics/gap_pairs.h"
@@ -315,15 +316,7 @@ void Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved, St
     GapScratch& scratch = *gaps_;
     {
         const PhaseTimer timer(report.seconds, Phase::contactGraph);
-        if (solved.isNone())
-            findGaps(world, settings_, dt, scratch);
-        else
-            findGapsAgain(world, dt, scratch);
-        layPairs(world, scratch);
-        solved.handOn(scratch);
-        orderPairs(world, settings_, scratch);
-        layBlocks(scratch);
-        levelOthers(scratch);
+        layOutGaps(world, settings_, dt, solved, scratch);
         addForcesToOthers(dt, scratch);
     }
     std::vector<PhaseSeconds> ofBlocks(scratch.blocks.size());

@@ -183,12 +183,14 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
         settings.edgeSamples.value_or(longestEdge(shape.mesh) > 0.5 * shape.innerThickness);
     shape.samples = makeSurfaceSamples(shape.mesh, withEdges);
     shape.features = ContactFeatures(shape.mesh);
+    shape.rims = RoundRims(shape.features);
     if (!shape.usesTrueNormals) shape.smooth = SmoothSurface(shape.mesh);
 
     const double spacing = chooseSpacing(name, settings, shape.box, shape.innerThickness);
     shape.distance =
         SignedDistance(shape.mesh, fieldOf(shape, layOutNodes(shape.box, spacing), settings, store),
                        settings.field == FieldMode::refined);
+    shape.innerBall = largestBallInside(shape.mesh, shape.distance, shape.innerThickness);
 }
 
 }  // namespace
@@ -236,8 +238,10 @@ std::shared_ptr<const Shape> buildExactShape(const std::string& name, const Exac
     shape->innerThickness = shape->box.shortestEdge();
     // No field is sampled, so none can be too large: a playing card may be exact.
     shape->distance = SignedDistance(solid, wantedSpacing({}, shape->box, shape->innerThickness));
+    shape->innerBall = {Vec3::Zero(), 0.5 * shape->innerThickness};
     shape->samplesMove = solid.form() != ExactSolid::Form::box;
     if (solid.form() != ExactSolid::Form::sphere) shape->features = ContactFeatures(shape->mesh);
+    shape->rims = RoundRims(shape->features);
     if (!shape->samplesMove) {
         const bool withEdges =
             settings.edgeSamples.value_or(longestEdge(shape->mesh) > 0.5 * shape->innerThickness);

@@ -6,16 +6,19 @@
 // Spheres, boxes and cylinders may be exact as well; then the mesh is only what is drawn.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "core/geometry/contact_features.h"
+#include "core/geometry/inner_ball.h"
 #include "core/geometry/level_set_remesh.h"
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/mesh_deviation.h"
 #include "core/geometry/mesh_repair.h"
+#include "core/geometry/round_rims.h"
 #include "core/geometry/signed_distance.h"
 #include "core/geometry/smooth_surface.h"
 #include "core/geometry/surface_rays.h"
@@ -75,6 +78,7 @@ struct Shape {
     Aabb box;                     ///< of the mesh, object frame
     double boundingRadius = 0.0;  ///< of the mesh about the centre of mass [m]
     double innerThickness = 0.0;  ///< first percentile of the inscribed-ball diameter [m]  [A16]
+    Ball innerBall;               ///< about as large as any in the solid, object frame [m]
     bool usesTrueNormals = false;
 
     SignedDistance distance;   ///< grid, exact refinement, or plane
@@ -82,6 +86,10 @@ struct Shape {
     ContactFeatures features;  ///< empty for a plane and round exact solids
     SurfaceRays rays;          ///< empty for a plane and exact solids
     SmoothSurface smooth;      ///< empty for sharp meshes, planes and exact solids  [A40]
+    RoundRims rims;            ///< empty where there are no features
+
+    /// No place of the mesh lies farther below what it stands for than this [m].
+    double bulge() const { return std::max(smooth.bulge(), rims.bulge()); }
 
     // Those of a plane have no end [m].
     double thickness() const { return isPlane ? kEndless : innerThickness; }

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
+#include "core/math/rotation.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -71,7 +73,7 @@ TEST(GapPushOut, WhatStepsLeaveIsTakenAwayBitByBit)
     EXPECT_NEAR(world.motion[1].position.y(), 0.498 + 0.2 * (0.002 - 8.7e-5), 1e-5);
 }
 
-/// Two hundred and ten dominoes along a spiral [m], the outermost about to tip over.
+/// A hundred and ninety dominoes along a spiral [m], the outermost about to tip over.
 World makeSpiral()
 {
     constexpr double kApart = 0.021, kBetween = 0.05;
@@ -80,7 +82,7 @@ World makeSpiral()
     addPlane(world, material);
     const auto domino = boxShape({0.0075, 0.048, 0.024}, 1);
     double angle = 0.0;
-    for (int i = 0; i < 210; ++i) {
+    for (int i = 0; i < 190; ++i) {
         const double radius = 0.26 - kBetween * angle / (2.0 * kPi);
         const Vec3 place(radius * std::cos(angle), 0.024, radius * std::sin(angle));
         const Quat heading(Eigen::AngleAxisd(-angle - 0.5 * kPi, Vec3::UnitY()));
@@ -99,7 +101,7 @@ double deepestOfPressedDominoes(double gravity)
     StepSettings settings = screeSettings();
     settings.gravity *= gravity;
     Stepper stepper(settings);
-    for (int frame = 0; frame < 130; ++frame) stepper.advanceFrame(world, 1.0 / 24.0);
+    for (int frame = 0; frame < 120; ++frame) stepper.advanceFrame(world, 1.0 / 24.0);
     for (std::size_t i = 30; i < world.bodyCount(); i += 30) world.motion[i].position.y() -= 3e-4;
     double worst = 0.0;
     for (int step = 0; step < 100; ++step)
@@ -134,6 +136,60 @@ TEST(GapPushOut, WhatIsSqueezedBetweenWallsTooCloseStaysInTheMiddle)
     // Pushes that never give way would leave it at whichever wall was asked last, 10 cm aside.
     EXPECT_LE(world.motion[2].position.norm(), 1e-3);
     EXPECT_LE(world.motion[2].orientation.vec().norm(), 1e-3);
+}
+
+/// Two of a shape, one turned by a little, begin `offset` apart on the ground: how far apart their
+/// centres are after 2 s, and how fast any of the two has been.
+std::array<double, 2> comeApart(const std::shared_ptr<const Shape>& shape, double height,
+                                double offset, double turn)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    addBody(world, shape, material, {Vec3(0.0, height, 0.0), Quat::Identity()});
+    addBody(world, shape, material,
+            {Vec3(offset, height, 0.01), exponentialMap(Vec3(0.0, turn, 0.0))});
+    Stepper stepper(screeSettings());
+    double fastest = 0.0;
+    for (int i = 0; i < 192; ++i) {
+        stepper.step(world, 1.0 / 96.0);
+        for (const BodyMotion& motion : world.motion)
+            fastest = std::max(fastest, motion.velocity.norm());
+    }
+    return {(world.motion[1].position - world.motion[2].position).norm(), fastest};
+}
+
+// Once the middle of one was past that of the other they were drawn into one place, and slept
+// there; boxes deeper than a quarter of their size stayed where they were.
+TEST(GapPushOut, WhatBeginsInThePlaceOfAnotherComesOutOfIt)
+{
+    const auto ball = buildMeshShape("ball", makeSphere(0.5, 3));
+    const auto box = boxShape({1.0, 1.0, 1.0}, 2);
+    for (const double offset : {0.8, 0.6, 0.4, 0.2, 0.0}) {
+        for (const double turn : {0.0, 0.3}) {
+            const auto [balls, fastestBall] = comeApart(ball, 0.5, offset, turn);
+            EXPECT_GE(balls, 0.999) << offset;
+            EXPECT_LE(fastestBall, 4.5) << offset;  // a fall from on top of the other
+            const auto [boxes, fastestBox] = comeApart(box, 0.5, offset, turn);
+            EXPECT_GE(boxes, 0.999) << offset;
+            EXPECT_LE(fastestBox, 4.5) << offset;
+        }
+    }
+}
+
+TEST(GapPushOut, WhatBeginsInsideSomethingLargeComesOutOfItsNearestFace)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const BodyId large = addBody(world, boxShape({4.0, 1.0, 4.0}, 2), material,
+                                 {Vec3(0.0, 0.5, 0.0), Quat::Identity()}, 1000.0);
+    const BodyId small = addBody(world, boxShape({0.2, 0.2, 0.2}, 1), material,
+                                 {Vec3(0.3, 0.7, 0.1), Quat::Identity()}, 1.0);
+    Stepper stepper(screeSettings());
+    for (int i = 0; i < 96; ++i) stepper.step(world, 1.0 / 96.0);
+    EXPECT_NEAR(world.motion[small].position.y(), 1.1, 1e-3);
+    EXPECT_NEAR(world.motion[large].position.y(), 0.5, 1e-3);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/sleep.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
 #include "core/math/rotation.h"
@@ -93,7 +94,16 @@ TEST_F(StartCheck, OverlapsAreListedByDepthAndTouchingIsNone)
     EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 0u);
 }
 
-TEST_F(StartCheck, SeparationPushesApartAndGivesNoSpeed)
+class SeparationAtStart : public StartCheck, public testing::WithParamInterface<Method> {
+protected:
+    SeparationAtStart() { settings.method = GetParam(); }
+};
+INSTANTIATE_TEST_SUITE_P(BothMethods, SeparationAtStart,
+                         testing::Values(Method::paper, Method::scree), [](const auto& method) {
+                             return method.param == Method::paper ? "Paper" : "Scree";
+                         });
+
+TEST_P(SeparationAtStart, PushesApartAndGivesNoSpeed)
 {
     addGround();
     const BodyId low = add("low", {0, 0.45, 0});
@@ -111,7 +121,29 @@ TEST_F(StartCheck, SeparationPushesApartAndGivesNoSpeed)
     EXPECT_LT((world.motion[high].position - Vec3(0.05, 1.3, 0.1)).norm(), 0.4);
 }
 
-TEST_F(StartCheck, WhatCannotComeApartIsTold)
+TEST_P(SeparationAtStart, MovesWhoSleepsAndLetsHimSleepOn)
+{
+    addGround();
+    const BodyId low = add("low", {0, 0.5, 0});
+    const BodyId high = add("high", {0.05, 1.3, 0.1});
+    sleepFromTheStart(world, settings, {low, high});
+    ASSERT_TRUE(separateAtStart(world, settings, 0.01));
+    EXPECT_TRUE(findStartOverlaps(world, 0.005).empty());
+    EXPECT_TRUE(world.contactMemory.isAsleep(low) && world.contactMemory.isAsleep(high));
+    EXPECT_EQ(world.contactMemory.rest[high].still.position, world.motion[high].position);
+}
+
+TEST_F(StartCheck, WithMethodScreeACopyComesOutOfItsOriginal)
+{
+    settings.method = Method::scree;
+    addGround();
+    add("original", {0, 0.5, 0});
+    add("copy", {0, 0.5, 0});
+    ASSERT_TRUE(separateAtStart(world, settings, 0.01));
+    EXPECT_TRUE(findStartOverlaps(world, 0.005).empty());
+}
+
+TEST_P(SeparationAtStart, WhatCannotComeApartIsTold)
 {
     // Between two fixed cubes there is less room than the third needs.
     add("left", {-0.9, 0, 0}, BodyKind::fixed);

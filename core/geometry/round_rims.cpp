@@ -1,0 +1,122 @@
+// Symbols: t tangent, d the way that is faced, a slope t · d at an end, s place along an edge, 0…1.
+#include "core/geometry/round_rims.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree {
+namespace {
+
+using Search = SmoothSurface::Search;
+
+/// An edge is sharp where its faces differ by more than 20° (this is the cosine), and a rim where
+/// it turns by less than that into the next: as facets are round.
+constexpr double kFine = 0.93969262078590838;
+
+constexpr int kMostSteps = 3;    // edges
+constexpr double kAtEnd = 1e-9;  // a slope that is none
+
+/// A curve that bends toward the way that is faced by less than this share of all it bends lies
+/// flat: all of it may touch.
+constexpr double kBends = 0.1;
+
+/// Of two edges that follow each other, in the same sense: the way the curve goes where they meet,
+/// exact for a circle.
+Vec3 tangentBetween(const Vec3& along, const Vec3& next)
+{
+    return (next.norm() * along.normalized() + along.norm() * next.normalized()).normalized();
+}
+
+/// The sharp edges that meet at each corner; all that matters of more than two is that they do.
+struct Meeting {
+    std::array<std::int32_t, 2> edges = {-1, -1};
+    int count = 0;
+};
+
+std::vector<Meeting> sharpAtCorners(const ContactFeatures& features,
+                                    const std::vector<std::int32_t>& sharp)
+{
+    std::vector<Meeting> at(static_cast<std::size_t>(features.points().cols()));
+    for (const std::int32_t e : sharp) {
+        for (const int corner : features.edges()[e].ends) {
+            Meeting& here = at[static_cast<std::size_t>(corner)];
+            if (here.count < 2) here.edges[here.count] = e;
+            ++here.count;
+        }
+    }
+    return at;
+}
+
+}  // namespace
+
+RoundRims::RoundRims(const ContactFeatures& features)
+{
+    const std::vector<ConvexEdge>& edges = features.edges();
+    std::vector<std::int32_t> sharp;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (edges[e].faceNormal[0].dot(edges[e].faceNormal[1]) < kFine)
+            sharp.push_back(static_cast<std::int32_t>(e));
+    }
+    const std::vector<Meeting> at = sharpAtCorners(features, sharp);
+    rimOfCorner_.assign(at.size(), -1);
+
+    // An edge that goes on at both ends, by a little, and curves away from what is outside.
+    rimOfEdge_.assign(edges.size(), -1);
+    for (const std::int32_t e : sharp) {
+        const ConvexEdge& edge = edges[e];
+        Rim rim{{edge.start, edge.start + edge.length * edge.direction},
+                {edge.direction, edge.direction},
+                {-1, -1},
+                edge.intoFace};
+        bool isRound = true;
+        for (int end = 0; end < 2 && isRound; ++end) {
+            const Meeting& here = at[static_cast<std::size_t>(edge.ends[end])];
+            isRound = here.count == 2;
+            if (!isRound) break;
+            const std::int32_t other = here.edges[0] == e ? here.edges[1] : here.edges[0];
+            const ConvexEdge& next = edges[other];
+            // Both from the corner that they share.
+            const Vec3 away = (next.ends[0] == edge.ends[end] ? 1.0 : -1.0) * next.direction;
+            const Vec3 back = (end == 0 ? 1.0 : -1.0) * edge.direction;
+            isRound = away.dot(-back) >= kFine && (away + back).dot(edge.outward) < 0.0;
+            rim.next[end] = other;
+            rim.tangents[end] = end == 0 ? tangentBetween(-next.length * away, edge.length * back)
+                                         : tangentBetween(-edge.length * back, next.length * away);
+        }
+        if (!isRound) continue;
+        rimOfEdge_[e] = static_cast<std::int32_t>(rims_.size());
+        rims_.push_back(rim);
+        for (const int corner : edge.ends) rimOfCorner_[corner] = rimOfEdge_[e];
+        bulge_ = std::max(bulge_, edge.length * (rim.tangents[0] - rim.tangents[1]).norm() / 8.0);
+    }
+    for (Rim& rim : rims_) {
+        for (std::int32_t& next : rim.next) next = rimOfEdge_[next];
+    }
+}
+
+Search RoundRims::findFacing(std::int32_t& rim, const Vec3& direction, RoundPlace& place) const
+{
+    for (int step = 0; step <= kMostSteps; ++step) {
+        const Rim& here = rims_[rim];
+        const double a = here.tangents[0].dot(direction), b = here.tangents[1].dot(direction);
+        const Vec3 turn = here.tangents[1] - here.tangents[0];
+        if (a - b <= std::max(kBends * turn.norm(), kAtEnd)) return Search::notRound;
+        if (a >= -kAtEnd && b <= kAtEnd) {
+            for (const Vec3& into : here.intoFace) {
+                if (into.dot(direction) > kSupportSlack) return Search::elsewhere;
+            }
+            const double s = std::clamp(a / (a - b), 0.0, 1.0);
+            const Vec3 chord = here.ends[1] - here.ends[0];
+            const Vec3 tangent = (here.tangents[0] + s * turn).normalized();
+            place = {here.ends[0] + s * chord, 0.5 * s * (1.0 - s) * chord.norm() * (a - b),
+                     chord.norm() / (a - b) * tangent * tangent.transpose()};
+            return Search::found;
+        }
+        const std::int32_t next = here.next[a < 0.0 ? 0 : 1];
+        if (next < 0) return Search::notRound;
+        rim = next;
+    }
+    return Search::elsewhere;
+}
+
+}  // namespace scree

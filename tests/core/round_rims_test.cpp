@@ -1,0 +1,132 @@
+// Rims of fine meshes roll like the circles that they stand for, and lie flat like the corners that
+// they have.  [A40]
+#include "core/geometry/round_rims.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
+#include "core/math/rotation.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kRadius = 0.5;
+
+std::shared_ptr<const Shape> can(int sectors, double height = 1.0)
+{
+    return buildMeshShape("can", makeCylinder(kRadius, height, sectors, 2));
+}
+
+TEST(RoundRims, OnlyFineCurvesThatBendOutwardAreRims)
+{
+    const auto bulgeOf = [](const TriMesh& mesh) {
+        return buildMeshShape("shape", mesh)->rims.bulge();
+    };
+    EXPECT_EQ(bulgeOf(makeBox(Vec3::Ones(), {3, 3, 3})), 0.0);
+    EXPECT_EQ(bulgeOf(makeTorus(1.0, 0.25, {16, 10})), 0.0);  // the rings of figure 1
+    EXPECT_EQ(bulgeOf(makeCylinder(kRadius, 1.0, 16, 2)), 0.0);
+    // Between two corners a circle rises by r (1 − cos π/n).
+    for (const int sectors : {20, 128}) {
+        const double rise = kRadius * (1.0 - std::cos(kPi / sectors));
+        EXPECT_NEAR(bulgeOf(makeCylinder(kRadius, 1.0, sectors, 2)), rise, 0.01 * rise);
+    }
+}
+
+TEST(RoundRims, ARimIsFacedWhereItsCircleIs)
+{
+    const auto shape = can(24);
+    const TriMesh mesh = transformed(shape->mesh, inverse(shape->bodyFromAsset));
+    const Points& points = mesh.points;
+    for (int i = 0; i < 200; ++i) {
+        // Downward in the frame of a lying can that is turned about its axis, and leans a little.
+        const double turn = 0.0317 * i, lean = 0.2 * std::sin(i);
+        const Vec3 across(std::cos(turn), 0.0, std::sin(turn));
+        const Vec3 down = std::cos(lean) * across + std::sin(lean) * Vec3::UnitY();
+        Eigen::Index lowest = 0;
+        (down.transpose() * points).maxCoeff(&lowest);
+        std::int32_t rim = shape->rims.atCorner(static_cast<std::int32_t>(lowest));
+        ASSERT_GE(rim, 0);
+        RoundPlace place;
+        const Vec3 own = shape->bodyFromAsset.orientation * down;
+        ASSERT_EQ(shape->rims.findFacing(rim, own, place), SmoothSurface::Search::found);
+        const Vec3 onCircle =
+            kRadius * across + std::copysign(0.5, points(1, lowest)) * Vec3::UnitY();
+        const Vec3 smooth = inverse(shape->bodyFromAsset) * place.point + place.bulge * down;
+        EXPECT_NEAR(smooth.dot(down), onCircle.dot(down), 1e-4 * kRadius);
+        EXPECT_LE((smooth - onCircle).norm(), 2e-3 * kRadius);
+    }
+}
+
+struct Rolled {
+    double speed, height, across;
+};
+
+/// What rolls along x at 2 m/s with its axis along z, after 3 s.
+Rolled rolled(const std::shared_ptr<const Shape>& shape, double radius, double rate)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.8, 0.0);
+    addPlane(world, material);
+    const Pose lying{{0.0, radius, 0.0}, exponentialMap(Vec3(0.5 * kPi, 0.0, 0.0))};
+    const BodyId body =
+        addBody(world, shape, material, lying, 2.0, {2.0, 0.0, 0.0}, {0.0, 0.0, -2.0 / radius});
+    Stepper stepper(screeSettings());
+    for (int i = 0; i < 3.0 * rate; ++i) stepper.step(world, 1.0 / rate);
+    const BodyMotion& motion = world.motion[body];
+    return {motion.velocity.x(), motion.position.y(), motion.position.z()};
+}
+
+TEST(RoundRims, CansAndHoopsRollOnAtTheirSpeedAtAnyStep)
+{
+    const auto hoop = buildMeshShape("hoop", makeTorus(0.45, 0.05, {64, 12}));
+    for (const double rate : {48.0, 240.0}) {
+        for (const auto& shape : {can(20), can(128), hoop, exactCylinder(kRadius, 0.3)}) {
+            const Rolled end = rolled(shape, kRadius, rate);
+            EXPECT_NEAR(end.speed, 2.0, 2e-3) << shape->name << rate;
+            EXPECT_NEAR(end.height, kRadius, 1e-4) << shape->name << rate;
+            EXPECT_NEAR(end.across, 0.0, 1e-3) << shape->name << rate;
+        }
+        // Of 30° between two sides a can is a prism, and each of them stops it.
+        EXPECT_LT(rolled(can(12), kRadius, rate).speed, 1.0);
+    }
+}
+
+TEST(RoundRims, ABarrelGainsTwoThirdsOfGravityDownASlope)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.8, 0.0);
+    const double slope = 0.05;
+    const Vec3 normal(std::sin(slope), std::cos(slope), 0.0);
+    addPlane(world, material, Vec3::Zero(), normal);
+    const BodyId body = addBody(world, can(64), material,
+                                {kRadius * normal, exponentialMap(Vec3(0.5 * kPi, 0.0, 0.0))}, 2.0);
+    Stepper stepper(screeSettings());
+    for (int i = 0; i < 4 * 96; ++i) stepper.step(world, 1.0 / 96.0);
+    const double expected = 2.0 / 3.0 * screeSettings().gravity.norm() * 4.0 * std::sin(slope);
+    EXPECT_NEAR(world.motion[body].velocity.norm(), expected, 2e-3 * expected);
+}
+
+TEST(RoundRims, WhatStandsOnItsRimStandsAndWhatFallsOntoItLiesFlat)
+{
+    for (const double lean : {0.0, 0.03, 0.12}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.0);
+        addPlane(world, material);
+        const double height = kRadius * std::sin(lean) + 0.05 * std::cos(lean);
+        const BodyId coin = addBody(world, can(48, 0.1), material,
+                                    {{0.0, height, 0.0}, exponentialMap(Vec3(lean, 0.0, 0.0))});
+        Stepper stepper(screeSettings());
+        for (int i = 0; i < 5 * 96; ++i) stepper.step(world, 1.0 / 96.0);
+        const Aabb box = boxAt(world.shapeOf(coin), world.motion[coin].worldFromBody());
+        EXPECT_NEAR(box.min.y(), 0.0, 2e-5) << lean;
+        EXPECT_NEAR(box.max.y(), 0.1, 2e-5) << lean;
+        EXPECT_LE(world.motion[coin].velocity.norm(), 1e-6) << lean;
+    }
+}
+
+}  // namespace
+}  // namespace scree::test
