@@ -109,7 +109,7 @@ const std::vector<ShotKey> kShapeKeys = {
      .min = 3,
      .max = 1024,
      .help = "Cross sections around the ring and points on each. What is drawn is what collides: "
-             "few segments roll like a polygon."},
+             "fewer than 18 sections roll like a polygon, more like a circle."},
     {.path = "shape.box",
      .type = table,
      .excludes = "torus|sphere|cylinder|capsule|file",
@@ -299,7 +299,7 @@ const std::vector<ShotKey> kShapeKeys = {
      .help = "Whether a generated sphere, box or cylinder collides as its mesh, which is what is "
              "drawn, or as its exact solid: true roundness and the solid's own mass, but few "
              "segments then show gaps, since the mesh lies inside. Of a cylinder method \"scree\" "
-             "takes the mass alone: it rolls on the sides of its mesh, so give it many sectors."},
+             "takes the mass alone: it touches with its mesh, and rolls as round as that does."},
 };
 
 }  // namespace

@@ -135,7 +135,8 @@ const std::vector<ShotKey> kBodyKeys = {
      .excludes = "plane",
      .help =
          "\"asleep\" bodies stay where they are, whatever they stand on, and cost nothing until "
-         "something is about to touch them or a force on them changes; all that touches them, and "
+         "something is about to touch them, a force on them changes, or what has keys moves from "
+         "under them; all that touches them, and "
          "sleeps too, wakes with them. For walls and dominoes that wait for their blow. Method "
          "\"scree\" only."},
     {.path = "body.keys",

@@ -143,13 +143,15 @@ void wakeAround(World& world, const std::vector<BodyId>& roots)
 /// them press on each other yet, so the eye decides.
 constexpr double kTouching = 0.01;
 
-/// Contacts without force between sleeping bodies: what wakeAround follows.
+/// Contacts without force of sleeping bodies with each other, which wakeAround follows, and with
+/// those that a script may take away.
 std::vector<RememberedContact> contactsOfSleepers(const World& world)
 {
     std::vector<Aabb> boxes(world.bodyCount());
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
-        if (!world.contactMemory.isAsleep(body)) continue;
+        const bool isScripted = world.info[i].kind == BodyKind::keyed && world.isBorn(body);
+        if (!world.contactMemory.isAsleep(body) && !isScripted) continue;
         const Shape& shape = world.shapeOf(body);
         boxes[i] = boxAt(shape, world.motion[i].worldFromBody())
                        .grown(0.5 * kTouching * shape.boundingRadius);
@@ -454,10 +456,12 @@ bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         if (!contact.force.isZero(0.0)) bears[contact.a] = bears[contact.b] = 1;
         const auto [a, b] = bodiesOf(contact);
-        // What a script takes away from under a sleeper comes no closer to it.
+        // What a script takes away from under a sleeper, or lets go there, comes no closer to it.
         for (const auto& [sleeper, other] : {std::pair{a, b}, std::pair{b, a}}) {
-            if (world.contactMemory.isAsleep(sleeper) && isDriven(scratch.bodies[other]))
-                roots.push_back(sleeper);
+            if (!world.contactMemory.isAsleep(sleeper)) continue;
+            const bool isLetGo =
+                contact.force.isZero(0.0) && scratch.bodies[other].inverseMass > 0.0;
+            if (isLetGo || isDriven(scratch.bodies[other])) roots.push_back(sleeper);
         }
     }
     for (const std::size_t i : scratch.toAsk) {

@@ -21,13 +21,13 @@
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
 #include "core/dynamics/sleep.h"
+#include "core/dynamics/step_limit.h"
 
 namespace scree {
 namespace {
 
 constexpr int kMostRounds = 100;                 // of pushing apart
 constexpr double kSeparationStep = 1.0 / 240.0;  // whose fall tells who rests on whom [s]
-constexpr double kAlphaPerSafety = 0.5;          // [A16]
 
 std::vector<Aabb> boxesOf(const World& world)
 {
@@ -307,7 +307,7 @@ std::vector<FastBody> findTooFast(const World& world, const StepSettings& settin
         const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
         const double drop = g > 0.0 ? ground.dropOf(body).value_or(0.0) : 0.0;
         const double landing = std::sqrt(v * v + 2.0 * g * drop);
-        const double way = kAlphaPerSafety * settings.substeps.safety * shape.innerThickness;
+        const double way = alphaPerSafety(settings.method) * settings.substeps.safety * shape.innerThickness;
         const auto stepsAt = [&](double speed) {
             return frameDuration * (speed + spin * shape.boundingRadius) / way;
         };

@@ -13,14 +13,6 @@
 namespace scree {
 namespace {
 
-/// Share of the thinner body that two surfaces may pass in a step at safety 1 [A16]. Method `scree`
-/// knows gaps before they close: a thousand rings overlap by no more at twice the step. At twice
-/// that again five hundred bones take the same time, since every step looks twice as far.
-double alphaPerSafety(Method method)
-{
-    return method == Method::paper ? 0.5 : 1.0;
-}
-
 /// Of method `scree`: what a body may fall in a step, as a share of the inner thickness. Dominoes
 /// that may fall 4 % of theirs are awake for longer after they have fallen, and no faster for it.
 constexpr double kFallPerStep = 0.02;
@@ -140,6 +132,14 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
 }
 
 }  // namespace
+
+/// Method `scree` knows gaps before they close: a thousand rings overlap by no more at twice the
+/// step. At twice that again five hundred bones take the same time, since every step looks twice as
+/// far.
+double alphaPerSafety(Method method)
+{
+    return method == Method::paper ? 0.5 : 1.0;
+}
 
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
                       double remaining, const StepScratch& scratch)

@@ -14,6 +14,9 @@ struct StepLength {
     bool capReached = false;  ///< the limit of steps a frame forbids what the motion asks for
 };
 
+/// Share of the thinner body that two surfaces may pass in a step at safety 1.  [A16]
+double alphaPerSafety(Method method);
+
 /// The next of the equal steps that fill what remains of the frame. scratch.candidates must hold
 /// the pairs whose boxes, swept over the rest of the frame, meet.
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/dynamics/births.h"
+#include "core/dynamics/sleep.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
 
@@ -247,7 +248,13 @@ TEST(GapBirths, NothingMeetsABodyBeforeItsBirth)
     EXPECT_NEAR(world.motion[falling].position.y(), 0.5, 1e-6);
 }
 
-TEST(GapKeyed, SleepersFollowASupportThatSinksOrSetsOff)  // [A54]
+/// Those that sleep since the start have never pressed on it.
+class SleepersOnKeyed : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Since, SleepersOnKeyed, testing::Bool(), [](const auto& fromTheStart) {
+    return fromTheStart.param ? "TheStart" : "TheyCameToRest";
+});
+
+TEST_P(SleepersOnKeyed, FollowASupportThatSinksOrSetsOff)  // [A54]
 {
     for (const Vec3& way : {Vec3(0.0, -1.0, 0.0), Vec3(1.0, 0.0, 0.0)}) {
         World world;
@@ -260,6 +267,7 @@ TEST(GapKeyed, SleepersFollowASupportThatSinksOrSetsOff)  // [A54]
             top = addBody(world, boxShape(Vec3::Constant(0.5), 1), material,
                           {{0.0, height, 0.0}, Quat::Identity()});
         const World before = world;
+        if (GetParam()) sleepFromTheStart(world, screeSettings(), {top - 1, top});
         runFrames(world, screeSettings(), 2.0);
         ASSERT_TRUE(world.contactMemory.isAsleep(top));
         Stepper stepper(screeSettings());
@@ -268,6 +276,24 @@ TEST(GapKeyed, SleepersFollowASupportThatSinksOrSetsOff)  // [A54]
         EXPECT_LE((moved - way).norm(), 0.01) << way.transpose();
         EXPECT_TRUE(world.contactMemory.isAsleep(top));
     }
+}
+
+TEST_P(SleepersOnKeyed, FallWhenTheirSupportIsLetGo)  // [A54]
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const BodyId slab =
+        addKeyed(world, {2.0, 0.2, 2.0}, material, {{0.0, {{0.0, 1.9, 0.0}, Quat::Identity()}}});
+    world.info[slab].keyedUntil = 48;
+    const BodyId top = addBody(world, boxShape(Vec3::Constant(0.5), 1), material,
+                               {{0.0, 2.25, 0.0}, Quat::Identity()});
+    if (GetParam()) sleepFromTheStart(world, screeSettings(), {top});
+    runFrames(world, screeSettings(), 2.0);
+    ASSERT_TRUE(world.contactMemory.isAsleep(top));
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 48; ++f) stepper.advanceFrame(world, kDt);
+    EXPECT_NEAR(world.motion[top].position.y(), 0.45, 1e-3);
 }
 
 }  // namespace

@@ -208,6 +208,13 @@ TEST_F(StartCheck, SpeedsBeyondTheCapAreNamedWithTheStepsTheyNeed)
     EXPECT_EQ(bodies[1].body, high);  // lands at √(2 · 9.81 · 200000) = 1981 m/s
     EXPECT_NEAR(bodies[1].stepsNeeded, std::sqrt(2.0 * 9.81 * 200000.0) / 24.0 / 0.25, 1e-3);
     EXPECT_TRUE(bodies[1].whenItLands);
+    // Method scree may pass twice as much.
+    settings.method = Method::scree;
+    EXPECT_TRUE(findTooFast(world, settings, 1.0 / 24.0).empty());
+    world.motion[fast].velocity = Vec3(6000, 0, 0);
+    const std::vector<FastBody> withScree = findTooFast(world, settings, 1.0 / 24.0);
+    ASSERT_EQ(withScree.size(), 1u);
+    EXPECT_NEAR(withScree[0].stepsNeeded, bodies[0].stepsNeeded, 1e-6);
 }
 
 }  // namespace
