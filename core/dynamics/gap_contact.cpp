@@ -27,10 +27,17 @@ namespace {
 constexpr std::size_t kSpareVisits = 60000, kSpareRows = 160;
 constexpr int kMostSweeps = 400;
 
+/// In a chain or a column what happens at one end has to come through all levels, one by one: so
+/// many sweeps for each. Of sixty links that swing shock did the rest, with the upper ones pinned
+/// as they moved, and that was work: 1.7 kJ in 20 s, more than they could fall; 15 J so. A heap has
+/// many pairs on each level, and its ways are short.
+constexpr int kSweepsPerLevel = 4, kLevelsOfAChain = 8;
+constexpr int kPairsPerLevel = 2;  // at most, of a chain
+
 /// What a sweep may still change, as a share of what gravity does in a step, or, where rows are
 /// many, of what the first sweep changed. Forty cubes of which each step left a hundredth drifted
 /// 15 mm in 10 s.
-constexpr double kEnough = 1e-6, kLeftToNextStep = 1e-3, kLeftInAHeap = 1e-2;
+constexpr double kEnough = 1e-6, kLeftToNextStep = 1e-3, kLeftInAHeap = 1e-2, kLeftInAChain = 1e-4;
 constexpr std::size_t kFewRows = 32, kRowsOfAHeap = 200;
 
 /// The same, as a share of the fastest slip when sweeps begin: what tumbles or slides by a metre a
@@ -40,6 +47,13 @@ constexpr std::size_t kFewRows = 32, kRowsOfAHeap = 200;
 /// past must not make it creep.
 constexpr double kShareOfSpeed = 1e-4;
 constexpr std::size_t kRowsOfABodyOrTwo = 8;
+
+int spareSweeps(const GapIsland& island)
+{
+    const std::size_t rows = island.rowCount + 1;
+    return static_cast<int>(
+        std::min<std::size_t>(kSpareVisits * kSpareRows / (rows * rows), kMostSweeps));
+}
 
 void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
 {
@@ -94,17 +108,37 @@ double resistSpin(GapRow& row, GapBody& a, GapBody& b)
     return (response * change).norm() * row.rA.norm();
 }
 
-/// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
-/// next step, which begins with what this one found.
-void solve(const StepSettings& settings, double dt, const GapIsland& island, GapLanes& rows)
+/// What a step may spend on an island: the sweeps of the settings on a large heap, more on a small
+/// problem and in a chain.
+struct SweepLimits {
+    int most;
+    double left;     // share of the change of the first sweep that may be left to the next step
+    double ofSpeed;  // the same of the fastest slip
+};
+
+SweepLimits sweepLimits(const StepSettings& settings, const GapScratch& scratch,
+                        const GapIsland& island)
 {
-    double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
-    const int most = mostSweeps(settings, island);
+    int levels = 0;
+    for (const std::size_t i : island.pairs)
+        levels = std::max(levels, levelOf(scratch.levels, scratch.pairs[i].bodies) + 1);
+    const int most = std::max(settings.gapSweeps, spareSweeps(island));
+    if (levels >= kLevelsOfAChain && std::ssize(island.pairs) <= kPairsPerLevel * levels)
+        return {std::max(most, kSweepsPerLevel * levels), kLeftInAChain, 0.0};
     const double left = island.rowCount > kRowsOfAHeap ? kLeftInAHeap
                         : island.rowCount > kFewRows   ? kLeftToNextStep
                                                        : 0.0;
     const bool mayTumble = island.rowCount > kRowsOfABodyOrTwo && island.rowCount <= kRowsOfAHeap;
-    const double ofSpeed = mayTumble ? kShareOfSpeed : 0.0;
+    return {most, left, mayTumble ? kShareOfSpeed : 0.0};
+}
+
+/// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
+/// next step, which begins with what this one found.
+void solve(const StepSettings& settings, double dt, const GapScratch& scratch,
+           const GapIsland& island, GapLanes& rows)
+{
+    double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
+    const auto [most, left, ofSpeed] = sweepLimits(settings, scratch, island);
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
     double energy = 0.0;
@@ -121,17 +155,15 @@ void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
 {
     thread_local GapLanes lanes;
     lanes.build(scratch, island);
-    solve(settings, dt, island, lanes);
+    solve(settings, dt, scratch, island, lanes);
     lanes.store(scratch);
 }
 
 }  // namespace
 
-int mostSweeps(const StepSettings& settings, const GapIsland& island)
+bool isHeap(const StepSettings& settings, const GapIsland& island)
 {
-    const std::size_t rows = island.rowCount + 1;
-    const auto spare = static_cast<int>(kSpareVisits * kSpareRows / (rows * rows));
-    return std::max(settings.gapSweeps, std::min(spare, kMostSweeps));
+    return spareSweeps(island) <= settings.gapSweeps;
 }
 
 double visitRow(GapRow& row, GapBody& a, GapBody& b)

@@ -25,9 +25,8 @@ inline double shareOfLastWay(double energy, double energyBefore)
     return share > 1.0 && share <= 1.0 + kSteady ? 1.0 : share;
 }
 
-/// The sweeps a step may spend on an island: those of the settings on a large heap, more on a small
-/// problem.
-int mostSweeps(const StepSettings& settings, const GapIsland& island);
+/// Too many rows for more sweeps than the settings say.
+bool isHeap(const StepSettings& settings, const GapIsland& island);
 
 /// Sets the targets of the rows of a block from their gaps and what impacts have shifted, and adds
 /// the forces to its bodies.

@@ -155,8 +155,7 @@ double solvedEnough(const StepSettings& settings, double dt)
 double visibleSpeed(const World& world, const StepSettings& settings, double dt,
                     const GapIsland& island, const GapRow& row)
 {
-    const bool isHeap = mostSweeps(settings, island) == settings.gapSweeps;
-    const double visible = isHeap ? kVisibleInHeaps : kVisibleWhenSolved;
+    const double visible = isHeap(settings, island) ? kVisibleInHeaps : kVisibleWhenSolved;
     return visible * smallerRadius(world, row.a, row.b) / dt;
 }
 
