@@ -517,5 +517,35 @@ TEST(GapMethod, WhatTurnsOnceAFrameWhereItStandsDoesNotSleep)
     EXPECT_LE((angularVelocityOf(world, 1) - oneTurnAFrame).norm(), 1e-6);
 }
 
+/// By how much the energy of a chain has risen in all those steps in which it did, while it swung
+/// down from level; as a share of what it has fallen by [-].
+double riseOfSwingingChain(int links)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.3, 0.1);
+    const auto link = buildMeshShape("link", makeTorus(0.05, 0.012, {16, 10}));
+    const Quat upright = exponentialMap(Vec3(0.5 * kPi, 0.0, 0.0));
+    for (int i = 0; i < links; ++i) {
+        const Pose pose{{0.075 * i, 0.0, 0.0}, i % 2 ? Quat::Identity() : upright};
+        addBody(world, link, material, pose, i == 0 ? 0.0 : 0.8);
+    }
+    const StepSettings settings = screeSettings();
+    Stepper stepper(settings);
+    double rise = 0.0, before = totalEnergy(world, settings), lowest = 0.0;
+    for (int frame = 0; frame < 96; ++frame) {
+        const FrameReport report = stepper.advanceFrame(world, kFrame);
+        const double energy = report.kineticEnergy + report.potentialEnergy;
+        rise += std::max(0.0, energy - before);
+        before = energy;
+        lowest = std::min(lowest, report.potentialEnergy);
+    }
+    return rise / -lowest;
+}
+
+TEST(GapMethod, AChainThatSwingsGainsNoEnergy)
+{
+    EXPECT_LE(riseOfSwingingChain(50), 0.005);
+}
+
 }  // namespace
 }  // namespace scree::test
