@@ -147,7 +147,9 @@ TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
     const TakeReader slippery = simulate("slippery", with("material.wood.friction=0.1"), branch);
     EXPECT_TRUE(sleepsIn(slippery, 1074));
     EXPECT_FALSE(sleepsIn(slippery, 1075));
-    const auto placeIn = [&](int frame) { return stateOf(slippery, frame).motion[kBlock].position; };
+    const auto placeIn = [&](int frame) {
+        return stateOf(slippery, frame).motion[kBlock].position;
+    };
     const double time = 5.0 / 24.0, acceleration = 3.0 - 0.1 * 9.81;
     EXPECT_NEAR(placeIn(1080).x() - placeIn(1075).x(), 0.5 * acceleration * time * time, 1e-3);
 }
