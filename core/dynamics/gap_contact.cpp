@@ -29,7 +29,7 @@ constexpr int kMostSweeps = 400;
 
 /// In a chain or a column what happens at one end has to come through all levels, one by one: so
 /// many sweeps for each. Of sixty links that swing shock did the rest, with the upper ones pinned
-/// as they moved, and that was work: 1.7 kJ in 20 s, more than they could fall; 15 J so. A heap has
+/// as they moved, and that was work: 1.7 kJ in 20 s, more than they could fall; 36 J so. A heap has
 /// many pairs on each level, and its ways are short.
 constexpr int kSweepsPerLevel = 4, kLevelsOfAChain = 8;
 constexpr int kPairsPerLevel = 2;  // at most, of a chain

@@ -517,6 +517,31 @@ TEST(GapMethod, WhatTurnsOnceAFrameWhereItStandsDoesNotSleep)
     EXPECT_LE((angularVelocityOf(world, 1) - oneTurnAFrame).norm(), 1e-6);
 }
 
+// The fourth ran at its full speed into the third, which had just been stopped, and stayed there.
+TEST(GapMethod, ARowThatRunsIntoAWallStopsOneAfterTheOther)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.1);
+    addPlane(world, material);
+    addBody(world, boxShape({1.0, 2.0, 2.0}, 1), material, {{-0.6, 1.0, 0.0}, Quat::Identity()},
+            0.0);
+    constexpr int kBoxes = 12;
+    for (int i = 0; i < kBoxes; ++i) {
+        addBody(world, boxShape({0.2, 0.2, 0.2}, 1), material,
+                {Vec3(0.3 + 0.202 * i, 0.1, 0.0), Quat::Identity()}, 1.0, {-10.0, 0.0, 0.0});
+    }
+    Stepper stepper(screeSettings());
+    double closest = 1.0;
+    for (int frame = 0; frame < 24; ++frame) {
+        stepper.advanceFrame(world, kFrame);
+        for (int i = 3; i < kBoxes + 2; ++i) {
+            const Vec3 apart = world.motion[i].position - world.motion[i - 1].position;
+            closest = std::min(closest, apart.norm());
+        }
+    }
+    EXPECT_GE(closest, 0.198);
+}
+
 /// By how much the energy of a chain has risen in all those steps in which it did, while it swung
 /// down from level; as a share of what it has fallen by [-].
 double riseOfSwingingChain(int links)
