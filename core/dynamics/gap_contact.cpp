@@ -17,6 +17,7 @@
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_lanes.h"
 #include "core/dynamics/gap_levels.h"
+#include "core/dynamics/gap_press.h"
 
 namespace scree {
 namespace {
@@ -157,6 +158,7 @@ void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
     lanes.build(scratch, island);
     solve(settings, dt, scratch, island, lanes);
     lanes.store(scratch);
+    if (isPressed(settings, dt, scratch, island)) solvePressed(dt, island, scratch);
 }
 
 }  // namespace
