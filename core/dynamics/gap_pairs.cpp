@@ -194,4 +194,17 @@ PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pai
     return parts;
 }
 
+std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island)
+{
+    std::vector<BodyId> movers;
+    for (const std::size_t i : island.pairs) {
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (scratch.bodies[body].inverseMass > 0.0) movers.push_back(body);
+        }
+    }
+    std::sort(movers.begin(), movers.end());
+    movers.erase(std::unique(movers.begin(), movers.end()), movers.end());
+    return movers;
+}
+
 }  // namespace scree

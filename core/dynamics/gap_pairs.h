@@ -32,4 +32,7 @@ std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
 /// The pairs by their parts, in their order.
 PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs);
 
+/// The bodies of an island that can be moved, sorted.
+std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island);
+
 }  // namespace scree

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_pairs.h"
 
 namespace scree {
 namespace {
@@ -60,19 +61,6 @@ Press pressOn(const GapScratch& scratch, const GapIsland& island)
         }
     }
     return press;
-}
-
-std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island)
-{
-    std::vector<BodyId> movers;
-    for (const std::size_t i : island.pairs) {
-        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (scratch.bodies[body].inverseMass > 0.0) movers.push_back(body);
-        }
-    }
-    std::sort(movers.begin(), movers.end());
-    movers.erase(std::unique(movers.begin(), movers.end()), movers.end());
-    return movers;
 }
 
 double massOf(const GapScratch& scratch, const std::vector<BodyId>& bodies)
