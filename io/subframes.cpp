@@ -80,19 +80,26 @@ void SubframeRecorder::afterStep(const World& world, double frameTime)
         const double instant = instants_[samples_.size()];
         const double time = instant / shot_.framesPerSecond;
         if (time > frameTime) break;
-        samples_.push_back(sampleAt(world, (time - timeBefore_) / (frameTime - timeBefore_)));
+        samples_.push_back(sampleAt(world, frameTime, time));
         samples_.back().offset = instant;
     }
     before_ = world.motion;
     timeBefore_ = frameTime;
 }
 
-SceneFrame SubframeRecorder::sampleAt(const World& world, double share)
+SceneFrame SubframeRecorder::sampleAt(const World& world, double frameTime, double time)
 {
+    const double share = (time - timeBefore_) / (frameTime - timeBefore_);
     inBetween_->clock = world.clock;
-    for (std::size_t body = 0; body < world.motion.size(); ++body) {
-        const BodyMotion &a = before_[body], &b = world.motion[body];
-        inBetween_->motion[body] = isSamePlace(a, b) ? b : mixed(a, b, share);
+    for (std::size_t i = 0; i < world.motion.size(); ++i) {
+        const BodyMotion &a = before_[i], &b = world.motion[i];
+        BodyMotion& motion = inBetween_->motion[i];
+        motion = isSamePlace(a, b) ? b : mixed(a, b, share);
+        // No step is shortened for what is keyed: a propeller may turn half round in one.
+        if (world.info[i].kind != BodyKind::keyed || isSamePlace(a, b)) continue;
+        const Pose pose = world.scriptedPose(static_cast<BodyId>(i), world.time(time - frameTime));
+        motion.position = pose.position;
+        motion.orientation = pose.orientation;
     }
     return captureFrame(shot_, *inBetween_);
 }

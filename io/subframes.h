@@ -48,7 +48,8 @@ public:
     const std::vector<SceneFrame>& samples() const { return samples_; }
 
 private:
-    SceneFrame sampleAt(const World& world, double share);
+    /// At `time`, of a world that has just come to `frameTime` since the frame it left [s].
+    SceneFrame sampleAt(const World& world, double frameTime, double time);
 
     const Shot& shot_;
     std::vector<double> instants_;

@@ -128,6 +128,33 @@ TEST_F(SubframesTest, EverySampleOfABodyInFlightLiesOnItsPath)
     }
 }
 
+TEST_F(SubframesTest, AKeyedBodyIsOnItsScriptInEverySample)
+{
+    // 144° and 2 m a frame, each of them one step.
+    std::string keys;
+    for (int k = 0; k < 6; ++k) {
+        keys += "{ frame = " + std::to_string(1001 + k) + ", position = [" + std::to_string(2 * k) +
+                ", 5, 0], rotation = [0, 0, " + std::to_string(144 * k) + "] },\n";
+    }
+    const Shot shot = parseShotText(
+        test::shotTextOf(
+            {.name = "propeller", .box = "[20, 20, 20]"},
+            test::bodyText("propeller",
+                           "motion = \"keyed\"\ninterpolate = \"linear\"\nkeys = [" + keys + "]") +
+                "[output]\nsubframes = [0.25]\n"),
+        "propeller.toml", {});
+    simulate(shot, folder / "take");
+    const TakeReader take(folder / "take");
+    for (int frame = 1001; frame < 1006; ++frame) {
+        const SceneFrame sample = take.readSamples(frame).back();
+        const double share = (frame - 1001 + sample.offset) / 5.0;
+        const Pose& pose = sample.worldFromAsset[1];
+        EXPECT_NEAR(pose.position.x(), 10.0 * share, 1e-9) << frame;
+        const Quat turn(Eigen::AngleAxisd(4.0 * kPi * share, Vec3::UnitZ()));
+        EXPECT_LT(pose.orientation.angularDistance(turn), 1e-9) << frame;
+    }
+}
+
 TEST_F(SubframesTest, BeforeTheFirstAndAfterTheLastFrameBodiesCoast)
 {
     simulate(shotWith(), folder / "take");
