@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/collision/ball_contacts.h"
+
 namespace scree {
 namespace {
 
@@ -23,6 +25,23 @@ constexpr double kLargestTurn = 0.2;
 /// A sharp feature is met only from the directions in between its faces: beyond, the face is
 /// nearer. A sine, for rounding.
 constexpr double kStrictly = 1e-6;
+
+/// Of the triangle that is nearest to a place.
+std::int32_t nearestVertex(const Shape& shape, const Vec3& place)
+{
+    const auto corners = shape.mesh.triangles.col(shape.rays.closestTriangle(place));
+    const auto distance = [&](int k) {
+        return (shape.mesh.points.col(corners[k]) - place).squaredNorm();
+    };
+    int nearest = 0;
+    for (int k = 1; k < 3; ++k) {
+        if (distance(k) < distance(nearest)) nearest = k;
+    }
+    return corners[nearest];
+}
+
+const Mat3 kUnturned = Mat3::Identity();
+const Vec3 kUnmoved = Vec3::Zero();
 
 /// One body of a contact, seen from the second.
 class Side {
@@ -93,19 +112,7 @@ private:
     {
         if (part_.kind == Kind::corner) return part_.index;
         if (part_.kind == Kind::edge) return edge().ends[0];
-        const Vec3 own = rotation_.transpose() * (near - translation_);
-        const int facet = shape_.rays.closestTriangle(own);
-        int nearest = 0;
-        for (int k = 1; k < 3; ++k) {
-            if ((corner(facet, k) - own).squaredNorm() <
-                (corner(facet, nearest) - own).squaredNorm())
-                nearest = k;
-        }
-        return shape_.mesh.triangles(nearest, facet);
-    }
-    Vec3 corner(int facet, int k) const
-    {
-        return shape_.mesh.points.col(shape_.mesh.triangles(k, facet));
+        return nearestVertex(shape_, rotation_.transpose() * (near - translation_));
     }
 
     const Shape& shape_;
@@ -168,8 +175,6 @@ Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const Featu
 Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
                       const FeatureContact& contact)
 {
-    static const Mat3 kUnturned = Mat3::Identity();
-    static const Vec3 kUnmoved = Vec3::Zero();
     Vec3 n = contact.normal;
     Side first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
     Side second(pair.second, ofSecond, kUnturned, kUnmoved, contact.point - contact.gap * n, n);
@@ -206,6 +211,20 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
                 second.sharpPart()};
     }
     return {};
+}
+
+std::optional<Vec3> placeTouchedFrom(const Shape& shape, const Vec3& near, const Vec3& outward)
+{
+    if (isBall(shape) || shape.isPlane) return {};
+    std::int32_t vertex = 0;
+    if (shape.distance.solid()) {  // has no rays, and few vertices
+        (shape.mesh.points.colwise() - near).colwise().squaredNorm().minCoeff(&vertex);
+    } else {
+        vertex = nearestVertex(shape, near);
+    }
+    Side side(shape, {Kind::corner, vertex}, kUnturned, kUnmoved, near, outward);
+    if (!side.isRoundMesh() || side.turnTo(outward) != Search::found) return {};
+    return Vec3(side.place().point + side.place().bulge * outward);
 }
 
 }  // namespace scree

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/collision/feature_contacts.h"
 
@@ -36,5 +37,9 @@ struct Rounding {
 /// is that of the smooth surfaces: facets hover by no more than they lie below these.
 Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
                       const FeatureContact& contact);
+
+/// The place near `near` where the smooth surface of a shape is touched from the direction
+/// `outward`, both in its frame; nothing where it is not round.
+std::optional<Vec3> placeTouchedFrom(const Shape& shape, const Vec3& near, const Vec3& outward);
 
 }  // namespace scree

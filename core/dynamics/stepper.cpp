@@ -17,6 +17,7 @@
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_layout.h"
+#include "core/dynamics/gap_lead.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
 #include "core/dynamics/gap_passing.h"
@@ -296,8 +297,10 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         resolveImpacts(settings_, dt, held, block, scratch);
         findLevels(dt, block, scratch);
     }
+    std::vector<VelocityLead> leads;
     {
         const PhaseTimer timer(seconds, Phase::contact);
+        leads = leadPlaces(world, dt, block, scratch);
         addForcesToGaps(dt, block, scratch);
         resolveGaps(settings_, dt, block, scratch);
     }
@@ -305,6 +308,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         const PhaseTimer timer(seconds, Phase::shock);
         propagateShockUp(world, settings_, dt, block, scratch);
     }
+    takeBack(leads, scratch);
     return seconds;
 }
 
