@@ -77,7 +77,7 @@ int runVerify(const VerifyOptions& options, Console& console)
             console.detail(std::string(experiment->id) + " " + experiment->title + ", " + method);
             verify::Result result{experiment, method, {}, 0.0};
             const double before = cpuSeconds();
-            experiment->run(context, result.findings);
+            verify::runExperiment(*experiment, context, result.findings);
             if (stopRequested()) return kExitStopped;  // a large shot was; its take is kept
             result.cpuSeconds = cpuSeconds() - before;
             if (!options.json) std::printf("%s\n", verify::toText(result).c_str());

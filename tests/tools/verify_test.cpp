@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.h"
 #include "tests/support/support.h"
 #include "tools/html_text.h"
 #include "tools/verify/plot.h"
 #include "tools/verify/report.h"
+#include "tools/verify/shot_run.h"
 
 namespace scree::verify {
 namespace {
@@ -25,7 +27,7 @@ void expectNothingBroken(const std::string& id)
 {
     const Experiment& experiment = *chooseExperiments({id}).at(0);
     Result result{&experiment, "paper", {}, 0.0};
-    experiment.run(briefContext(), result.findings);
+    runExperiment(experiment, briefContext(), result.findings);
     EXPECT_FALSE(result.findings.rows.empty());
     for (const Measurement& row : result.findings.rows) {
         EXPECT_FALSE(isBroken(row)) << row.what << ": " << row.measured << " " << row.unit
@@ -159,6 +161,46 @@ TEST(Verify, ARowPassesOnlyWithinItsBoundAndNothingThatIsNoNumberPasses)
     EXPECT_FALSE(summary.isComplete());
 }
 
+TEST(Verify, AFigureThatWasNoNumberOnceFailsItsBound)
+{
+    const double none = std::nan("");
+    for (const auto& [a, b] : {std::pair{1.0, none}, std::pair{none, 1.0}}) {
+        EXPECT_TRUE(std::isnan(larger(a, b)));
+        EXPECT_TRUE(std::isnan(smaller(a, b)));
+    }
+    EXPECT_EQ(larger(1.0, 2.0), 2.0);
+    EXPECT_EQ(smaller(1.0, 2.0), 1.0);
+}
+
+/// Blows a block away by steps or by frames, and asks for nothing that could fail but numbers.
+template <bool kByFrames>
+void runBlownAway(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E01_floor", {}, [](StepSettings& settings) {
+        settings.gravity.y() = std::numeric_limits<double>::infinity();
+    });
+    if (kByFrames)
+        run.advanceFrames(2);
+    else
+        run.advance(0.1, 60.0);
+    findings.atMost(Weight::must, "shift of a vertex", 0.0, 1.0, "m");
+}
+
+TEST(Verify, ARunThatIsNoLongerFiniteFailsInEitherMethod)
+{
+    Context context = briefContext();
+    for (const char* method : {"paper", "scree"}) {
+        context.method = method;
+        for (const auto run : {runBlownAway<false>, runBlownAway<true>}) {
+            Findings findings;
+            runExperiment({"E0", "", true, "", "", run}, context, findings);
+            ASSERT_EQ(findings.rows.size(), 1u) << method;
+            EXPECT_TRUE(isBroken(findings.rows[0]));
+            EXPECT_NE(findings.rows[0].note.find("block"), std::string::npos);
+        }
+    }
+}
+
 TEST(Verify, ExperimentsAreFoundByAnySpellingOfTheirNumber)
 {
     for (const char* id : {"E5", "e5", "5"}) {
@@ -176,7 +218,7 @@ TEST(Verify, ThePageHoldsTablesPlotsAndPicturesAndNeedsNothingElse)
     Context context = briefContext();
     context.wantsPictures = true;
     Result result{&experiment, "paper", {}, 0.0};
-    experiment.run(context, result.findings);
+    runExperiment(experiment, context, result.findings);
     Curve curve{"a < b", {0.0, 1.0, 2.0}, {0.0, 1.0, 4.0}, false};
     result.findings.plots.push_back({"title", "x", "y", {curve}});
     const std::string page = toHtml({result}, context);

@@ -32,9 +32,9 @@ Roll roll(ShotRun& run, double seconds)
     const BodyId ball = run.body("ball");
     run.advance(seconds, 240.0, [&](const StepReport&, double t) {
         const Vec3 spin = spinOf(run.world, ball);
-        result.reversal = std::max({result.reversal, spin.z(), -spin.y()});
-        if (std::abs(spin.z()) < 1e-9) result.rollStop = std::min(result.rollStop, t);
-        if (std::abs(spin.y()) < 1e-9) result.spinStop = std::min(result.spinStop, t);
+        result.reversal = larger(result.reversal, larger(spin.z(), -spin.y()));
+        if (std::abs(spin.z()) < 1e-9) result.rollStop = smaller(result.rollStop, t);
+        if (std::abs(spin.y()) < 1e-9) result.spinStop = smaller(result.spinStop, t);
         result.speeds.x.push_back(t);
         result.speeds.y.push_back(run.world.motion[ball].velocity.x());
     });
@@ -142,10 +142,10 @@ void otherShapes(const Context& context, Findings& findings)
     double energy = totalEnergy(run.world, run.shot.settings.gravity), rise = 0.0, reversal = 0.0;
     run.advance(4.0, 240.0, [&](const StepReport& report, double) {
         const double now = totalEnergy(run.world, run.shot.settings.gravity);
-        rise = std::max(rise, now - energy - report.pushOutWork);
+        rise = larger(rise, now - energy - report.pushOutWork);
         energy = now;
         for (const char* name : {"cube", "egg"}) {
-            reversal = std::max(reversal, -spinOf(run.world, run.body(name)).y());
+            reversal = larger(reversal, -spinOf(run.world, run.body(name)).y());
         }
     });
     findings.atMost(must, "E9d, cube and egg: energy rises in a step", rise, 1e-9, "J",

@@ -5,7 +5,6 @@
 // bodies and which shock propagation does nothing for; ten contact sweeps do not find it. In the
 // first second the key stone sinks by 995 mm with 10 sweeps, 104 with 50, 23 with 200; in the first
 // sixth of one a card goes by 6.9, 0.8 and 0.08 mm.
-#include <algorithm>
 #include <cmath>
 
 #include "core/math/rotation.h"
@@ -29,7 +28,7 @@ double largestGain(const HeapRecord& record)
     const auto second = static_cast<std::size_t>(record.scene.framesPerSecond);
     double gain = 0.0;
     for (std::size_t f = record.frames.size() / 2; f + second < record.frames.size(); ++f) {
-        gain = std::max(gain, energyOf(record.figures[f + second]) - energyOf(record.figures[f]));
+        gain = larger(gain, energyOf(record.figures[f + second]) - energyOf(record.figures[f]));
     }
     return gain;
 }
@@ -41,9 +40,9 @@ double deepestAtTheEnd(const HeapRecord& record)
     for (const Overlap& pair : judge.overlaps(record.frames.back())) {
         double edge = 1e300;
         for (std::size_t body : {pair.a, pair.b}) {
-            if (record.moves(body)) edge = std::min(edge, judge.shortestEdge(body));
+            if (record.moves(body)) edge = smaller(edge, judge.shortestEdge(body));
         }
-        deepest = std::max(deepest, pair.depth / edge);
+        deepest = larger(deepest, pair.depth / edge);
     }
     return deepest;
 }
@@ -78,7 +77,7 @@ void standing(const Context& context, const std::string& shot, const std::string
         if (!run.world.mass[b].isMovable()) continue;
         const auto body = static_cast<BodyId>(b);
         const double length = run.world.shapeOf(body).box.longestEdge();
-        moved = std::max(moved, largestVertexShift(run.start, run.world, body) / length);
+        moved = larger(moved, largestVertexShift(run.start, run.world, body) / length);
     }
     const std::string when = name + ", " + shortNumber(seconds) + " s: ";
     // A fall moves bodies by several times their length.
@@ -102,16 +101,16 @@ void nutOnABolt(const Context& context, Findings& findings)
     double deepest = 0.0, offThread = 0.0, turned = 0.0;
     const SceneFrame* before = &start;
     for (const SceneFrame& frame : record.frames) {
-        for (const Overlap& pair : judge.overlaps(frame)) deepest = std::max(deepest, pair.depth);
+        for (const Overlap& pair : judge.overlaps(frame)) deepest = larger(deepest, pair.depth);
         for (std::size_t b = 0; b < record.scene.bodies.size(); ++b) {
             if (!record.moves(b)) continue;
             turned += std::remainder(headingOf(frame.worldFromAsset[b].orientation) -
                                          headingOf(before->worldFromAsset[b].orientation),
                                      2.0 * kPi);
-            const double fallen = start.worldFromAsset[b].position.y() -
-                                  frame.worldFromAsset[b].position.y();
+            const double fallen =
+                start.worldFromAsset[b].position.y() - frame.worldFromAsset[b].position.y();
             offThread =
-                std::max(offThread, std::abs(fallen - kPitch * std::abs(turned) / (2.0 * kPi)));
+                larger(offThread, std::abs(fallen - kPitch * std::abs(turned) / (2.0 * kPi)));
         }
         before = &frame;
     }

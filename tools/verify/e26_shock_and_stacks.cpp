@@ -1,5 +1,4 @@
 // E26: what shock propagation buys. E27: tall and heavy stacks at one step a frame. [A45]
-#include <algorithm>
 #include <cmath>
 
 #include "tools/verify/experiments.h"
@@ -29,7 +28,7 @@ Stand standFor(ShotRun& run, double seconds, double rate, double enough)
         run.advance(0.25, rate, [&](const StepReport&, double) {
             for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
                 const Vec3 moved = run.world.motion[b].position - run.start.motion[b].position;
-                result.drift = std::max(result.drift, std::hypot(moved.x(), moved.z()));
+                result.drift = larger(result.drift, std::hypot(moved.x(), moved.z()));
             }
         });
         result.sink =
@@ -94,7 +93,7 @@ void runWhatShockBuys(const Context& context, Findings& findings)
         const Stand result = standFor(run, 2.0, 240.0, 1e-3);
         findings.atLeast(context.method == "paper" ? must : departure,
                          name + "five times as many without shock: sinks or drifts",
-                         std::max(result.sink, result.drift), 1e-3, "m",
+                         larger(result.sink, result.drift), 1e-3, "m",
                          context.method == "paper" ? "" : "method scree stands without shock");
     }
 }
@@ -125,7 +124,7 @@ void runTallAndHeavy(const Context& context, Findings& findings)
     double moved = 0.0;
     for (std::size_t b = 0; b < dominoes.world.bodyCount(); ++b) {
         if (dominoes.world.mass[b].isMovable()) {
-            moved = std::max(
+            moved = larger(
                 moved, largestVertexShift(dominoes.start, dominoes.world, static_cast<BodyId>(b)));
         }
     }

@@ -141,7 +141,7 @@ void addCommonRows(const HeapRecord& record, const std::string& name, Weight ene
         const FrameFigures &before = record.figures[f - 1], &now = record.figures[f];
         const double gained = now.kineticEnergy + now.potentialEnergy - before.kineticEnergy -
                               before.potentialEnergy - now.pushOutWork;
-        rise = std::max(rise, gained / (now.kineticEnergy + scale));
+        rise = larger(rise, gained / (now.kineticEnergy + scale));
         wall.push_back(now.wallSeconds);
         cpu.push_back(now.cpuSeconds);
     }
