@@ -2,12 +2,17 @@
 // stated. And the report that is made of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.h"
+#include "io/build_world.h"
+#include "io/take.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 #include "tools/html_text.h"
+#include "tools/verify/heap_record.h"
 #include "tools/verify/plot.h"
 #include "tools/verify/report.h"
 #include "tools/verify/shot_run.h"
@@ -198,6 +203,26 @@ TEST(Verify, ARunThatIsNoLongerFiniteFailsInEitherMethod)
             EXPECT_TRUE(isBroken(findings.rows[0]));
             EXPECT_NE(findings.rows[0].note.find("block"), std::string::npos);
         }
+    }
+}
+
+TEST(Verify, ATakeOfLessThanTwoFramesIsMissingAndNotJudged)
+{
+    const test::TemporaryFolder takes;
+    Context context = briefContext();
+    context.takes = takes.path();
+    const Shot shot = parseShotText(
+        test::shotTextOf({}, test::bodyText("block", "position = [0, 2, 0]")), "s.toml");
+    World world = buildWorld(shot);
+    TakeWriter take(folderOfTake(context, "s"), shot, world, "1.2.3", ExistingTake::refuse);
+    for (int frames = 0; frames < 3; ++frames) {
+        Findings findings;
+        EXPECT_EQ(largeTake(context, "s", findings).has_value(), frames == 2) << frames;
+        EXPECT_EQ(std::ranges::count_if(findings.rows, isMissing), frames < 2) << frames;
+        FrameStats stats;
+        stats.frame = shot.firstFrame + frames;
+        take.writeFrame(world, stats);
+        ++world.clock.frame;
     }
 }
 
