@@ -132,7 +132,10 @@ void meshedSphere(const Context& context, Findings& findings)
     findings.near(must, "E9c, sphere of 1280 triangles, no rolling friction: speed after 6 s",
                   roll(rolling, 6.0).speed, 2.0, 0.1, "m/s");
     const Roll result = roll(stopping, 2.0);
-    findings.atMost(must, "E9c, coefficient 0.5: stops rolling", result.rollStop, 0.6, "s");
+    // A ball stops at 0.4082 s. This one does when it is too slow for the next edge: to lift it by
+    // R t²/8 = 1.2 mm, t = 0.14 rad being the width of a facet, takes 0.13 m/s, which are 0.026 s.
+    findings.near(must, "E9c, coefficient 0.5: stops rolling", result.rollStop,
+                  4.0 / (0.5 * 2.0 * 9.8), 0.026 + kStep, "s", "a facet may hold it earlier");
     findings.atMost(must, "E9c, coefficient 0.5: turns back", result.reversal, 1e-6, "rad/s");
 }
 
