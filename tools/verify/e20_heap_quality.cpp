@@ -1,5 +1,5 @@
 // E20: a heap of mixed nonconvex bodies comes to rest in a bin; an arch and a house of cards stand;
-// a nut turns itself down a bolt. Goals: the full form takes long.
+// a nut turns itself down a bolt. Goals, of which method `scree` must keep what it has reached.
 //
 // With method `paper` arch and house fall. Both stand by thrust, which runs round through many
 // bodies and which shock propagation does nothing for; ten contact sweeps do not find it. In the
@@ -16,6 +16,11 @@ namespace scree::verify {
 namespace {
 
 using enum Weight;
+
+Weight weightFor(const Context& context)
+{
+    return context.method == "scree" ? must : goal;
+}
 
 double energyOf(const FrameFigures& figures)
 {
@@ -56,12 +61,12 @@ void heap(const Context& context, Findings& findings)
     const HeapRecord record = recordRun(run, frames);
     const std::string name =
         std::to_string(bodies) + " bodies, " + std::to_string(frames / 24) + " s: ";
-    findings.atMost(goal, name + "energy gained over any second of the second half",
+    findings.atMost(weightFor(context), name + "energy gained over any second of the second half",
                     largestGain(record), 0.0, "J");
     findings.atMost(goal, name + "fastest body at the end",
                     quantile(speedsAt(record, record.frames.size() - 1), 1.0), 0.01, "m/s");
-    findings.atMost(goal, name + "deepest overlap at the end", deepestAtTheEnd(record), 0.01,
-                    "of the shortest edge", "dense samples");
+    findings.atMost(weightFor(context), name + "deepest overlap at the end",
+                    deepestAtTheEnd(record), 0.01, "of the shortest edge", "dense samples");
     addPicture(context, run, name + "the heap at the end", findings);
 }
 
@@ -81,7 +86,7 @@ void standing(const Context& context, const std::string& shot, const std::string
     }
     const std::string when = name + ", " + shortNumber(seconds) + " s: ";
     // A fall moves bodies by several times their length.
-    findings.atMost(goal, when + "largest shift", moved, 0.05, "of a body's length");
+    findings.atMost(weightFor(context), when + "largest shift", moved, 0.05, "of a body's length");
     addPicture(context, run, when + "at the end", findings);
 }
 
@@ -114,11 +119,13 @@ void nutOnABolt(const Context& context, Findings& findings)
         }
         before = &frame;
     }
-    findings.atMost(goal, "nut on a bolt, 4 s: overlap in any frame", deepest / kPitch, 0.02,
-                    "of the pitch", "dense samples");
-    findings.atMost(goal, "nut on a bolt, 4 s: way down less turns times pitch, play both ways",
+    findings.atMost(weightFor(context), "nut on a bolt, 4 s: overlap in any frame",
+                    deepest / kPitch, 0.02, "of the pitch", "dense samples");
+    findings.atMost(weightFor(context),
+                    "nut on a bolt, 4 s: way down less turns times pitch, play both ways",
                     offThread, 2.0 * kAxialPlay, "m");
-    findings.atLeast(goal, "nut on a bolt, 4 s: turns", std::abs(turned) / (2.0 * kPi), 0.5, "");
+    findings.atLeast(weightFor(context), "nut on a bolt, 4 s: turns",
+                     std::abs(turned) / (2.0 * kPi), 0.5, "");
     addPicture(context, run, "The nut after 4 s", findings);
 }
 
@@ -127,7 +134,7 @@ void nutOnABolt(const Context& context, Findings& findings)
 void runHeapQuality(const Context& context, Findings& findings)
 {
     heap(context, findings);
-    if (!context.isFull()) return;
+    if (!context.isFull() && context.method == "paper") return;  // what falls takes long
     standing(context, "E20_arch", "catenary arch of 25 stones", 10.0, findings);
     standing(context, "E20_card_house", "card house of four storeys", 5.0, findings);
     nutOnABolt(context, findings);
