@@ -1,12 +1,12 @@
 // The experiments that prove the method, as a table, as JSON and as a page.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <ctime>
 
 #include "core/base/parallel.h"
 #include "io/atomic_file.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
+#include "tools/cpu_time.h"
 #include "tools/exit_code.h"
 #include "tools/simulation.h"
 #include "tools/stop_signals.h"
@@ -21,11 +21,6 @@ struct VerifyOptions {
     bool full = false, judgeOnly = false, json = false, list = false;
     std::optional<int> threads;
 };
-
-double cpuSeconds()
-{
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 int listExperiments()
 {
