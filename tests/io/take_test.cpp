@@ -496,6 +496,15 @@ TEST_F(TakeTest, CutLineOfTheStatisticsIsDroppedOnResume)
     EXPECT_TRUE(text.ends_with("}\n"));
 }
 
+// A line that the disk would not keep was taken for written.
+TEST_F(TakeTest, FiguresThatCannotBeMadeDurableAreAnError)
+{
+    TakeWriter take = open(ExistingTake::refuse, shot);
+    fs::remove(folder / "take/stats.jsonl");
+    fs::create_symlink("/dev/null", folder / "take/stats.jsonl");  // takes all, syncs nothing
+    EXPECT_EQ(kindOf([&] { take.writeFrame(world, statsOf(world)); }), ErrorKind::inputOutput);
+}
+
 TEST_F(TakeTest, SecondWriterIsKeptOut)
 {
     const TakeWriter take = open(ExistingTake::refuse, shot);
