@@ -202,9 +202,4 @@ double PoseJudge::shortestEdge(std::size_t body) const
     return solidOf(body).box.shortestEdge();
 }
 
-double PoseJudge::longestEdge(std::size_t body) const
-{
-    return solidOf(body).box.longestEdge();
-}
-
 }  // namespace scree::verify
