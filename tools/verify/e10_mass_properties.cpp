@@ -1,5 +1,5 @@
 // E10: mass properties against closed forms. [A2, A3]  Meshes are built in code; the words with
-// which meshes that are no solid are refused are told by tests/core/mass_properties_test.cpp.
+// which meshes that are no solid are refused are told by tests/io/torture_mesh_test.cpp.
 #include <algorithm>
 #include <cmath>
 
