@@ -110,9 +110,9 @@ Vec3 vectorFromJson(const Json& json)
     return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
 }
 
-Json toJson(const TakeLook& look)
+Json toJson(const SceneMaterial& look)
 {
-    return {{"material", look.material},   {"color", toJson(look.color)},
+    return {{"material", look.name},       {"color", toJson(look.color)},
             {"roughness", look.roughness}, {"density", look.density},
             {"friction", look.friction},   {"restitution", look.restitution}};
 }
@@ -214,10 +214,10 @@ Vec3 colorFrom(const Json& json)
 void readPictures(const Json& json, TakeInfo& info)
 {
     for (const Json& look : json.at("looks"))
-        info.looks.push_back({look.at("material"), colorFrom(look.at("color")),
-                              numberFrom<double>(look.at("roughness"), "material.roughness"),
-                              look.value("density", 0.0), look.value("friction", 0.0),
-                              look.value("restitution", 0.0)});
+        info.materials.push_back({look.at("material"), colorFrom(look.at("color")),
+                                  numberFrom<double>(look.at("roughness"), "material.roughness"),
+                                  look.value("density", 0.0), look.value("friction", 0.0),
+                                  look.value("restitution", 0.0)});
     for (const Json& camera : json.at("cameras")) info.cameras.push_back(cameraFromJson(camera));
     for (const std::size_t k : {0, 1}) {
         info.pictureSize[k] = numberFrom<int>(json.at("picture_size").at(k), "render.size");
@@ -229,9 +229,9 @@ void readPictures(const Json& json, TakeInfo& info)
 void describePictures(const Shot& shot, TakeInfo& info)
 {
     for (const ShotMaterial& material : shot.materials)
-        info.looks.push_back({material.material.name, material.color, material.roughness,
-                              material.material.density, material.material.friction,
-                              material.material.restitution});
+        info.materials.push_back({material.material.name, material.color, material.roughness,
+                                  material.material.density, material.material.friction,
+                                  material.material.restitution});
     for (const SceneCamera& camera : shot.cameras)
         info.cameras.push_back(scaled(camera, 1.0 / shot.metresPerUnit));
     info.pictureSize = shot.render.size;
@@ -342,7 +342,7 @@ std::string encodeTakeInfo(const TakeInfo& info)
         {"inputs", inputs},
         {"shapes", shapes},
         {"bodies", listToJson(info.bodies)},
-        {"looks", listToJson(info.looks)},
+        {"looks", listToJson(info.materials)},
         {"cameras", listToJson(info.cameras)},
         {"picture_size", info.pictureSize},
         {"burnin", info.burnIn},

@@ -81,8 +81,8 @@ Look scaleLook(double share)
 std::vector<Look> materialLooks(const TakeInfo& info, const SceneDescription& scene)
 {
     std::map<std::string, Look> byMaterial;
-    for (const TakeLook& look : info.looks)
-        byMaterial[look.material] = {look.color, look.roughness};
+    for (const SceneMaterial& material : info.materials)
+        byMaterial[material.name] = {material.color, material.roughness};
     std::vector<Look> looks;
     for (const SceneBody& body : scene.bodies) looks.push_back(byMaterial[body.material]);
     return variedLooks(scene, looks);
