@@ -3,34 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/aabb.h"
+#include "core/math/point_box.h"
 #include "core/math/rotation.h"
 #include "core/scene/camera_motion.h"
 
 namespace scree {
 
-namespace {
-
-Aabb boxOf(const Points& points)
-{
-    Aabb box;
-    for (Eigen::Index i = 0; i < points.cols(); ++i) box.include(Vec3(points.col(i)));
-    return box;
-}
-
-}  // namespace
-
 Pose worldFromCamera(const SceneCamera& camera, bool zUp)
 {
-    const Vec3 up = upOf(camera, zUp);
-    Vec3 backward = camera.eye - camera.target;
-    if (backward.norm() == 0.0) backward = Vec3::UnitZ();
-    backward.normalize();
-    Vec3 right = up.cross(backward);
-    if (right.norm() < 1e-9 * up.norm()) right = backward.unitOrthogonal();
-    right.normalize();
-    Mat3 axes;
-    axes << right, backward.cross(right), backward;
+    const Mat3 axes = worldFromViewAxes(camera.eye, camera.target, upOf(camera, zUp));
     return {camera.eye, Quat(axes).normalized()};
 }
 

@@ -230,10 +230,11 @@ void addState(FrameEncoder& encoder, const FrameState& state)
     if (!state.bornAt.empty()) encoder.add("body.born_at", 1, state.bornAt);
 }
 
-/// Nothing at all for method `paper`, which remembers nothing.
+/// Nothing at all where nothing is remembered: for method `paper`, and at time zero unless bodies
+/// start asleep.
 void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
 {
-    if (memory.dt == 0.0) return;
+    if (memory.dt == 0.0 && memory.contacts.empty() && memory.rest.empty()) return;
     std::vector<std::int32_t> bodies, still, nearby;
     std::vector<std::int64_t> features;
     std::vector<double> place, force, couple, position, orientation, pull, nearPosition,

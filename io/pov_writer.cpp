@@ -9,6 +9,7 @@
 
 #include "core/math/rotation.h"
 #include "core/scene/camera_motion.h"
+#include "core/scene/preview_light.h"
 #include "core/scene/shaded_mesh.h"
 #include "io/atomic_file.h"
 #include "io/camera_pose.h"
@@ -21,14 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The light of the preview pictures: where the sun stands in a y-up scene, and colours in linear
-// light. POV-Ray's ambient light does not know up from down, so there is one, of the sky's colour.
-const Vec3 kTowardSun = {-0.30, 0.80, 0.55};
-const Vec3 kSunColor = {1.02, 0.94, 0.82};
-const Vec3 kAmbient = {0.19, 0.20, 0.23};
-const Vec3 kZenith = {0.10, 0.15, 0.22};
-const Vec3 kHorizon = {0.30, 0.34, 0.39};
-const Vec3 kNadir = {0.10, 0.105, 0.115};
+// POV-Ray's ambient light does not know up from down: the mean of both.
+const Vec3 kAmbient = 0.5 * (kSkyLight + kGroundLight);
 
 template <class Vector>
 std::string povVector(const Vector& vector)
@@ -210,11 +205,12 @@ std::string PovWriter::lightText() const
     std::string colors;
     for (const double height : {-1.0, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 1.0}) {
         const double share = std::exp(-3.2 * std::abs(height));
-        const Vec3 color = share * kHorizon + (1.0 - share) * (height > 0.0 ? kZenith : kNadir);
+        const Vec3 color =
+            share * kHorizonColor + (1.0 - share) * (height > 0.0 ? kZenithColor : kNadirColor);
         colors += "            [" + numberText(0.5 + 0.5 * height) + " color rgb " +
                   povVector(color.cast<float>().eval()) + "]\n";
     }
-    return "light_source {\n    " + povVector(place) + ", color rgb " + povVector(kSunColor) +
+    return "light_source {\n    " + povVector(place) + ", color rgb " + povVector(kSunLight) +
            "\n    parallel point_at " + povVector(camera_->target) +
            "\n}\nsky_sphere {\n    pigment {\n        gradient " + povVector(up) +
            "\n        color_map {\n" + colors + "        }\n        scale 2 translate " +

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/nearest_word.h"
+#include "io/unique_names.h"
 
 namespace scree {
 namespace {
@@ -123,7 +124,7 @@ private:
 
     void checkName(const std::string& name, const SourceLocation& where)
     {
-        if (isIdentifier(name)) return;
+        if (isPlainName(name)) return;
         problems_.add(where, "name " + toTomlText(std::string_view(name)) +
                                  " must be letters, digits and _, not beginning with a digit");
     }
@@ -334,16 +335,6 @@ std::string printShotTree(const ShotNode& tree)
         }
     }
     return text;
-}
-
-bool isIdentifier(std::string_view name)
-{
-    const auto isLetter = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    };
-    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
-    return !name.empty() && !isDigit(name.front()) &&
-           std::all_of(name.begin(), name.end(), [&](char c) { return isLetter(c) || isDigit(c); });
 }
 
 }  // namespace scree

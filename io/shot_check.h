@@ -25,7 +25,4 @@ void completeShotTree(ShotNode& tree, ReadTomlValue readValue);
 /// The tree as TOML, in the order of the schema: the resolved shot.
 std::string printShotTree(const ShotNode& tree);
 
-/// Letters, digits and _, no digit first: what every export format takes as a name.
-bool isIdentifier(std::string_view name);
-
 }  // namespace scree

@@ -3,7 +3,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -12,23 +11,12 @@
 #include "io/file_bytes.h"
 #include "io/mesh_import.h"
 #include "io/nearest_word.h"
+#include "io/unique_names.h"
 
 namespace scree {
 namespace {
 
 constexpr std::size_t kNamesTold = 12;
-
-/// What is no letter, digit or _ becomes _; a digit never stands first.
-std::string identifierOf(const std::string& name)
-{
-    std::string result;
-    for (const unsigned char letter : name) {
-        const bool isPlain = letter < 128 && (std::isalnum(letter) != 0 || letter == '_');
-        result += isPlain ? static_cast<char>(letter) : '_';
-    }
-    if (result.empty()) return "node";
-    return std::isdigit(static_cast<unsigned char>(result.front())) != 0 ? "_" + result : result;
-}
 
 /// Marks the nodes that one of the patterns fits.
 std::vector<bool> chooseNodes(const ShotNode& patterns, const ImportedFile& file,
@@ -241,7 +229,7 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
         if (!isChosen[i]) continue;
         const ImportedNode& imported = file.nodes[i];
         PlacedNode placed;
-        placed.name = identifierOf(imported.name);
+        placed.name = imported.name.empty() ? "node" : plainName(imported.name);
         TriMesh mesh =
             transformed(imported.mesh, Pose(), Vec3::Constant(placement.metresPerUnit()));
         placed.shape = {path, pool.share(std::move(mesh))};

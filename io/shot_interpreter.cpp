@@ -17,6 +17,7 @@
 #include "io/shot_solver.h"
 #include "io/shot_values.h"
 #include "io/subframes.h"
+#include "io/unique_names.h"
 
 namespace scree {
 namespace {
@@ -81,7 +82,7 @@ private:
         if (!table) return;
         if (const ShotNode* name = table->find("name")) {
             shot_.name = name->text;
-            if (!isIdentifier(name->text)) {
+            if (!isPlainName(name->text)) {
                 report(*name, "name " + toTomlText(std::string_view(name->text)) +
                                   " must be letters, digits and _, not beginning with a digit");
             }

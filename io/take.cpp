@@ -110,13 +110,15 @@ void appendLine(const fs::path& path, const std::string& line)
     errno = 0;
     const bool written =
         ::write(descriptor, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
-    const int reason = errno == 0 ? ENOSPC : errno;
+    int reason = errno == 0 ? ENOSPC : errno;
     if (!written && ::ftruncate(descriptor, before) != 0) {
         // The cut line is skipped by readers and dropped by the next resume.
     }
-    ::fdatasync(descriptor);
-    ::close(descriptor);
-    if (!written)
+    const bool isKept = ::fdatasync(descriptor) == 0;
+    if (written && !isKept) reason = errno;
+    const bool isClosed = ::close(descriptor) == 0;
+    if (written && isKept && !isClosed) reason = errno;
+    if (!written || !isKept || !isClosed)
         throw Error(ErrorKind::inputOutput,
                     "writing \"" + path.string() + "\" failed: " + std::strerror(reason));
 }

@@ -1,7 +1,7 @@
 #include "io/take_diff.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 #include <map>
 #include <set>
 #include <utility>
@@ -28,20 +28,28 @@ void requireSameBodies(const TakeInfo& a, const TakeInfo& b)
     }
 }
 
-/// Bit for bit, so that −0 and 0 differ as they do for resume.
+// Bit for bit, so that −0 and 0 differ as they do for resume.
+bool isSame(const Vec3& a, const Vec3& b)
+{
+    return std::memcmp(a.data(), b.data(), sizeof a) == 0;
+}
+
+bool isSame(const Quat& a, const Quat& b)
+{
+    return std::memcmp(a.coeffs().data(), b.coeffs().data(), sizeof a) == 0;
+}
+
 bool isSame(const BodyMotion& a, const BodyMotion& b)
 {
-    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
-           a.velocity == b.velocity && a.angularMomentum == b.angularMomentum;
+    return isSame(a.position, b.position) && isSame(a.orientation, b.orientation) &&
+           isSame(a.velocity, b.velocity) && isSame(a.angularMomentum, b.angularMomentum);
 }
 
 bool isSame(const SceneFrame& a, const SceneFrame& b)
 {
     for (std::size_t i = 0; i < a.worldFromAsset.size(); ++i) {
         const Pose &p = a.worldFromAsset[i], &q = b.worldFromAsset[i];
-        if (p.position != q.position || p.orientation.coeffs() != q.orientation.coeffs()) {
-            return false;
-        }
+        if (!isSame(p.position, q.position) || !isSame(p.orientation, q.orientation)) return false;
     }
     return true;
 }
@@ -58,20 +66,20 @@ std::optional<double> firstOffset(const FrameState& a, const FrameState& b)
 
 bool isSame(const Stay& a, const Stay& b)
 {
-    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
+    return isSame(a.position, b.position) && isSame(a.orientation, b.orientation) &&
            a.frames == b.frames;
 }
 
 bool isSame(const BodyRest& a, const BodyRest& b)
 {
-    return isSame(a.still, b.still) && isSame(a.nearby, b.nearby) && a.pull == b.pull &&
+    return isSame(a.still, b.still) && isSame(a.nearby, b.nearby) && isSame(a.pull, b.pull) &&
            a.isAsleep == b.isAsleep;
 }
 
 bool isSame(const RememberedContact& a, const RememberedContact& b)
 {
-    return a.a == b.a && a.b == b.b && a.feature == b.feature && a.place == b.place &&
-           a.force == b.force && a.couple == b.couple;
+    return a.a == b.a && a.b == b.b && a.feature == b.feature && isSame(a.place, b.place) &&
+           isSame(a.force, b.force) && isSame(a.couple, b.couple);
 }
 
 using ContactsOfPairs = std::map<std::pair<BodyId, BodyId>, std::vector<RememberedContact>>;

@@ -1,6 +1,8 @@
 #include "io/take_info.h"
 
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -9,6 +11,7 @@
 #include "core/base/hash.h"
 #include "core/scene/camera_motion.h"
 #include "io/file_bytes.h"
+#include "io/shot_schema.h"
 #include "io/subframes.h"
 
 namespace scree {
@@ -23,6 +26,34 @@ std::uint64_t fromHex(const std::string& text)
     if (result.ec != std::errc() || result.ptr != text.data() + text.size())
         throw std::runtime_error("\"" + text + "\" is not a hexadecimal number");
     return value;
+}
+
+void require(bool isRight, const std::string& key, const Json& json, const std::string& expected)
+{
+    if (isRight) return;
+    throw std::runtime_error("\"" + key + "\" is " + json.dump() + ", expected " + expected);
+}
+
+/// A number that the shot's key `path` has given: what the shot may not say, a take cannot hold.
+template <class Number>
+Number numberFrom(const Json& json, const char* path)
+{
+    const ShotKey& key = *findShotKey(path);
+    const auto value = json.get<double>();
+    const bool isInside =
+        key.isOpen ? value > key.min && value < key.max : value >= key.min && value <= key.max;
+    const bool isWhole = !std::is_integral_v<Number> || value == std::floor(value);
+    require(isInside && isWhole, path, json, "what a shot may say there");
+    return static_cast<Number>(value);
+}
+
+int frameFrom(const Json& json)
+{
+    constexpr double kFarthest = std::numeric_limits<int>::max();
+    const auto value = json.get<double>();
+    require(std::abs(value) <= kFarthest && value == std::floor(value), "frames", json,
+            "whole numbers");
+    return static_cast<int>(value);
 }
 
 const char* motionWord(BodyKind kind)
@@ -47,6 +78,15 @@ Json toJson(const TakeBody& body)
     return json;
 }
 
+BodyKind kindFrom(const Json& json)
+{
+    for (const BodyKind kind : {BodyKind::dynamic, BodyKind::keyed, BodyKind::fixed}) {
+        if (json == motionWord(kind)) return kind;
+    }
+    require(false, "motion", json, "dynamic, keyed or static");
+    return BodyKind::fixed;
+}
+
 TakeBody bodyFromJson(const Json& json)
 {
     TakeBody body;
@@ -54,10 +94,9 @@ TakeBody bodyFromJson(const Json& json)
     body.isPlane = json.contains("plane");
     body.shape = json.at(body.isPlane ? "plane" : "shape");
     body.material = json.at("material");
-    body.kind = json.at("motion") == "dynamic" ? BodyKind::dynamic
-                : json.at("motion") == "keyed" ? BodyKind::keyed
-                                               : BodyKind::fixed;
+    body.kind = kindFrom(json.at("motion"));
     body.mass = json.at("mass");
+    require(body.mass >= 0.0, "mass", json.at("mass"), "no less than nothing");
     return body;
 }
 
@@ -71,9 +110,9 @@ Vec3 vectorFromJson(const Json& json)
     return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
 }
 
-Json toJson(const TakeLook& look)
+Json toJson(const SceneMaterial& look)
 {
-    return {{"material", look.material},   {"color", toJson(look.color)},
+    return {{"material", look.name},       {"color", toJson(look.color)},
             {"roughness", look.roughness}, {"density", look.density},
             {"friction", look.friction},   {"restitution", look.restitution}};
 }
@@ -102,7 +141,7 @@ Json toJson(const CameraKey& key)
 CameraKey keyFromJson(const Json& json)
 {
     return {json.at("frame"), vectorFromJson(json.at("eye")), vectorFromJson(json.at("target")),
-            json.at("fov"), upFromJson(json)};
+            numberFrom<double>(json.at("fov"), "camera.keys.fov"), upFromJson(json)};
 }
 
 Json toJson(const CameraOrbit& orbit)
@@ -115,7 +154,7 @@ Json toJson(const CameraOrbit& orbit)
 CameraOrbit orbitFromJson(const Json& json)
 {
     return {vectorFromJson(json.at("centre")),
-            json.at("radius"),
+            numberFrom<double>(json.at("radius"), "camera.orbit.radius"),
             json.at("height"),
             json.at("start"),
             json.at("degrees"),
@@ -155,7 +194,7 @@ SceneCamera cameraFromJson(const Json& json)
     camera.name = json.at("name");
     camera.eye = vectorFromJson(json.at("eye"));
     camera.target = vectorFromJson(json.at("target"));
-    camera.fovDegrees = json.at("fov");
+    camera.fovDegrees = numberFrom<double>(json.at("fov"), "camera.fov");
     camera.up = upFromJson(json);
     if (json.contains("keys")) {
         for (const Json& key : json.at("keys")) camera.keys.push_back(keyFromJson(key));
@@ -165,24 +204,34 @@ SceneCamera cameraFromJson(const Json& json)
     return camera;
 }
 
+Vec3 colorFrom(const Json& json)
+{
+    Vec3 color;
+    for (const int k : {0, 1, 2}) color[k] = numberFrom<double>(json.at(k), "material.color");
+    return color;
+}
+
 void readPictures(const Json& json, TakeInfo& info)
 {
     for (const Json& look : json.at("looks"))
-        info.looks.push_back({look.at("material"), vectorFromJson(look.at("color")),
-                              look.at("roughness"), look.value("density", 0.0),
-                              look.value("friction", 0.0), look.value("restitution", 0.0)});
+        info.materials.push_back({look.at("material"), colorFrom(look.at("color")),
+                                  numberFrom<double>(look.at("roughness"), "material.roughness"),
+                                  look.value("density", 0.0), look.value("friction", 0.0),
+                                  look.value("restitution", 0.0)});
     for (const Json& camera : json.at("cameras")) info.cameras.push_back(cameraFromJson(camera));
-    info.pictureSize = {json.at("picture_size").at(0), json.at("picture_size").at(1)};
+    for (const std::size_t k : {0, 1}) {
+        info.pictureSize[k] = numberFrom<int>(json.at("picture_size").at(k), "render.size");
+    }
     info.burnIn = json.value("burnin", true);
-    info.motionBlur = json.value("motion_blur", 1);
+    info.motionBlur = numberFrom<int>(json.value("motion_blur", Json(1)), "render.motion_blur");
 }
 
 void describePictures(const Shot& shot, TakeInfo& info)
 {
     for (const ShotMaterial& material : shot.materials)
-        info.looks.push_back({material.material.name, material.color, material.roughness,
-                              material.material.density, material.material.friction,
-                              material.material.restitution});
+        info.materials.push_back({material.material.name, material.color, material.roughness,
+                                  material.material.density, material.material.friction,
+                                  material.material.restitution});
     for (const SceneCamera& camera : shot.cameras)
         info.cameras.push_back(scaled(camera, 1.0 / shot.metresPerUnit));
     info.pictureSize = shot.render.size;
@@ -214,16 +263,20 @@ TakeInfo infoFromJson(const Json& json)
     TakeInfo info;
     info.programVersion = json.at("program_version");
     info.name = json.at("name");
-    info.framesPerSecond = json.at("fps");
-    info.firstFrame = json.at("frames").at(0);
-    info.lastFrame = json.at("frames").at(1);
+    info.framesPerSecond = numberFrom<double>(json.at("fps"), "shot.fps");
+    info.firstFrame = frameFrom(json.at("frames").at(0));
+    info.lastFrame = frameFrom(json.at("frames").at(1));
+    require(info.firstFrame <= info.lastFrame, "frames", json.at("frames"), "the first first");
     info.metresPerUnit = json.at("metres_per_unit");
+    require(info.metresPerUnit > 0.0, "metres_per_unit", json.at("metres_per_unit"),
+            "more than nothing");
     info.zUp = json.at("up") == "+z";
+    require(info.zUp || json.at("up") == "+y", "up", json.at("up"), "+y or +z");
     info.seed = json.at("seed");
     info.shotHash = fromHex(json.at("shot_hash"));
     if (json.contains("branch")) {
         info.branchTake = json.at("branch").at("take");
-        info.branchFrame = json.at("branch").at("frame");
+        info.branchFrame = frameFrom(json.at("branch").at("frame"));
         info.branchHash = fromHex(json.at("branch").value("hash", "0"));
     }
     for (const Json& input : json.at("inputs"))
@@ -289,7 +342,7 @@ std::string encodeTakeInfo(const TakeInfo& info)
         {"inputs", inputs},
         {"shapes", shapes},
         {"bodies", listToJson(info.bodies)},
-        {"looks", listToJson(info.looks)},
+        {"looks", listToJson(info.materials)},
         {"cameras", listToJson(info.cameras)},
         {"picture_size", info.pictureSize},
         {"burnin", info.burnIn},

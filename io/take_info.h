@@ -36,15 +36,6 @@ struct TakeBody {
     double mass = 0.0;  ///< [kg], 0 for bodies that cannot be moved
 };
 
-/// How a material looks, for pictures, and how it behaves, for programs that simulate on.
-struct TakeLook {
-    std::string material;
-    Vec3 color = {0.6, 0.6, 0.6};  ///< linear
-    double roughness = 0.5;
-    double density = 0.0;  ///< [kg/m³]
-    double friction = 0.0, restitution = 0.0;
-};
-
 struct TakeInfo {
     std::string programVersion;
     std::string name;
@@ -63,7 +54,7 @@ struct TakeInfo {
     std::vector<TakeInput> inputs;
     std::vector<TakeShape> shapes;
     std::vector<TakeBody> bodies;
-    std::vector<TakeLook> looks;
+    std::vector<SceneMaterial> materials;
     std::vector<SceneCamera> cameras;
     std::array<int, 2> pictureSize = {1280, 720};
     bool burnIn = true;                   ///< figures written into the pictures

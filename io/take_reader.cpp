@@ -78,9 +78,7 @@ SceneDescription TakeReader::describe(PlaneSize planes) const
         scene.meshes[mesh] = makePlaneMesh(scene.meshes[mesh].name, half);
 
     // Say how it looks and from where it is seen.
-    for (const TakeLook& look : info_.looks)
-        scene.materials.push_back({look.material, look.color, look.roughness, look.density,
-                                   look.friction, look.restitution});
+    scene.materials = info_.materials;
     scene.cameras = info_.cameras;
     scene.aspect = static_cast<double>(info_.pictureSize[0]) / info_.pictureSize[1];
     return scene;

@@ -25,13 +25,18 @@ bool isPlainName(std::string_view name)
            std::all_of(name.begin(), name.end(), fitsInName);
 }
 
-std::string UniqueNames::take(std::string_view wanted)
+std::string plainName(std::string_view wanted)
 {
     std::string name(wanted);
     std::replace_if(
         name.begin(), name.end(), [](char letter) { return !fitsInName(letter); }, '_');
     if (name.empty() || isDigit(name.front())) name.insert(0, "_");
+    return name;
+}
 
+std::string UniqueNames::take(std::string_view wanted)
+{
+    const std::string name = plainName(wanted);
     std::string free = name;
     for (int copy = 2; !taken_.insert(free).second; ++copy)
         free = name + "_" + std::to_string(copy);

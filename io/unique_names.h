@@ -7,12 +7,14 @@
 
 namespace scree {
 
-/// A letter or _, then letters, digits and _: what USD takes as the name of a prim.
+/// A letter or _, then letters, digits and _: what a shot and USD take as a name.
 bool isPlainName(std::string_view name);
 
-/// Names of siblings. A wanted name is kept when it is plain and free; else other letters become _,
-/// a leading digit gets a _ in front, and _2, _3, … keeps it apart from those already taken. Who
-/// changes a name writes the old one beside it, which makes the mapping reversible.
+/// The name, if it is plain; else other letters become _, and a leading digit gets a _ in front.
+std::string plainName(std::string_view wanted);
+
+/// Names of siblings. A wanted name is made plain, and _2, _3, … keeps it apart from those already
+/// taken. Who changes a name writes the old one beside it, which makes the mapping reversible.
 class UniqueNames {
 public:
     std::string take(std::string_view wanted);

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/math/aabb.h"
+#include "core/math/point_box.h"
 #include "core/math/rotation.h"
 #include "io/unique_names.h"
 
@@ -101,11 +101,8 @@ private:
 
 std::vector<Aabb> meshBoxes(const SceneDescription& scene)
 {
-    std::vector<Aabb> boxes(scene.meshes.size());
-    for (std::size_t mesh = 0; mesh < boxes.size(); ++mesh) {
-        const Points& points = scene.meshes[mesh].points;
-        for (Eigen::Index i = 0; i < points.cols(); ++i) boxes[mesh].include(Vec3(points.col(i)));
-    }
+    std::vector<Aabb> boxes;
+    for (const SceneMesh& mesh : scene.meshes) boxes.push_back(boxOf(mesh.points));
     return boxes;
 }
 

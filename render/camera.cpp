@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/camera_motion.h"
+
 namespace scree {
 namespace {
 
@@ -15,25 +17,12 @@ double tanHalfFov(const Camera& camera)
     return std::tan(camera.fovDegrees * std::numbers::pi / 360.0);
 }
 
-/// Columns: right, up, backward of the camera in world axes.
-Mat3 worldFromViewAxes(const Camera& camera)
-{
-    Vec3 backward = camera.eye - camera.target;
-    if (backward.norm() == 0.0) backward = Vec3::UnitZ();
-    backward.normalize();
-    Vec3 right = camera.up.cross(backward);
-    if (right.norm() < 1e-9 * camera.up.norm()) right = backward.unitOrthogonal();
-    right.normalize();
-    Mat3 axes;
-    axes << right, backward.cross(right), backward;
-    return axes;
-}
-
 }  // namespace
 
 Mat4 viewFromWorld(const Camera& camera)
 {
-    const Mat3 viewFromWorldAxes = worldFromViewAxes(camera).transpose();
+    const Mat3 viewFromWorldAxes =
+        worldFromViewAxes(camera.eye, camera.target, camera.up).transpose();
     Mat4 view = Mat4::Identity();
     view.topLeftCorner<3, 3>() = viewFromWorldAxes;
     view.topRightCorner<3, 1>() = -(viewFromWorldAxes * camera.eye);
@@ -65,7 +54,8 @@ Camera frameAll(const Aabb& box, const Vec3& towardEye, const Vec3& up, double a
 
     // A corner at (x, y, z) from the target, in view axes, is inside the picture when the eye is at
     // least |x| / tan(half the horizontal field) + z away, and likewise for y.
-    const Mat3 viewFromWorldAxes = worldFromViewAxes(camera).transpose();
+    const Mat3 viewFromWorldAxes =
+        worldFromViewAxes(camera.eye, camera.target, camera.up).transpose();
     const double tanY = tanHalfFov(camera) / kFrameMargin, tanX = tanY * aspect;
     double distance = 0.0;
     for (int corner = 0; corner < 8; ++corner) {

@@ -1,14 +1,12 @@
-// What every engine must agree on so that its pictures look alike: where the light comes from and
-// how strong it is, how planes appear, and what is drawn over surfaces.
-//
-// Light comes from a sun, from a sky above and from light thrown back below; strengths are what a
-// white surface scatters back, in linear light.
+// What every engine must agree on so that its pictures look alike: the light, how planes appear,
+// and what is drawn over surfaces.
 #pragma once
 
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "core/scene/preview_light.h"
 #include "core/scene/scene_description.h"
 #include "render/view_fit.h"
 
@@ -16,18 +14,10 @@ namespace scree {
 
 /// What is shown, whichever engine draws.
 struct StageSettings {
-    bool groundLines = true;  ///< a faint grid on planes, to judge distances by
-    bool wireframe = false;   ///< the edges of all triangles, over the shaded surface
-    /// Direction to the sun, with +y up; turned for scenes whose up axis is z.
-    Vec3 towardSun = {-0.30, 0.80, 0.55};
+    bool groundLines = true;      ///< a faint grid on planes, to judge distances by
+    bool wireframe = false;       ///< the edges of all triangles, over the shaded surface
+    Vec3 towardSun = kTowardSun;  ///< as there
 };
-
-inline const Vec3 kSunLight(1.02, 0.9384, 0.816);
-inline const Vec3 kZenithColor(0.10, 0.15, 0.22);
-inline const Vec3 kHorizonColor(0.30, 0.34, 0.39);
-inline const Vec3 kNadirColor(0.10, 0.105, 0.115);
-inline const Vec3 kSkyLight(0.22, 0.27, 0.35);
-inline const Vec3 kGroundLight(0.15, 0.125, 0.10);
 
 /// The tone curve: `toe` is the light [-] below which it falls off with the square, `gain` what it
 /// rises by above, `shoulder` where it begins to bend towards white. Tuned on shots/rings_100,

@@ -130,6 +130,7 @@ private:
                 stepper.advanceFrame(world_, 1.0 / shot_.framesPerSecond, stopRequested);
             if (!report.finished) return false;
             refuseNonFinite(report);
+            refuseFailedBirth(report.births);
             past.push_back(world_.motion);
             if (past.size() > window + 1) past.pop_front();
             if (past.size() == window + 1 && isAtRest(past.front(), report.births)) {
@@ -175,6 +176,16 @@ private:
                     "'" + world_.info[report.sum.nonFinite.front()].name +
                         "' is no longer finite after frame " +
                         std::to_string(shot_.firstFrame + world_.clock.frame));
+    }
+
+    void refuseFailedBirth(const BirthReport& births) const
+    {
+        if (births.failed < 0) return;
+        throw Error(ErrorKind::qualityLimit,
+                    "'" + world_.info[births.failed].name + "' cannot be born, '" +
+                        world_.info[births.occupant].name +
+                        "' stands in its place; clear = \"wait\" lets it wait, \"skip\" leaves it "
+                        "out");
     }
 
     void write() const

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 
 #include "core/base/parallel.h"
@@ -20,6 +19,7 @@
 #include "io/take_reader.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
+#include "tools/cpu_time.h"
 #include "tools/exit_code.h"
 #include "tools/progress.h"
 #include "tools/shell_line.h"
@@ -34,13 +34,6 @@ namespace {
 
 /// Worst frames named when a limit was broken.
 constexpr std::size_t kNamedFrames = 5;
-
-double cpuSeconds()
-{
-    std::timespec time = {};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 double wallSeconds()
 {

@@ -1,12 +1,12 @@
 // The experiments that prove the method, as a table, as JSON and as a page.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <ctime>
 
 #include "core/base/parallel.h"
 #include "io/atomic_file.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
+#include "tools/cpu_time.h"
 #include "tools/exit_code.h"
 #include "tools/simulation.h"
 #include "tools/stop_signals.h"
@@ -21,11 +21,6 @@ struct VerifyOptions {
     bool full = false, judgeOnly = false, json = false, list = false;
     std::optional<int> threads;
 };
-
-double cpuSeconds()
-{
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 int listExperiments()
 {
@@ -77,7 +72,7 @@ int runVerify(const VerifyOptions& options, Console& console)
             console.detail(std::string(experiment->id) + " " + experiment->title + ", " + method);
             verify::Result result{experiment, method, {}, 0.0};
             const double before = cpuSeconds();
-            experiment->run(context, result.findings);
+            verify::runExperiment(*experiment, context, result.findings);
             if (stopRequested()) return kExitStopped;  // a large shot was; its take is kept
             result.cpuSeconds = cpuSeconds() - before;
             if (!options.json) std::printf("%s\n", verify::toText(result).c_str());

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 
 #include "core/dynamics/stepper.h"
 #include "io/take.h"
+#include "tools/cpu_time.h"
 
 namespace scree {
 
@@ -17,7 +17,7 @@ RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double
     World copy = world;
     Stepper stepper(shot.settings);
     const auto started = std::chrono::steady_clock::now();
-    const std::clock_t cpuBefore = std::clock();
+    const double cpuBefore = cpuSeconds();
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     };
@@ -35,7 +35,7 @@ RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double
     const int total = shot.lastFrame - shot.firstFrame;
     const double scale = framesDone > 0.0 ? total / framesDone : 0.0;
     estimate.wallSeconds = scale * elapsed();
-    estimate.cpuSeconds = scale * static_cast<double>(std::clock() - cpuBefore) / CLOCKS_PER_SEC;
+    estimate.cpuSeconds = scale * (cpuSeconds() - cpuBefore);
 
     // A sub-frame sample holds poses and velocities alone, which is what the scene part holds.
     const std::uint64_t frameBytes = encodeFrame(captureState(shot, copy)).size();

@@ -20,7 +20,4 @@ struct Thumbnail {
 /// out of the plots.
 std::string makeStatsPage(const TakeReader& take, const std::vector<Thumbnail>& thumbnails);
 
-/// Base64 with padding [RFC 4648].
-std::string base64(const std::vector<std::uint8_t>& bytes);
-
 }  // namespace scree

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
-#include "core/math/aabb.h"
+#include "core/math/point_box.h"
 #include "io/nearest_word.h"
 #include "render/overlay.h"
 #include "render/stage.h"
@@ -81,8 +81,8 @@ Look scaleLook(double share)
 std::vector<Look> materialLooks(const TakeInfo& info, const SceneDescription& scene)
 {
     std::map<std::string, Look> byMaterial;
-    for (const TakeLook& look : info.looks)
-        byMaterial[look.material] = {look.color, look.roughness};
+    for (const SceneMaterial& material : info.materials)
+        byMaterial[material.name] = {material.color, material.roughness};
     std::vector<Look> looks;
     for (const SceneBody& body : scene.bodies) looks.push_back(byMaterial[body.material]);
     return variedLooks(scene, looks);
@@ -95,9 +95,8 @@ double typicalSize(const TakeInfo& info, const SceneDescription& scene)
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
         if (info.bodies[body].isPlane) continue;
         const std::size_t mesh = scene.bodies[body].mesh;
-        Aabb box;
-        for (Eigen::Index i = 0; radii[mesh] == 0.0 && i < scene.meshes[mesh].points.cols(); ++i)
-            box.include(Vec3(scene.meshes[mesh].points.col(i)));
+        if (radii[mesh] > 0.0) continue;
+        const Aabb box = boxOf(scene.meshes[mesh].points);
         if (!box.isEmpty()) radii[mesh] = 0.5 * box.diagonal();
     }
     return typicalRadius(scene, radii);

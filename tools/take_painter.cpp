@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/math/aabb.h"
+#include "core/math/point_box.h"
 #include "core/scene/camera_motion.h"
 #include "io/subframes.h"
 #include "render/rasterizer.h"
@@ -43,10 +43,8 @@ SceneFrame sampleAt(const std::vector<SceneFrame>& samples, double offset, doubl
 /// all.
 Aabb actionBox(const TakeReader& take, const SceneDescription& scene)
 {
-    std::vector<Aabb> meshBoxes(scene.meshes.size());
-    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
-        for (Eigen::Index i = 0; i < scene.meshes[mesh].points.cols(); ++i)
-            meshBoxes[mesh].include(Vec3(scene.meshes[mesh].points.col(i)));
+    std::vector<Aabb> meshBoxes;
+    for (const SceneMesh& mesh : scene.meshes) meshBoxes.push_back(boxOf(mesh.points));
 
     Aabb moving, all;
     for (const int number : take.frames()) {

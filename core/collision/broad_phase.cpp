@@ -180,6 +180,12 @@ void BroadPhase::forThoseWithin(const Aabb& box, const Visit& visit) const
 bool BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass)
 {
     const bool isKnown = roomy_.size() == boxes.size();
+    if (!isKnown) {
+        // Of another world: what it has entered may name bodies that this one has not.
+        entries_.clear();
+        large_.clear();
+        meetings_.clear();
+    }
     roomy_.resize(boxes.size());
     isMovable_.resize(boxes.size());
     isMoved_.assign(boxes.size(), !isKnown);

@@ -228,6 +228,11 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
         impulses = tally.impulses;
         report.loopsAtTheirCap += tally.loopsAtTheirCap;
     };
+    // What is no number spreads to all it touches: no phase goes on with it.
+    const auto isBroken = [&](Phase phase) {
+        findNonFinite(world, phase, report);
+        return !report.nonFinite.empty();
+    };
 
     // Collisions are found at predicted positions but change velocities that have not yet felt
     // gravity. A block at rest is therefore never mistaken for one that just landed.
@@ -235,7 +240,7 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
         const PhaseTimer timer(report.seconds, Phase::collision);
         note(resolveCollisions(world, settings_, dt, scratch), report.collisionImpulses);
     }
-    findNonFinite(world, Phase::collision, report);
+    if (isBroken(Phase::collision)) return report;
 
     ContactGraph graph;
     {
@@ -247,18 +252,18 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
         const PhaseTimer timer(report.seconds, Phase::contact);
         note(resolveContacts(world, graph, settings_, dt, scratch), report.contactImpulses);
     }
-    findNonFinite(world, Phase::contact, report);
+    if (isBroken(Phase::contact)) return report;
     if (settings_.shockPropagation) {
         const PhaseTimer timer(report.seconds, Phase::shock);
         note(propagateShock(world, graph, settings_, dt, scratch), report.shockImpulses);
     }
-    findNonFinite(world, Phase::shock, report);
+    if (isBroken(Phase::shock)) return report;
     {
         const PhaseTimer timer(report.seconds, Phase::position);
         advancePositions(world, settings_, dt);
     }
-    findNonFinite(world, Phase::position, report);
-    if (report.nonFinite.empty()) {
+    if (isBroken(Phase::position)) return report;
+    {
         const PhaseTimer timer(report.seconds, Phase::pushOut);
         report.deepestBeforePushOut = findWorstOverlap(world, scratch).depth;
         const double before = potentialEnergy(world, settings_.gravity);

@@ -18,7 +18,7 @@
 #include "core/geometry/surface_rays.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/geometry/winding_number.h"
-#include "core/math/aabb.h"
+#include "core/math/point_box.h"
 
 namespace scree {
 namespace {
@@ -29,13 +29,6 @@ constexpr int kLattices = 4;         // tried before giving up
 constexpr double kBandVoxels = 3.0;  // distances beyond are not needed
 
 using openvdb::FloatGrid;
-
-Aabb boxOf(const TriMesh& mesh)
-{
-    Aabb box;
-    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) box.include(mesh.points.col(v));
-    return box;
-}
 
 /// Unsigned distance in voxels, up to `reach` voxels; index (0, 0, 0) lies at `origin`.
 FloatGrid::Ptr unsignedDistance(const TriMesh& mesh, const Vec3& origin, double h, double reach)
@@ -112,7 +105,7 @@ TriMesh remeshOnce(const TriMesh& mesh, const RemeshSettings& settings, double s
 {
     const double h = settings.voxel;
     const double level = settings.repair == MeshRepair::shell ? 0.5 * settings.thickness / h : 0.0;
-    const Aabb box = boxOf(mesh);
+    const Aabb box = boxOf(mesh.points);
     const Vec3 origin = box.min - Vec3::Constant((kMarginVoxels + shift) * h);
     const FloatGrid::Ptr field = settings.repair == MeshRepair::shell
                                      ? unsignedDistance(mesh, origin, h, level + kBandVoxels)
@@ -123,7 +116,7 @@ TriMesh remeshOnce(const TriMesh& mesh, const RemeshSettings& settings, double s
 
 void requireAffordable(const TriMesh& mesh, const RemeshSettings& settings, const std::string& name)
 {
-    const double voxels = boxOf(mesh).longestEdge() / settings.voxel;
+    const double voxels = boxOf(mesh.points).longestEdge() / settings.voxel;
     if (voxels <= kMostVoxels + 0.5) return;
     char text[256];
     std::snprintf(text, sizeof text,

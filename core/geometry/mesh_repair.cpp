@@ -34,7 +34,7 @@ bool mapEdges(const TriMesh& mesh, std::map<Edge, int>& walkers)
 }
 
 /// A triangle a b c with b between a and c, and its neighbour c a d, cover what a b d and b c d do.
-bool flipLongEdge(TriMesh& mesh, int triangle, const std::map<Edge, int>& walkers)
+bool flipLongEdge(TriMesh& mesh, int triangle, std::map<Edge, int>& walkers)
 {
     int k = 0;
     double longest = -1.0;
@@ -60,18 +60,22 @@ bool flipLongEdge(TriMesh& mesh, int triangle, const std::map<Edge, int>& walker
     // The neighbour walked a → c → d; together they now walk a → b → c → d round.
     mesh.triangles.col(triangle) << a, b, d;
     mesh.triangles.col(neighbour) << b, c, d;
+    walkers.erase({a, c});
+    walkers.erase({c, a});
+    walkers[{b, d}] = walkers[{d, a}] = triangle;
+    walkers[{d, b}] = walkers[{b, c}] = neighbour;
     return true;
 }
 
 int flipFlatTriangles(TriMesh& mesh)
 {
     int flips = 0;
-    std::map<Edge, int> walkers;
+    std::map<Edge, int> walkers;  // made once there is a flat triangle, then kept up to date
     for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
         if (!isFlat(mesh, mesh.triangles(0, f), mesh.triangles(1, f), mesh.triangles(2, f))) {
             continue;
         }
-        if (!mapEdges(mesh, walkers)) return flips;
+        if (walkers.empty() && !mapEdges(mesh, walkers)) return flips;
         flips += flipLongEdge(mesh, f, walkers);
     }
     return flips;

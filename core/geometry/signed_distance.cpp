@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/math/point_box.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -55,7 +56,7 @@ SignedDistance::SignedDistance(const TriMesh& mesh, DistanceField field, bool re
 {
     const NodeLayout& layout = field_.nodes.layout;
     domain_ = {layout.origin, layout.last()};
-    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) surfaceBox_.include(mesh.points.col(v));
+    surfaceBox_ = boxOf(mesh.points);
     buildFaces(mesh);
     // True normals ask for the faces of a cell even where distances are the grid's alone.
     if (refined) band_ = refinementBandOf(layout.spacing);

@@ -114,6 +114,19 @@ Vec3 upOf(const SceneCamera& camera, bool zUp)
     return zUp ? Vec3::UnitZ() : Vec3::UnitY();
 }
 
+Mat3 worldFromViewAxes(const Vec3& eye, const Vec3& target, const Vec3& up)
+{
+    Vec3 backward = eye - target;
+    if (backward.norm() == 0.0) backward = Vec3::UnitZ();
+    backward.normalize();
+    Vec3 right = up.cross(backward);
+    if (right.norm() < 1e-9 * up.norm()) right = backward.unitOrthogonal();
+    right.normalize();
+    Mat3 axes;
+    axes << right, backward.cross(right), backward;
+    return axes;
+}
+
 SceneCamera scaled(const SceneCamera& camera, double factor)
 {
     SceneCamera result = camera;

@@ -33,6 +33,23 @@ std::vector<BodyPair> pairsOfAllAgainstAll(const std::vector<Aabb>& boxes,
     return pairs;
 }
 
+// It went on with entries of bodies that there no longer were, and read beyond its lists.
+TEST(BroadPhase, ForgetsAWorldOfMoreBodies)
+{
+    std::vector<Aabb> boxes = {{Vec3::Zero(), Vec3::Ones()}};
+    while (boxes.size() < 40) boxes.push_back(boxes.front());
+    std::vector<BodyMass> mass(boxes.size(), {0.0, Vec3::Zero()});
+    for (std::size_t i = 0; i < 3; ++i) mass[i] = {1.0, Vec3::Ones()};
+    const auto counts = [](BodyPair) { return true; };
+    BroadPhase broadPhase;
+    for (int step = 0; step < 2; ++step) {
+        EXPECT_EQ(broadPhase.findPairs(boxes, mass, counts), pairsOfAllAgainstAll(boxes, mass));
+    }
+    boxes.resize(3);
+    mass.resize(3);
+    EXPECT_EQ(broadPhase.findPairs(boxes, mass, counts), pairsOfAllAgainstAll(boxes, mass));
+}
+
 TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFindsWhileBodiesMove)  // [A14]
 {
     for (std::uint64_t scene = 0; scene < 20; ++scene) {

@@ -199,6 +199,7 @@ TEST(StepReport, NamesTheBodyAndThePhaseWhereNumbersEnd)  // [A59]
     const FrameReport report = Stepper(experimentSettings()).advanceFrame(world, 1.0 / 24.0);
     ASSERT_EQ(report.sum.nonFinite, std::vector<BodyId>{2});
     EXPECT_EQ(report.sum.nonFinitePhase, Phase::contact);
+    EXPECT_TRUE(world.motion[2].position.allFinite()) << "no later phase went on with it";
     EXPECT_EQ(world.clock.frame, 0);
 }
 

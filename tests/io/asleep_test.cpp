@@ -5,7 +5,9 @@
 
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
+#include "io/frame_file.h"
 #include "io/shot_parser.h"
+#include "io/take.h"
 
 namespace scree {
 namespace {
@@ -54,6 +56,23 @@ TEST(StartAsleep, WhoTouchesWhomIsKnownFromTheStart)
     ASSERT_EQ(world.contactMemory.contacts.size(), 1u);
     EXPECT_EQ(world.contactMemory.contacts[0].a, 0);
     EXPECT_EQ(world.contactMemory.contacts[0].b, 1);
+}
+
+// The first frame of a take held nothing of who slept, and who went on from it let all of them
+// fall.
+TEST(StartAsleep, IsKeptInTheFileOfTheFirstFrame)
+{
+    const Shot shot = parseShotText(kHanging, "s.toml");
+    const World world = buildWorld(shot);
+    const std::string bytes = encodeFrame(captureState(shot, world));
+    const FrameState state = decodeFrame(bytes, "memory");
+    EXPECT_EQ(state.contactMemory.contacts.size(), 1u);
+    ASSERT_EQ(state.contactMemory.rest.size(), world.contactMemory.rest.size());
+    World restored = buildWorld(shot);
+    restored.contactMemory = {};
+    restoreState(restored, state);
+    for (const BodyId body : {0, 1, 2}) EXPECT_TRUE(restored.contactMemory.isAsleep(body)) << body;
+    EXPECT_EQ(encodeFrame(captureState(shot, restored)), bytes);
 }
 
 TEST(StartAsleep, AForceThatChangesWakes)

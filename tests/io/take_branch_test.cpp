@@ -154,6 +154,21 @@ TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
     EXPECT_NEAR(placeIn(1080).x() - placeIn(1075).x(), 0.5 * acceleration * time * time, 1e-3);
 }
 
+TEST_F(BranchTest, TakesThatDifferInTheSignOfAZeroDiffer)
+{
+    const TakeReader whole = simulate("whole", {});
+    const TakeReader other = simulate("other", {});
+    const fs::path path = other.paths().frame(1001);
+    FrameState state = readFrameFile(path);
+    ASSERT_EQ(state.motion[2].velocity.x(), 0.0);
+    state.motion[2].velocity.x() = -0.0;
+    writeFileBytes(path, encodeFrame(state));
+    const TakeComparison comparison = compareTakes(whole, other);
+    ASSERT_TRUE(comparison.difference);
+    EXPECT_EQ(comparison.difference->frame, 1001);
+    EXPECT_EQ(comparison.difference->bodies, std::vector<std::string>{"away"});
+}
+
 TEST_F(BranchTest, TakesThatOnlyRememberOtherContactsDiffer)
 {
     const TakeReader whole = simulate("whole", {});

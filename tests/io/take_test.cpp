@@ -7,6 +7,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/base/error.h"
@@ -227,6 +228,41 @@ TEST_F(TakeTest, TakeInfoSurvivesItsText)
     EXPECT_EQ(back.cameras.at(0).eye, info.cameras.at(0).eye);
     EXPECT_NEAR(back.cameras.at(0).eye.x(), 300.0, 1e-10);
     EXPECT_EQ(back.resolvedShot, shot.resolvedText);
+}
+
+TEST_F(TakeTest, WhatNoShotCouldHaveSaidIsRefusedByItsKey)
+{
+    const TakeInfo info = makeTakeInfo(shot, world, describeScene(shot, world, 1.0), "1.2.3");
+    const nlohmann::json good = nlohmann::json::parse(encodeTakeInfo(info));
+    const auto expectRefusal = [&](const std::string& pointer, const nlohmann::json& value) {
+        nlohmann::json json = good;
+        json.at(nlohmann::json::json_pointer(pointer)) = value;
+        try {
+            decodeTakeInfo(json.dump(), "take.json");
+            ADD_FAILURE() << pointer << " may be " << value;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::inputOutput);
+            const std::string message = error.what();
+            EXPECT_TRUE(message.starts_with("take.json: damaged: \"")) << message;
+            EXPECT_NE(message.find(value.dump()), std::string::npos) << message;
+        }
+    };
+    EXPECT_NO_THROW(decodeTakeInfo(good.dump(), "take.json"));
+    expectRefusal("/picture_size/0", 0);
+    expectRefusal("/picture_size/1", 4294967296.0 + 720.0);  // once 720
+    expectRefusal("/picture_size/1", 720.5);
+    expectRefusal("/motion_blur", 0);
+    expectRefusal("/fps", 0.0);
+    expectRefusal("/fps", -24.0);
+    expectRefusal("/frames/0", 1006);
+    expectRefusal("/frames/1", 1e300);
+    expectRefusal("/metres_per_unit", 0.0);
+    expectRefusal("/up", "+x");
+    expectRefusal("/cameras/0/fov", 180.0);
+    expectRefusal("/bodies/1/motion", "dynamik");
+    expectRefusal("/bodies/1/mass", -1.0);
+    expectRefusal("/looks/0/color/2", 1.5);
+    expectRefusal("/looks/0/roughness", -0.5);
 }
 
 TEST_F(TakeTest, CamerasThatMoveSurviveTheTextOfTheTake)
@@ -458,6 +494,15 @@ TEST_F(TakeTest, CutLineOfTheStatisticsIsDroppedOnResume)
     const std::string text = readFileBytes(take.paths().stats());
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);
     EXPECT_TRUE(text.ends_with("}\n"));
+}
+
+// A line that the disk would not keep was taken for written.
+TEST_F(TakeTest, FiguresThatCannotBeMadeDurableAreAnError)
+{
+    TakeWriter take = open(ExistingTake::refuse, shot);
+    fs::remove(folder / "take/stats.jsonl");
+    fs::create_symlink("/dev/null", folder / "take/stats.jsonl");  // takes all, syncs nothing
+    EXPECT_EQ(kindOf([&] { take.writeFrame(world, statsOf(world)); }), ErrorKind::inputOutput);
 }
 
 TEST_F(TakeTest, SecondWriterIsKeptOut)

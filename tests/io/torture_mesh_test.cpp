@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/geometry/mesh_defects.h"
+#include "core/geometry/mesh_repair.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/shape_report.h"
@@ -149,6 +152,56 @@ TEST(TortureMesh, WhatIsHarmlessIsRepairedAndTold)
         EXPECT_NEAR(shape->unitMass.volume, 1.0, 1e-12) << item.name;
         EXPECT_EQ(shape->assetMesh.triangles, item.mesh.triangles) << item.name;
     }
+}
+
+/// Splits edges of a mesh on one side only and closes the gap with a triangle without area, as
+/// often as no triangle is touched twice.
+TriMesh withFlatTriangles(TriMesh mesh)
+{
+    std::map<std::pair<int, int>, int> walkers;
+    for (int f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k)
+            walkers[{mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f)}] = f;
+    }
+    std::vector<char> isTouched(static_cast<std::size_t>(mesh.triangles.cols()), 0);
+    std::vector<Vec3> points;
+    std::vector<Eigen::Vector3i> triangles;
+    for (const auto& [edge, f] : walkers) {
+        const auto [c, a] = edge;
+        const int across = walkers.at({a, c});
+        if (isTouched[f] || isTouched[across]) continue;
+        isTouched[f] = isTouched[across] = 1;
+        const int b = static_cast<int>(mesh.points.cols() + points.size());
+        points.push_back(0.5 * (mesh.points.col(c) + mesh.points.col(a)));
+        int far = 0;
+        for (const int corner : mesh.triangles.col(f))
+            far = corner == a || corner == c ? far : corner;
+        mesh.triangles.col(f) << c, b, far;
+        triangles.push_back({b, a, far});
+        triangles.push_back({c, a, b});
+    }
+    TriMesh result{Points(3, mesh.points.cols() + points.size()),
+                   Triangles(3, mesh.triangles.cols() + triangles.size())};
+    result.points.leftCols(mesh.points.cols()) = mesh.points;
+    result.triangles.leftCols(mesh.triangles.cols()) = mesh.triangles;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        result.points.col(mesh.points.cols() + i) = points[i];
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        result.triangles.col(mesh.triangles.cols() + i) = triangles[i];
+    return result;
+}
+
+// All edges were mapped anew for each of the triangles: 4000 of them took a minute.
+TEST(TortureMesh, ThousandsOfTrianglesWithoutAreaAreFlippedInNoTime)
+{
+    const TriMesh mesh = withFlatTriangles(makeBox(Vec3::Ones(), {32, 32, 32}));
+    const std::clock_t start = std::clock();
+    HarmlessRepairs repairs;
+    const TriMesh repaired = repairHarmlessly(mesh, repairs);
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
+    EXPECT_GT(repairs.flippedEdges, 4000);
+    EXPECT_TRUE(findDefects(repaired).empty());
+    EXPECT_NEAR(signedVolume(repaired), 1.0, 1e-12);
 }
 
 TEST(TortureMesh, EveryOtherDefectIsRefusedByName)

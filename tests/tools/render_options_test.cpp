@@ -220,7 +220,8 @@ TEST_F(RenderOptions, SpeedAndSleepColourTheBoxThatFliesUnlikeTheStack)
 
 TEST_F(RenderOptions, IdAndLevelsTellBodiesApartByTheirColour)
 {
-    // Places in the picture: see SpeedAndSleep. What light does to a colour leaves its mix alone.
+    // Places in the picture: as for speed and sleep. What light does to a colour leaves its mix
+    // alone.
     const auto mixOf = [&](int row) {
         const Color color = picture(1004).at(80, row);
         return Color(color / color.sum());

@@ -170,6 +170,23 @@ TEST_F(ShotTools, SettleWaitsForWhatTheShotHasInStore)
     EXPECT_TRUE(contains(blown.err, "go on until")) << blown.err;
 }
 
+TEST_F(ShotTools, SettleRefusesABirthThatCannotBe)
+{
+    const std::string stuck =
+        "[[body]]\nname = \"table\"\nshape = \"block\"\nmaterial = \"wood\"\n"
+        "motion = \"static\"\nposition = [9, 0.1, 0]\n"
+        "[[emitter]]\nname = \"late\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 2\nclear = "
+        "\"fail\"\n"
+        "frames = \"1002-1003\"\n"
+        "box = { min = [9, 0.15, 0], max = [9, 0.15, 0] }\n";
+    std::ofstream(folder / "stuck.toml") << readFileBytes(folder / "drop.toml") + stuck;
+    const Outcome outcome = run("settle stuck.toml -o stuck.json");
+    EXPECT_EQ(outcome.code, 79);
+    EXPECT_TRUE(contains(outcome.err, "cannot be born, 'table' stands in its place"))
+        << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "stuck.json"));
+}
+
 TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
 {
     const Outcome settled = run("settle drop.toml -o pose.json");

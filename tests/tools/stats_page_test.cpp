@@ -6,6 +6,7 @@
 #include "io/file_bytes.h"
 #include "tests/support/readers.h"
 #include "tests/support/support.h"
+#include "tools/html_text.h"
 
 namespace scree {
 namespace test {

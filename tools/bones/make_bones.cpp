@@ -9,6 +9,7 @@
 #include "core/geometry/level_set_surface.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/primitives.h"
+#include "core/math/point_box.h"
 #include "io/byte_order.h"
 #include "io/file_bytes.h"
 #include "tools/bones/bone_forms.h"
@@ -56,8 +57,7 @@ void writeSolid(const std::filesystem::path& folder, const std::string& name, co
     writeSmallPly(folder / (name + ".ply"), mesh);
     // Euler: points − edges + faces = 2 − 2 genus, with three half edges to a face.
     const long genus = 1 - (mesh.points.cols() - mesh.triangles.cols() / 2) / 2;
-    Aabb box;
-    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) box.include(mesh.points.col(v));
+    const Aabb box = boxOf(mesh.points);
     std::printf("%-8s %6ld triangles, genus %ld, %.3f x %.3f x %.3f m, %.5f m3\n", name.c_str(),
                 static_cast<long>(mesh.triangles.cols()), genus, box.size().x(), box.size().y(),
                 box.size().z(), signedVolume(mesh));

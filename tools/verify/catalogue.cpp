@@ -111,6 +111,16 @@ const std::vector<Experiment>& experiments()
     return all;
 }
 
+void runExperiment(const Experiment& experiment, const Context& context, Findings& findings)
+{
+    try {
+        experiment.run(context, findings);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::qualityLimit) throw;
+        findings.equal(Weight::must, "comes to its end", 0, 1, error.what());
+    }
+}
+
 std::vector<const Experiment*> chooseExperiments(const std::vector<std::string>& ids)
 {
     std::vector<const Experiment*> chosen;

@@ -1,6 +1,5 @@
 // E1: a block at rest stays at rest although its collisions are elastic. [GBF03 figure 3],
 // [A17, A39, A44]
-#include <algorithm>
 #include <cmath>
 
 #include "core/math/rotation.h"
@@ -24,7 +23,7 @@ Curve shiftOver(ShotRun& run, double seconds, double rate, double& spin)
     Curve curve;
     const BodyId block = run.body("block");
     run.advance(seconds, rate, [&](const StepReport&, double t) {
-        spin = std::max(spin, spinOf(run.world, block).norm());
+        spin = larger(spin, spinOf(run.world, block).norm());
         curve.x.push_back(t);
         curve.y.push_back(
             (run.world.motion[block].position - run.start.motion[block].position).norm());
@@ -87,7 +86,7 @@ void textbookOrder(const Context& context, Findings& findings, Plot& plot)
     double furthest = 0.0;
     for (int k = 1; k <= 2 * 60; ++k) {
         textbookStep(run.world, run.shot.settings, 1.0 / 60.0);
-        furthest = std::max(furthest, largestVertexShift(run.start, run.world, block));
+        furthest = larger(furthest, largestVertexShift(run.start, run.world, block));
         curve.x.push_back(k / 60.0);
         curve.y.push_back(
             (run.world.motion[block].position - run.start.motion[block].position).norm());
@@ -126,7 +125,7 @@ void tumbling(const Context& context, Findings& findings)
         gravityFirstStep(run.world, run.shot.settings, 1.0 / kRate);
         curve.x.push_back(k / kRate);
         curve.y.push_back(turnedBy(run, block));
-        most = std::max(most, curve.y.back());
+        most = larger(most, curve.y.back());
         if (k % 60 != 0 || k > 3 * 60) continue;
         addPicture(context, run,
                    "Figure 3, left, the control: after " + shortNumber(k / kRate) +
@@ -170,7 +169,7 @@ void onEveryFace(const Context& context, Findings& findings)
                              Vec3(0, 0, 90), Vec3(0, 0, -90)}) {
         ShotRun run(context, "E01_floor", {setVector("body.block.rotation", turn)});
         run.advance(1.0, 240.0);
-        largest = std::max(largest, largestVertexShift(run.start, run.world, run.body("block")));
+        largest = larger(largest, largestVertexShift(run.start, run.world, run.body("block")));
     }
     findings.atMost(must, "on a level floor, on any of six faces: largest shift in 1 s", largest,
                     1e-9, "m");

@@ -59,7 +59,7 @@ void exactBalls(const Context& context, Findings& findings, double gap,
     run.advance(1.3, 240.0);
     double fastest = std::abs(run.motion("cue").velocity.x());
     for (int i = 0; i < 4; ++i) {
-        fastest = std::max(fastest, std::abs(run.motion(kLine[i]).velocity.x()));
+        fastest = larger(fastest, std::abs(run.motion(kLine[i]).velocity.x()));
     }
     double energy = 0.0;
     for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
@@ -119,7 +119,7 @@ void rollingBalls(const Context& context, Findings& findings)
         const double v = run.motion("ball_4").velocity.x();
         const double slip = v + spinOf(run.world, run.body("ball_4")).z();
         double others = run.motion("cue").velocity.norm();
-        for (int i = 0; i < 4; ++i) others = std::max(others, run.motion(kLine[i]).velocity.norm());
+        for (int i = 0; i < 4; ++i) others = larger(others, run.motion(kLine[i]).velocity.norm());
         findings.near(must, name + "last ball", v, 100.0 / 7.0, 0.01 * 100.0 / 7.0, "m/s");
         findings.atMost(must, name + "slip of the last ball", std::abs(slip), 1e-3, "m/s");
         findings.atMost(must, name + "fastest of the others", others, 0.1, "m/s");

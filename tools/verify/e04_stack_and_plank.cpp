@@ -1,6 +1,5 @@
 // E4: stacks stand, and a weight that falls on a plank throws up the boxes on its other end.
 // [GBF03 figure 6], [A42, A43, A45]
-#include <algorithm>
 #include <cmath>
 
 #include "core/math/rotation.h"
@@ -28,8 +27,8 @@ StackResult stand(ShotRun& run, double seconds, bool hasDefaultSteps = false)
             if (!run.world.mass[b].isMovable()) continue;
             const BodyMotion& motion = run.world.motion[b];
             const Vec3 moved = motion.position - run.start.motion[b].position;
-            result.drift = std::max(result.drift, std::hypot(moved.x(), moved.z()));
-            result.speed = std::max(result.speed, motion.velocity.norm());
+            result.drift = larger(result.drift, std::hypot(moved.x(), moved.z()));
+            result.speed = larger(result.speed, motion.velocity.norm());
         }
     };
     if (hasDefaultSteps) {
@@ -55,7 +54,7 @@ double fall(ShotRun& run)
     double moved = 0.0;
     for (int quarter = 0; quarter < 20 && moved < 0.3; ++quarter) {
         const StackResult result = stand(run, 0.25);
-        moved = std::max({moved, result.drift, std::abs(result.sink)});
+        moved = larger(moved, larger(result.drift, std::abs(result.sink)));
     }
     return moved;
 }
@@ -128,21 +127,21 @@ public:
         for (BodyId b : boxes_) {
             const Vec3 moved = run_.world.motion[b].position - run_.start.motion[b].position;
             if (time < kImpact - 0.01) {
-                result.driftBefore = std::max(result.driftBefore, moved.norm());
+                result.driftBefore = larger(result.driftBefore, moved.norm());
             }
-            result.rise = std::max(result.rise, moved.y());
+            result.rise = larger(result.rise, moved.y());
         }
         const Vec3 along = run_.world.worldFromAsset(plank_).orientation * Vec3::UnitX();
         if (time < kImpact + 1.5) {
-            result.tilt = std::max(result.tilt, -std::asin(along.y()) * 180.0 / kPi);
+            result.tilt = larger(result.tilt, -std::asin(along.y()) * 180.0 / kPi);
         }
         if (time > kImpact && time < kImpact + 0.1) {
-            result.tiltRate = std::max(result.tiltRate, spinOf(run_.world, plank_).norm());
+            result.tiltRate = larger(result.tiltRate, spinOf(run_.world, plank_).norm());
         }
         const double energy = totalEnergy(run_.world, run_.shot.settings.gravity);
         const double kinetic = energy - potential();
         const double rise = energy - energy_ - pushOutWork;
-        result.energyRise = std::max(result.energyRise, rise / (kinetic + weightScale_));
+        result.energyRise = larger(result.energyRise, rise / (kinetic + weightScale_));
         result.pushOutWork += pushOutWork;
         energy_ = energy;
     }

@@ -82,7 +82,7 @@ void runSeeSaw(const Context& context, Findings& findings)
     ShotRun weightless(context, "E05_seesaw", {"solver.contact_iterations=0"});
     Curve still = tiltOver(weightless, 1.0);
     double largest = 0.0;
-    for (double tilt : still.y) largest = std::max(largest, std::abs(tilt));
+    for (double tilt : still.y) largest = larger(largest, std::abs(tilt));
     findings.atMost(context.controlOfPaper(), "shock propagation alone: largest tilt within 1 s",
                     largest, 0.1, "degrees",
                     "the paper's own control: bodies weigh nothing for what carries them");

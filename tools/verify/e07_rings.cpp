@@ -88,8 +88,8 @@ Depths judgeFrames(const HeapRecord& record)
             const bool hasRings =
                 isNamed(record, pair.a, "ring") && isNamed(record, pair.b, "ring");
             double& kind = hasRings ? depths.rings : hasPole ? depths.poles : depths.floor;
-            kind = std::max(kind, pair.depth);
-            deepest = std::max(deepest, pair.depth);
+            kind = larger(kind, pair.depth);
+            deepest = larger(deepest, pair.depth);
         }
         bool isCrossed = false;
         for (std::size_t ring : rings) {
@@ -175,7 +175,7 @@ MeanSpeeds meanSpeeds(const HeapRecord& record)
             inHeap += speed;
             countedInHeap += 1.0;
         }
-        speeds.mostAlone = std::max(speeds.mostAlone, alone);
+        speeds.mostAlone = larger(speeds.mostAlone, alone);
     }
     speeds.all = all / counted;
     speeds.inHeap = countedInHeap > 0.0 ? inHeap / countedInHeap : 0.0;
@@ -187,7 +187,7 @@ void addRestRows(const HeapRecord& record, const std::string& name, Findings& fi
     const std::size_t first = record.lastPart(2.0), last = record.frames.size() - 1;
     double high = 0.0;
     for (std::size_t f = first; f <= last; ++f)
-        high = std::max(high, quantile(speedsAt(record, f), 0.95));
+        high = larger(high, quantile(speedsAt(record, f), 0.95));
     const MeanSpeeds mean = meanSpeeds(record);
     findings.report(name + ": rings alone on the floor, last 2 s", mean.mostAlone, "");
     findings.atMost(must, name + ": mean speed in the last 2 s, of the others", mean.inHeap, 0.1,

@@ -34,7 +34,7 @@ Judgement judgeFrames(const HeapRecord& record)
         for (const Overlap& pair : judge.overlaps(frame)) {
             double edge = 1e300;
             for (std::size_t body : {pair.a, pair.b}) {
-                if (record.moves(body)) edge = std::min(edge, judge.shortestEdge(body));
+                if (record.moves(body)) edge = smaller(edge, judge.shortestEdge(body));
             }
             result.ratios.push_back(pair.depth / edge);
         }

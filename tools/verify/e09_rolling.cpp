@@ -32,9 +32,9 @@ Roll roll(ShotRun& run, double seconds)
     const BodyId ball = run.body("ball");
     run.advance(seconds, 240.0, [&](const StepReport&, double t) {
         const Vec3 spin = spinOf(run.world, ball);
-        result.reversal = std::max({result.reversal, spin.z(), -spin.y()});
-        if (std::abs(spin.z()) < 1e-9) result.rollStop = std::min(result.rollStop, t);
-        if (std::abs(spin.y()) < 1e-9) result.spinStop = std::min(result.spinStop, t);
+        result.reversal = larger(result.reversal, larger(spin.z(), -spin.y()));
+        if (std::abs(spin.z()) < 1e-9) result.rollStop = smaller(result.rollStop, t);
+        if (std::abs(spin.y()) < 1e-9) result.spinStop = smaller(result.spinStop, t);
         result.speeds.x.push_back(t);
         result.speeds.y.push_back(run.world.motion[ball].velocity.x());
     });
@@ -132,7 +132,10 @@ void meshedSphere(const Context& context, Findings& findings)
     findings.near(must, "E9c, sphere of 1280 triangles, no rolling friction: speed after 6 s",
                   roll(rolling, 6.0).speed, 2.0, 0.1, "m/s");
     const Roll result = roll(stopping, 2.0);
-    findings.atMost(must, "E9c, coefficient 0.5: stops rolling", result.rollStop, 0.6, "s");
+    // A ball stops at 0.4082 s. This one does when it is too slow for the next edge: to lift it by
+    // R t²/8 = 1.2 mm, t = 0.14 rad being the width of a facet, takes 0.13 m/s, which are 0.026 s.
+    findings.near(must, "E9c, coefficient 0.5: stops rolling", result.rollStop,
+                  4.0 / (0.5 * 2.0 * 9.8), 0.026 + kStep, "s", "a facet may hold it earlier");
     findings.atMost(must, "E9c, coefficient 0.5: turns back", result.reversal, 1e-6, "rad/s");
 }
 
@@ -142,10 +145,10 @@ void otherShapes(const Context& context, Findings& findings)
     double energy = totalEnergy(run.world, run.shot.settings.gravity), rise = 0.0, reversal = 0.0;
     run.advance(4.0, 240.0, [&](const StepReport& report, double) {
         const double now = totalEnergy(run.world, run.shot.settings.gravity);
-        rise = std::max(rise, now - energy - report.pushOutWork);
+        rise = larger(rise, now - energy - report.pushOutWork);
         energy = now;
         for (const char* name : {"cube", "egg"}) {
-            reversal = std::max(reversal, -spinOf(run.world, run.body(name)).y());
+            reversal = larger(reversal, -spinOf(run.world, run.body(name)).y());
         }
     });
     findings.atMost(must, "E9d, cube and egg: energy rises in a step", rise, 1e-9, "J",

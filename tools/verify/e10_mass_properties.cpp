@@ -1,5 +1,5 @@
 // E10: mass properties against closed forms. [A2, A3]  Meshes are built in code; the words with
-// which meshes that are no solid are refused are told by tests/core/mass_properties_test.cpp.
+// which meshes that are no solid are refused are told by tests/io/torture_mesh_test.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -105,11 +105,11 @@ double axesOff(const MassProperties& here, const MassProperties& turned, const Q
         double apart = here.moments[2];
         for (int other = 0; other < 3; ++other) {
             if (other == k) continue;
-            apart = std::min(apart, std::abs(here.moments[other] - here.moments[k]));
+            apart = smaller(apart, std::abs(here.moments[other] - here.moments[k]));
         }
         if (apart < 1e-3 * here.moments[2]) continue;
         const Vec3 expected = turn * (here.meshFromPrincipal * Vec3::Unit(k));
-        off = std::max(off, (turned.meshFromPrincipal * Vec3::Unit(k)).cross(expected).norm());
+        off = larger(off, (turned.meshFromPrincipal * Vec3::Unit(k)).cross(expected).norm());
     }
     return off;
 }
@@ -131,15 +131,15 @@ void flatSolid(const Solid& solid, Findings& findings)
     const double centreThere = (there.centre - far - solid.centre).norm() / far.norm();
     findings.atMost(
         must, name + "1000 km away, error of volume, centre and moments",
-        std::max({volumeThere, centreThere, relativeError(there.moments, solid.moments)}), 1e-9,
+        larger(larger(volumeThere, centreThere), relativeError(there.moments, solid.moments)), 1e-9,
         "of them");
 
     double momentsOff = 0.0, turnedAxes = 0.0;
     for (const Vec3& by : {Vec3(0.3, -1.1, 0.7), Vec3(2.0, 0.1, -0.4), Vec3(-0.9, 0.8, 1.9)}) {
         const Quat turn = exponentialMap(by);
         const MassProperties turned = massProperties(transformed(solid.mesh, {Vec3::Ones(), turn}));
-        momentsOff = std::max(momentsOff, relativeError(turned.moments, solid.moments));
-        turnedAxes = std::max(turnedAxes, axesOff(here, turned, turn));
+        momentsOff = larger(momentsOff, relativeError(turned.moments, solid.moments));
+        turnedAxes = larger(turnedAxes, axesOff(here, turned, turn));
     }
     findings.atMost(must, name + "turned, error of the moments", momentsOff, 1e-12, "of them");
     findings.atMost(must, name + "turned, its axes are off", turnedAxes, 1e-12, "rad");

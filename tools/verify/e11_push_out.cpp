@@ -1,6 +1,5 @@
 // E11: push-out separates what overlaps, moves only what may move, and touches no velocity.
 // [A52, A53]
-#include <algorithm>
 #include <cmath>
 
 #include "tools/verify/experiments.h"
@@ -54,7 +53,7 @@ void column(const Context& context, Findings& findings)
         overlaps.push_back(report.deepestAfterPushOut);
         for (int i = 0; i < 5 && overlaps.size() == 1; ++i) {
             const double height = run.motion("cube_000" + std::to_string(i)).position.y();
-            heightError = std::max(heightError, std::abs(height - i - 0.5));
+            heightError = larger(heightError, std::abs(height - i - 0.5));
         }
     });
     findings.atMost(must, "column of five, each 2 cm in the next, one step: overlap",
@@ -69,7 +68,7 @@ void column(const Context& context, Findings& findings)
     without.advance(kStep, 240.0, [&](const StepReport& step, double) { report = step; });
     double difference = 0.0;
     for (std::size_t b = 0; b < with.world.bodyCount(); ++b) {
-        difference = std::max(
+        difference = larger(
             difference, (with.world.motion[b].velocity - without.world.motion[b].velocity).norm());
     }
     findings.equal(must, "switched off: pushes", static_cast<double>(report.pushes), 0);
@@ -85,8 +84,8 @@ void betweenWalls(const Context& context, Findings& findings)
     std::int64_t pushes = 0;
     run.advance(20 * kStep, 240.0, [&](const StepReport& report, double) {
         const Vec3 now = run.motion("cube").position;
-        shift = std::max(shift, (now - before).norm());
-        away = std::max(away, std::abs(now.x()));
+        shift = larger(shift, (now - before).norm());
+        away = larger(away, std::abs(now.x()));
         before = now;
         pushes += report.pushes;
     });

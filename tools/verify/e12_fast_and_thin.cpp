@@ -30,7 +30,7 @@ bool passesPlate(ShotRun& run, std::uint64_t shot, int& mostSteps)
     mostSteps = std::max(mostSteps, report.steps);
     // Where the ball is once it is clear of the plate: one that bounced falls by less than a
     // centimetre within the frame.
-    return run.motion("ball").position.y() < 0.0;
+    return !(run.motion("ball").position.y() >= 0.0);
 }
 
 void plate(const Context& context, Findings& findings)
@@ -84,7 +84,7 @@ void blade(const Context& context, Findings& findings)
     const BodyId blade = run.body("blade");
     double worst = 0.0;
     run.advanceFrames(18, [&](const FrameReport& report) {
-        worst = std::max(worst, report.sum.deepestAfterPushOut);
+        worst = larger(worst, report.sum.deepestAfterPushOut);
     });
     addPicture(context, run, "A keyed blade has swept through loose boxes", findings);
     int inside = 0;

@@ -1,6 +1,5 @@
 // E13, E14: motion without contact. [A18, A19]  Inputs are built in code: a hundred random spins
 // and a box whose orientation update is looked at alone.
-#include <algorithm>
 #include <cmath>
 
 #include "core/base/random.h"
@@ -123,10 +122,10 @@ void runFreeFlight(const Context&, Findings& findings)
         // Positions use the new velocities: the sum of k dt over k = 1 … n, not the integral.
         const Vec3 expected = before.position + n * dt * before.velocity +
                               0.5 * n * (n + 1.0) * dt * dt * settings.gravity;
-        position = std::max(position, (after.position - expected).norm() / expected.norm());
-        momentum = std::max(momentum, (after.angularMomentum - before.angularMomentum).norm() /
-                                          before.angularMomentum.norm());
-        unit = std::max(unit, std::abs(after.orientation.norm() - 1.0));
+        position = larger(position, (after.position - expected).norm() / expected.norm());
+        momentum = larger(momentum, (after.angularMomentum - before.angularMomentum).norm() /
+                                        before.angularMomentum.norm());
+        unit = larger(unit, std::abs(after.orientation.norm() - 1.0));
     }
     findings.atMost(must, "a hundred bodies, 10 s: position against the method's own sum", position,
                     1e-12, "relative");

@@ -1,6 +1,5 @@
 // E15: impulses obey Newton, Coulomb and the conservation laws. [A29–A35]  Random pairs are built
 // in code; the triple collision is a shot.
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -96,14 +95,14 @@ void tryPair(std::uint64_t sample, WorstOfPairs& worst)
     const Vec3 after = a.velocityAtContact() - b.velocityAtContact();
 
     const double push = j.impulse.dot(n);
-    worst.leastPush = std::min(worst.leastPush, push);
-    worst.normal = std::max(worst.normal, std::abs(after.dot(n) + e * u.dot(n)) / u.norm());
-    worst.cone = std::max(worst.cone, (j.impulse - push * n).norm() / (mu * push + 1e-300));
-    worst.work = std::max(worst.work, workOf(j.impulse, k, u) / (energy + 1e-300));
+    worst.leastPush = smaller(worst.leastPush, push);
+    worst.normal = larger(worst.normal, std::abs(after.dot(n) + e * u.dot(n)) / u.norm());
+    worst.cone = larger(worst.cone, (j.impulse - push * n).norm() / (mu * push + 1e-300));
+    worst.work = larger(worst.work, workOf(j.impulse, k, u) / (energy + 1e-300));
     if (massB > 0.0) {
         const Vec3 sum = massA * a.motion.velocity + massB * b.motion.velocity - pA - pB;
         worst.momentum =
-            std::max(worst.momentum, sum.norm() / (pA.norm() + pB.norm() + j.impulse.norm()));
+            larger(worst.momentum, sum.norm() / (pA.norm() + pB.norm() + j.impulse.norm()));
     }
 }
 
@@ -137,7 +136,7 @@ void mirrorImages(Findings& findings)
         const Vec3 image =
             contactImpulse(mirror * k * mirror, mirror * u, mirror * n, e, mu).impulse;
         const Vec3 original = contactImpulse(k, u, n, e, mu).impulse;
-        worst = std::max(worst, (mirror * image - original).norm() / (1.0 + original.norm()));
+        worst = larger(worst, (mirror * image - original).norm() / (1.0 + original.norm()));
     }
     findings.atMost(must, "mirror images: difference of the impulses", worst, 1e-12, "relative");
 }
@@ -157,8 +156,8 @@ void tripleCollision(const Context& context, Findings& findings)
         const double r = world.motion[run.body("right")].velocity.norm();
         left += l;
         right += r;
-        largest = std::max(largest, std::abs(l - r));
-        momentum = std::max(momentum, momenta(world).linear.norm());
+        largest = larger(largest, std::abs(l - r));
+        momentum = larger(momentum, momenta(world).linear.norm());
     }
     findings.atLeast(must, "triple collision, 100 seeds: mean speed of the outer balls",
                      0.005 * (left + right), 0.1, "m/s", "they come back");

@@ -1,5 +1,4 @@
 // E16: how high a ball bounces; E28 asks more of method scree on the same shot. [A28]
-#include <algorithm>
 #include <cmath>
 
 #include "tools/verify/experiments.h"
@@ -70,8 +69,8 @@ void runBounce(const Context& context, Findings& findings)
         const Bounces run = bounce(context, 1.0, rate, 7.0);
         double apex = 5.0, lost = 0.0, gained = -1e300;
         for (double now : run.apexes) {
-            lost = std::max(lost, apex - now);
-            gained = std::max(gained, now - apex);
+            lost = larger(lost, apex - now);
+            gained = larger(gained, now - apex);
             apex = now;
         }
         const std::string at = shortNumber(rate) + " Hz";
@@ -112,13 +111,13 @@ void runBounceHeight(const Context& context, Findings& findings)
                 hasBounced = hasBounced || v > 0.0;
                 if (!hasBounced) return;
                 const double above = world.motion[ball].position.y() - 0.5;
-                highest = std::max(highest, above + 0.5 * v * v / 9.8);
+                highest = larger(highest, above + 0.5 * v * v / 9.8);
             };
             for (int frame = 0; frame < std::ceil(24.0 * time) + 1.0; ++frame) {
                 run.stepper.advanceFrame(run.world, 1.0 / 24.0, {}, look);
             }
-            worst = std::max(worst, std::abs(highest - e * e * drop) / (e * e * drop));
-            gained = std::max(gained, highest - drop);
+            worst = larger(worst, std::abs(highest - e * e * drop) / (e * e * drop));
+            gained = larger(gained, highest - drop);
         }
         const std::string name = "drop of " + shortNumber(drop) + " m, default steps: ";
         findings.atMost(weight, name + "rebound off e^2 h", worst, 0.01, "relative");

@@ -1,5 +1,4 @@
 // E17: keyed bodies carry and push as lifts, turntables and rams do. [A36, A54]
-#include <algorithm>
 #include <cmath>
 
 #include "tools/verify/experiments.h"
@@ -22,10 +21,10 @@ void lift(const Context& context, Findings& findings)
         for (int i = 0; i < 5; ++i) {
             const Vec3 x = run.motion("cube_000" + std::to_string(i)).position -
                            run.world.motion[lift].position;
-            drift = std::max(drift, std::hypot(x.x(), x.z()));
-            lag = std::max(lag, std::abs(x.y() - 0.2 * (i + 1)));
+            drift = larger(drift, std::hypot(x.x(), x.z()));
+            lag = larger(lag, std::abs(x.y() - 0.2 * (i + 1)));
         }
-        fastest = std::max(fastest, run.world.motion[top].velocity.y());
+        fastest = larger(fastest, run.world.motion[top].velocity.y());
         ofLift.x.push_back(static_cast<double>(ofLift.x.size() + 1) / 24.0);
         ofTop.x.push_back(ofLift.x.back());
         ofLift.y.push_back(run.world.motion[lift].velocity.y());
@@ -48,7 +47,7 @@ double largestRadius(const Context& context, const char* shot)
     for (int frame = 0; frame < 5 * 24 && radius <= 1.05; ++frame) {
         run.advanceFrames(1);
         const Vec3& x = run.motion("box").position;
-        radius = std::max(radius, std::hypot(x.x(), x.z()));
+        radius = larger(radius, std::hypot(x.x(), x.z()));
     }
     return radius;
 }

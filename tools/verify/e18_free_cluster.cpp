@@ -1,5 +1,4 @@
 // E18: shock propagation creates no momentum in a cluster that nothing supports. [A47]
-#include <algorithm>
 
 #include "tools/verify/experiments.h"
 #include "tools/verify/shot_run.h"
@@ -37,8 +36,8 @@ Change follow(ShotRun& run, double stepsPerSecond)
             torque += dt * (body.position - dt * body.velocity).cross(weight);
         }
         const Momenta now = momenta(run.world);
-        change.linear = std::max(change.linear, (now.linear - before.linear - given).norm());
-        change.angular = std::max(change.angular, (now.angular - before.angular - torque).norm());
+        change.linear = larger(change.linear, (now.linear - before.linear - given).norm());
+        change.angular = larger(change.angular, (now.angular - before.angular - torque).norm());
     });
     return change;
 }

@@ -1,5 +1,4 @@
 // E19: same shot, same bits, whatever the threads and wherever it was cut in two. [A21]
-#include <algorithm>
 
 #include "core/base/parallel.h"
 #include "core/diagnostics/state_hash.h"

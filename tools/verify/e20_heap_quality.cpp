@@ -1,11 +1,10 @@
 // E20: a heap of mixed nonconvex bodies comes to rest in a bin; an arch and a house of cards stand;
-// a nut turns itself down a bolt. Goals: the full form takes long.
+// a nut turns itself down a bolt. Goals, of which method `scree` must keep what it has reached.
 //
 // With method `paper` arch and house fall. Both stand by thrust, which runs round through many
 // bodies and which shock propagation does nothing for; ten contact sweeps do not find it. In the
 // first second the key stone sinks by 995 mm with 10 sweeps, 104 with 50, 23 with 200; in the first
 // sixth of one a card goes by 6.9, 0.8 and 0.08 mm.
-#include <algorithm>
 #include <cmath>
 
 #include "core/math/rotation.h"
@@ -18,6 +17,11 @@ namespace {
 
 using enum Weight;
 
+Weight weightFor(const Context& context)
+{
+    return context.method == "scree" ? must : goal;
+}
+
 double energyOf(const FrameFigures& figures)
 {
     return figures.kineticEnergy + figures.potentialEnergy;
@@ -29,7 +33,7 @@ double largestGain(const HeapRecord& record)
     const auto second = static_cast<std::size_t>(record.scene.framesPerSecond);
     double gain = 0.0;
     for (std::size_t f = record.frames.size() / 2; f + second < record.frames.size(); ++f) {
-        gain = std::max(gain, energyOf(record.figures[f + second]) - energyOf(record.figures[f]));
+        gain = larger(gain, energyOf(record.figures[f + second]) - energyOf(record.figures[f]));
     }
     return gain;
 }
@@ -41,9 +45,9 @@ double deepestAtTheEnd(const HeapRecord& record)
     for (const Overlap& pair : judge.overlaps(record.frames.back())) {
         double edge = 1e300;
         for (std::size_t body : {pair.a, pair.b}) {
-            if (record.moves(body)) edge = std::min(edge, judge.shortestEdge(body));
+            if (record.moves(body)) edge = smaller(edge, judge.shortestEdge(body));
         }
-        deepest = std::max(deepest, pair.depth / edge);
+        deepest = larger(deepest, pair.depth / edge);
     }
     return deepest;
 }
@@ -57,12 +61,12 @@ void heap(const Context& context, Findings& findings)
     const HeapRecord record = recordRun(run, frames);
     const std::string name =
         std::to_string(bodies) + " bodies, " + std::to_string(frames / 24) + " s: ";
-    findings.atMost(goal, name + "energy gained over any second of the second half",
+    findings.atMost(weightFor(context), name + "energy gained over any second of the second half",
                     largestGain(record), 0.0, "J");
     findings.atMost(goal, name + "fastest body at the end",
                     quantile(speedsAt(record, record.frames.size() - 1), 1.0), 0.01, "m/s");
-    findings.atMost(goal, name + "deepest overlap at the end", deepestAtTheEnd(record), 0.01,
-                    "of the shortest edge", "dense samples");
+    findings.atMost(weightFor(context), name + "deepest overlap at the end",
+                    deepestAtTheEnd(record), 0.01, "of the shortest edge", "dense samples");
     addPicture(context, run, name + "the heap at the end", findings);
 }
 
@@ -78,11 +82,11 @@ void standing(const Context& context, const std::string& shot, const std::string
         if (!run.world.mass[b].isMovable()) continue;
         const auto body = static_cast<BodyId>(b);
         const double length = run.world.shapeOf(body).box.longestEdge();
-        moved = std::max(moved, largestVertexShift(run.start, run.world, body) / length);
+        moved = larger(moved, largestVertexShift(run.start, run.world, body) / length);
     }
     const std::string when = name + ", " + shortNumber(seconds) + " s: ";
     // A fall moves bodies by several times their length.
-    findings.atMost(goal, when + "largest shift", moved, 0.05, "of a body's length");
+    findings.atMost(weightFor(context), when + "largest shift", moved, 0.05, "of a body's length");
     addPicture(context, run, when + "at the end", findings);
 }
 
@@ -102,24 +106,26 @@ void nutOnABolt(const Context& context, Findings& findings)
     double deepest = 0.0, offThread = 0.0, turned = 0.0;
     const SceneFrame* before = &start;
     for (const SceneFrame& frame : record.frames) {
-        for (const Overlap& pair : judge.overlaps(frame)) deepest = std::max(deepest, pair.depth);
+        for (const Overlap& pair : judge.overlaps(frame)) deepest = larger(deepest, pair.depth);
         for (std::size_t b = 0; b < record.scene.bodies.size(); ++b) {
             if (!record.moves(b)) continue;
             turned += std::remainder(headingOf(frame.worldFromAsset[b].orientation) -
                                          headingOf(before->worldFromAsset[b].orientation),
                                      2.0 * kPi);
-            const double fallen = start.worldFromAsset[b].position.y() -
-                                  frame.worldFromAsset[b].position.y();
+            const double fallen =
+                start.worldFromAsset[b].position.y() - frame.worldFromAsset[b].position.y();
             offThread =
-                std::max(offThread, std::abs(fallen - kPitch * std::abs(turned) / (2.0 * kPi)));
+                larger(offThread, std::abs(fallen - kPitch * std::abs(turned) / (2.0 * kPi)));
         }
         before = &frame;
     }
-    findings.atMost(goal, "nut on a bolt, 4 s: overlap in any frame", deepest / kPitch, 0.02,
-                    "of the pitch", "dense samples");
-    findings.atMost(goal, "nut on a bolt, 4 s: way down less turns times pitch, play both ways",
+    findings.atMost(weightFor(context), "nut on a bolt, 4 s: overlap in any frame",
+                    deepest / kPitch, 0.02, "of the pitch", "dense samples");
+    findings.atMost(weightFor(context),
+                    "nut on a bolt, 4 s: way down less turns times pitch, play both ways",
                     offThread, 2.0 * kAxialPlay, "m");
-    findings.atLeast(goal, "nut on a bolt, 4 s: turns", std::abs(turned) / (2.0 * kPi), 0.5, "");
+    findings.atLeast(weightFor(context), "nut on a bolt, 4 s: turns",
+                     std::abs(turned) / (2.0 * kPi), 0.5, "");
     addPicture(context, run, "The nut after 4 s", findings);
 }
 
@@ -128,7 +134,7 @@ void nutOnABolt(const Context& context, Findings& findings)
 void runHeapQuality(const Context& context, Findings& findings)
 {
     heap(context, findings);
-    if (!context.isFull()) return;
+    if (!context.isFull() && context.method == "paper") return;  // what falls takes long
     standing(context, "E20_arch", "catenary arch of 25 stones", 10.0, findings);
     standing(context, "E20_card_house", "card house of four storeys", 5.0, findings);
     nutOnABolt(context, findings);

@@ -52,10 +52,10 @@ void box(std::uint64_t points, Findings& findings)
         const double exact = boxDistance(asset, half);
         const double phi = shape->distance.value(p), gridded = shape->distance.gridValue(p);
         const bool isNear = std::abs(gridded) < shape->distance.refinementBand();
-        (isNear ? nearby : anywhere) = std::max(isNear ? nearby : anywhere, std::abs(phi - exact));
-        if (isNear) grid = std::max(grid, std::abs(gridded - exact));
+        (isNear ? nearby : anywhere) = larger(isNear ? nearby : anywhere, std::abs(phi - exact));
+        if (isNear) grid = larger(grid, std::abs(gridded - exact));
         if (isNear && secondFace(asset, half) > 2.0 * h) {
-            faces = std::max(faces, std::abs(gridded - exact));
+            faces = larger(faces, std::abs(gridded - exact));
         }
         wrongSigns += (phi < 0.0) != (exact < 0.0);
     }
@@ -80,7 +80,7 @@ void sphere(std::uint64_t points, Findings& findings)
         if (p.norm() < 0.1) continue;
         const Vec3 onSphere = p.normalized();
         const Approach still{onSphere, Vec3::Zero(), onSphere, onSphere};
-        worst = std::max(worst, onSphere.cross(surfaceNormal(*shape, still)).norm());
+        worst = larger(worst, onSphere.cross(surfaceNormal(*shape, still)).norm());
     }
     findings.atMost(must, "sphere, 25 voxels to the radius: smooth normals are off",
                     worst * 180.0 / kPi, 1.0, "degrees");
@@ -93,7 +93,7 @@ void sphere(std::uint64_t points, Findings& findings)
     for (std::uint64_t i = 0; i < points / 10; ++i) {
         const Vec3 p =
             drawIn(round->box, i).normalized() * (1.0 + h * (2.0 * randomUnit(24, i) - 1.0));
-        error = std::max(error, std::abs(round->distance.gridValue(p) - (p.norm() - 1.0)));
+        error = larger(error, std::abs(round->distance.gridValue(p) - (p.norm() - 1.0)));
     }
     findings.atMost(must, "sphere, a voxel about its surface: error, trilinear alone",
                     error / (h * h), 0.3, "h^2/R");
@@ -139,7 +139,7 @@ void storages(std::uint64_t points, Findings& findings)
             signs += (a < 0.0) != (b < 0.0);
             const bool isNear =
                 std::abs(dense->distance.gridValue(p)) < dense->distance.refinementBand();
-            if (isNear) difference = std::max(difference, std::abs(a - b));
+            if (isNear) difference = larger(difference, std::abs(a - b));
         }
         const std::string which = std::string(name) + ", dense against bricks: ";
         findings.equal(must, which + "points of unlike sign", signs, 0);

@@ -47,7 +47,7 @@ void laggedAgainstReevolve(const Context& context, Findings& findings)
     for (int seed = 1; seed <= seeds; ++seed) {
         const HeapResult a = dropHeap(context, layers, seed, "lagged");
         const HeapResult b = dropHeap(context, layers, seed, "reevolve");
-        worstEnergy = std::max(worstEnergy, std::abs(a.energyLost / b.energyLost - 1.0));
+        worstEnergy = larger(worstEnergy, std::abs(a.energyLost / b.energyLost - 1.0));
         same += a.energyLost == b.energyLost;
         lagged += a.height / seeds;
         reevolved += b.height / seeds;
@@ -96,8 +96,8 @@ void strictStack(const Context& context, Findings& findings)
     double sink = 0.0, drift = 0.0;
     for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
         const Vec3 moved = run.world.motion[b].position - run.start.motion[b].position;
-        sink = std::max(sink, std::abs(moved.y()));
-        drift = std::max(drift, std::hypot(moved.x(), moved.z()));
+        sink = larger(sink, std::abs(moved.y()));
+        drift = larger(drift, std::hypot(moved.x(), moved.z()));
     }
     findings.atMost(must, "strict, E4 stack of ten: sinks", sink, 2e-3, "m",
                     "fields have nodes on the cubes' faces");

@@ -14,7 +14,7 @@ void runEdgeAgainstEdge(const Context& context, Findings& findings)
     ShotRun run(context, "E23_beams");
     double deepest = 0.0;
     run.advanceFrames(48, [&](const FrameReport& report) {
-        deepest = std::max(deepest, report.sum.deepestAfterPushOut);
+        deepest = larger(deepest, report.sum.deepestAfterPushOut);
     });
     const BodyMotion& upper = run.motion("upper");
     findings.atMost(must, "overlap in any step", deepest, 1e-3, "m", "the beams are 1 m long");

@@ -52,6 +52,9 @@ struct Experiment {
 /// All experiments in the order of their numbers.
 const std::vector<Experiment>& experiments();
 
+/// Runs one. What breaks off because a body is no longer finite has failed: a row says so.
+void runExperiment(const Experiment& experiment, const Context& context, Findings& findings);
+
 /// Those with the given ids ("E2", "e2", "2"), all when there are none. Throws Error{usage} naming
 /// the nearest id.
 std::vector<const Experiment*> chooseExperiments(const std::vector<std::string>& ids);

@@ -93,6 +93,16 @@ const char* nameOf(Verdict verdict)
     return "";
 }
 
+double larger(double a, double b)
+{
+    return std::isnan(a) || b <= a ? a : b;
+}
+
+double smaller(double a, double b)
+{
+    return std::isnan(a) || b >= a ? a : b;
+}
+
 std::string shortNumber(double value)
 {
     if (std::isnan(value)) return "-";

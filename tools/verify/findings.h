@@ -85,6 +85,11 @@ bool isMissing(const Measurement& row);
 const char* nameOf(Weight weight);
 const char* nameOf(Verdict verdict);
 
+/// The larger or smaller of two figures. What is no number beats both: the standard library's keep
+/// the other one, and a broken run would pass its bounds.
+double larger(double a, double b);
+double smaller(double a, double b);
+
 /// Four digits, as a person reads them.
 std::string shortNumber(double value);
 

@@ -98,10 +98,16 @@ std::optional<HeapRecord> largeTake(const Context& context, const std::string& n
     const std::filesystem::path folder = folderOfTake(context, name);
     const std::filesystem::path shot = context.shots.parent_path() / (name + ".toml");
     if (context.simulate) context.simulate(shot, context.method, folder);
-    if (std::filesystem::exists(folder / "take.json")) return readTake(folder);
+    std::string why = "no take is there";
+    if (std::filesystem::exists(folder / "take.json")) {
+        HeapRecord record = readTake(folder);
+        // Speeds are told by two poses.
+        if (record.frames.size() >= 2) return record;
+        why = "the take has fewer than two frames";
+    }
     findings.notRun(Weight::must, name,
-                    "no take is there: scree sim " + shot.string() +
-                        " --set solver.method=" + context.method + " -o " + folder.string());
+                    why + ": scree sim " + shot.string() + " --set solver.method=" +
+                        context.method + " -o " + folder.string() + " --resume");
     return {};
 }
 
@@ -141,7 +147,7 @@ void addCommonRows(const HeapRecord& record, const std::string& name, Weight ene
         const FrameFigures &before = record.figures[f - 1], &now = record.figures[f];
         const double gained = now.kineticEnergy + now.potentialEnergy - before.kineticEnergy -
                               before.potentialEnergy - now.pushOutWork;
-        rise = std::max(rise, gained / (now.kineticEnergy + scale));
+        rise = larger(rise, gained / (now.kineticEnergy + scale));
         wall.push_back(now.wallSeconds);
         cpu.push_back(now.cpuSeconds);
     }

@@ -38,7 +38,8 @@ HeapRecord readTake(const std::filesystem::path& folder);
 HeapRecord recordRun(ShotRun& run, int frames);
 
 /// The take of a large shot, shots/NAME.toml, in the context's folder of takes: simulated to its
-/// end first if the context may. Empty when there is none; the findings then say how to make it.
+/// end first if the context may. It holds two frames at least; empty when there is no such take,
+/// and the findings say how to make it.
 std::optional<HeapRecord> largeTake(const Context& context, const std::string& name,
                                     Findings& findings);
 std::filesystem::path folderOfTake(const Context& context, const std::string& name);

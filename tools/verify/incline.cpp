@@ -19,12 +19,12 @@ void look(const ShotRun& run, const SlideTheory& theory, double t, double blur, 
     const Vec3 moved = motion.position - start.position;
     const double along = moved.dot(theory.downhill());
     const double speedError = std::abs(motion.velocity.dot(theory.downhill()) - v);
-    errors.position = std::max(errors.position, std::abs(along - s));
-    if (t < stop - blur) errors.slidingSpeed = std::max(errors.slidingSpeed, speedError);
-    if (t > stop + blur) errors.restSpeed = std::max(errors.restSpeed, speedError);
+    errors.position = larger(errors.position, std::abs(along - s));
+    if (t < stop - blur) errors.slidingSpeed = larger(errors.slidingSpeed, speedError);
+    if (t > stop + blur) errors.restSpeed = larger(errors.restSpeed, speedError);
     const Quat turn = start.orientation.conjugate() * motion.orientation;
-    errors.rotation = std::max(errors.rotation, 2.0 * turn.vec().norm());
-    errors.drift = std::max(errors.drift, std::abs(moved.z()));
+    errors.rotation = larger(errors.rotation, 2.0 * turn.vec().norm());
+    errors.drift = larger(errors.drift, std::abs(moved.z()));
     errors.distance = s;
     errors.measured.x.push_back(t);
     errors.measured.y.push_back(along);
@@ -82,7 +82,7 @@ SlideErrors slide(ShotRun& run, const SlideTheory& theory, double stepsPerSecond
         const bool isPaper = run.shot.settings.method == Method::paper;
         discrete = isPaper ? discrete + dt * theory.speed(t) : theory.distance(t);
         errors.discretePosition =
-            std::max(errors.discretePosition, std::abs(errors.measured.y.back() - discrete));
+            larger(errors.discretePosition, std::abs(errors.measured.y.back() - discrete));
     });
     return errors;
 }

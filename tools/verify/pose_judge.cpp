@@ -8,7 +8,7 @@
 #include "core/geometry/surface_rays.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/geometry/winding_number.h"
-#include "core/math/aabb.h"
+#include "core/math/point_box.h"
 
 namespace scree::verify {
 namespace {
@@ -24,13 +24,6 @@ TriMesh toTriMesh(const SceneMesh& mesh)
     result.points = mesh.points;
     result.triangles = mesh.triangles;
     return result;
-}
-
-Aabb boxOf(const Points& points)
-{
-    Aabb box;
-    for (Eigen::Index v = 0; v < points.cols(); ++v) box.include(points.col(v));
-    return box;
 }
 
 /// Corners and a grid of points on every triangle.
@@ -200,11 +193,6 @@ double PoseJudge::depthIn(const SceneFrame& frame, std::size_t body, const Vec3&
 double PoseJudge::shortestEdge(std::size_t body) const
 {
     return solidOf(body).box.shortestEdge();
-}
-
-double PoseJudge::longestEdge(std::size_t body) const
-{
-    return solidOf(body).box.longestEdge();
 }
 
 }  // namespace scree::verify

@@ -28,9 +28,8 @@ public:
     /// How deep a point of the world lies in a body; 0 outside.
     double depthIn(const SceneFrame& frame, std::size_t body, const Vec3& point) const;
 
-    /// Shortest and longest edge of the mesh's box in the artist's axes [m].
+    /// Shortest edge of the mesh's box in the artist's axes [m].
     double shortestEdge(std::size_t body) const;
-    double longestEdge(std::size_t body) const;
 
 private:
     struct Solid;

@@ -1,6 +1,5 @@
 #include "tools/verify/report.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -12,24 +11,6 @@
 
 namespace scree::verify {
 namespace {
-
-std::string toBase64(const std::vector<std::uint8_t>& bytes)
-{
-    static const char* const kLetters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            word = word << 8 | (k < count ? bytes[i + k] : 0u);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += k <= count ? kLetters[word >> (18 - 6 * k) & 63u] : '=';
-        }
-    }
-    return text;
-}
 
 constexpr const char* kStyle = R"(<style>
 body { font: 15px/1.45 sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em; color: #222 }
@@ -51,10 +32,12 @@ std::string rowHtml(const Measurement& row)
 {
     const std::string verdict = nameOf(row.verdict);
     std::string html = "<tr><td>" + escapedForHtml(row.what);
-    if (!row.note.empty()) html += "<br><span class=\"note\">" + escapedForHtml(row.note) + "</span>";
-    html += "</td><td class=\"number\">" + shortNumber(row.measured) + " " + escapedForHtml(row.unit);
-    html += "</td><td>" + escapedForHtml(row.theory) + "</td><td>" + escapedForHtml(row.tolerance) + "</td><td>" +
-            nameOf(row.weight) + "</td>";
+    if (!row.note.empty())
+        html += "<br><span class=\"note\">" + escapedForHtml(row.note) + "</span>";
+    html +=
+        "</td><td class=\"number\">" + shortNumber(row.measured) + " " + escapedForHtml(row.unit);
+    html += "</td><td>" + escapedForHtml(row.theory) + "</td><td>" + escapedForHtml(row.tolerance) +
+            "</td><td>" + nameOf(row.weight) + "</td>";
     html +=
         "<td class=\"" + verdict.substr(0, verdict.find(' ')) + "\">" + verdict + "</td></tr>\n";
     return html;
@@ -67,7 +50,7 @@ std::string figuresHtml(const Findings& findings)
     for (const Plot& plot : findings.plots) html += "<figure>" + toSvg(plot) + "</figure>\n";
     for (const Picture& picture : findings.pictures) {
         html += "<figure><img alt=\"" + escapedForHtml(picture.caption) +
-                "\" src=\"data:image/png;base64," + toBase64(picture.png) + "\"><figcaption>" +
+                "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" +
                 escapedForHtml(picture.caption) + "</figcaption></figure>\n";
     }
     return html + "</div>\n";
@@ -78,9 +61,10 @@ std::string sectionHtml(const Result& result)
     const Experiment& experiment = *result.experiment;
     const std::string id = experiment.id;
     std::string html = "<h2 id=\"" + id + "_" + result.method + "\">" + id + " " +
-                       escapedForHtml(experiment.title) + "</h2>\n<p>" + escapedForHtml(experiment.claim) +
-                       " Method " + result.method + ", " + (experiment.isMust ? "must" : "goal") +
-                       ", " + describeDuration(result.cpuSeconds) + " of processor.</p>\n";
+                       escapedForHtml(experiment.title) + "</h2>\n<p>" +
+                       escapedForHtml(experiment.claim) + " Method " + result.method + ", " +
+                       (experiment.isMust ? "must" : "goal") + ", " +
+                       describeDuration(result.cpuSeconds) + " of processor.</p>\n";
     if (*experiment.paper) {
         html += "<p class=\"paper\">In the paper: " + escapedForHtml(experiment.paper) + "</p>\n";
     }
@@ -172,8 +156,8 @@ std::string toHtml(const std::vector<Result>& results, const Context& context)
     for (const Result& result : results) {
         const Summary summary = summarize({result});
         html += std::string("<li><a href=\"#") + result.experiment->id + "_" + result.method +
-                "\">" + result.experiment->id + " " + escapedForHtml(result.experiment->title) + "</a>, " +
-                result.method + ": " + std::to_string(summary.passed) + " of " +
+                "\">" + result.experiment->id + " " + escapedForHtml(result.experiment->title) +
+                "</a>, " + result.method + ": " + std::to_string(summary.passed) + " of " +
                 std::to_string(summary.rows) + " rows pass" +
                 (summary.broken ? ", <b>" + std::to_string(summary.broken) + " fail</b>" : "") +
                 (summary.missing ? ", " + std::to_string(summary.missing) + " not run" : "") +

@@ -1,6 +1,5 @@
 #include "tools/verify/shot_run.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.h"
@@ -45,6 +44,15 @@ std::vector<Look> looksOf(const Shot& shot, const SceneDescription& scene)
     return variedLooks(scene, looks);
 }
 
+/// A run without numbers has none to judge, and much of what is counted would count nothing.
+void refuseNonFinite(const World& world, const StepReport& report)
+{
+    if (report.nonFinite.empty()) return;
+    throw Error(ErrorKind::qualityLimit, "'" + world.info[report.nonFinite.front()].name +
+                                             "' is no longer finite after " +
+                                             nameOf(report.nonFinitePhase));
+}
+
 }  // namespace
 
 ShotRun::ShotRun(const Context& context, const std::string& name,
@@ -64,6 +72,7 @@ void ShotRun::advance(double seconds, double stepsPerSecond,
     const int steps = static_cast<int>(std::lround(seconds * stepsPerSecond));
     for (int k = 1; k <= steps; ++k) {
         const StepReport report = stepper.step(world, dt);
+        refuseNonFinite(world, report);
         if (look) look(report, k * dt);
     }
 }
@@ -72,6 +81,7 @@ void ShotRun::advanceFrames(int count, const std::function<void(const FrameRepor
 {
     for (int frame = 0; frame < count; ++frame) {
         const FrameReport report = stepper.advanceFrame(world, 1.0 / shot.framesPerSecond);
+        refuseNonFinite(world, report.sum);
         if (look) look(report);
     }
 }
@@ -123,7 +133,7 @@ double largestVertexShift(const World& before, const World& after, BodyId body)
     double largest = 0.0;
     for (Eigen::Index v = 0; v < points.cols(); ++v) {
         const Vec3 p = points.col(v);
-        largest = std::max(largest, (is * p - was * p).norm());
+        largest = larger(largest, (is * p - was * p).norm());
     }
     return largest;
 }
@@ -135,7 +145,7 @@ double lowestVertex(const World& world, BodyId body)
     double lowest = 1e300;
     for (Eigen::Index v = 0; v < points.cols(); ++v) {
         const Vec3 p = points.col(v);
-        lowest = std::min(lowest, (pose * p).y());
+        lowest = smaller(lowest, (pose * p).y());
     }
     return lowest;
 }

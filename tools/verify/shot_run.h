@@ -21,7 +21,8 @@ public:
             const std::function<void(StepSettings&)>& change = {});
 
     /// Advances by `seconds` in steps of 1/stepsPerSecond; `look` after each, with its report and
-    /// the time since the start of this call [s].
+    /// the time since the start of this call [s]. Throws Error{qualityLimit} when a body is no
+    /// longer finite, as the next does.
     void advance(double seconds, double stepsPerSecond,
                  const std::function<void(const StepReport&, double)>& look = {});
 
