@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <regex>
 #include <thread>
 
@@ -21,6 +22,7 @@
 #include "tools/shell_line.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/take_frames.h"
 
 extern char** environ;
 
@@ -40,6 +42,7 @@ struct MovieOptions {
 struct PictureSequence {
     fs::path pattern;  ///< with one place for the frame number
     std::vector<int> frames;
+    std::optional<TakeInfo> take;  ///< whose pictures they are, where a take was named
     double framesPerSecond = 24.0;
 };
 
@@ -76,6 +79,7 @@ PictureSequence findPictures(const MovieOptions& options)
         const TakeReader take(options.input);
         sequence.pattern = take.paths().root / "images" / (take.info().name + ".####.png");
         sequence.framesPerSecond = take.info().framesPerSecond;
+        sequence.take = take.info();
         sequence.frames = findFrames(sequence.pattern);
         if (sequence.frames.empty())
             throw Error(ErrorKind::missingInput, "\"" + options.input +
@@ -106,6 +110,25 @@ int spacingOf(const PictureSequence& sequence)
                         "the pictures have gaps: " + describeFrames(frames) +
                             "; render the missing ones first");
     return spacing;
+}
+
+/// Who names a take wants the whole shot on film; who names a pattern wants the pictures that are
+/// there.
+TakeFrames tellMissingPictures(const MovieOptions& options, const PictureSequence& sequence,
+                               Console& console)
+{
+    TakeFrames chosen{sequence.frames, ""};
+    if (!sequence.take) return chosen;
+    // Of every n-th picture the last stands for the frames up to the next one.
+    const int between = spacingOf(sequence) - 1;
+    chosen.missing = framesBeyond(*sequence.take, sequence.frames.front() - between,
+                                  sequence.frames.back() + between);
+    if (!chosen.missing.empty())
+        console.warning("\"" + options.input + "\" has no pictures of frames " + chosen.missing +
+                        "; " + shellLine({"scree", "render", options.input}) +
+                        " draws those that are simulated, the pattern " +
+                        sequence.pattern.string() + " asks for these alone");
+    return chosen;
 }
 
 std::string format(const char* pattern, double value)
@@ -237,6 +260,7 @@ void runProgram(const std::vector<std::string>& command)
 int runMovie(const MovieOptions& options, Console& console)
 {
     const PictureSequence sequence = findPictures(options);
+    const TakeFrames chosen = tellMissingPictures(options, sequence, console);
     const fs::path output = options.output;
     createFolderOf(output);
     AtomicFile{output};  // says now, with its own error, when nothing can be created there
@@ -263,7 +287,7 @@ int runMovie(const MovieOptions& options, Console& console)
         throw;
     }
     std::printf("%s\n", output.c_str());
-    return kExitDone;
+    return finishTakeFrames(chosen, output.string(), console);
 }
 
 }  // namespace
@@ -280,7 +304,10 @@ Command addMovieCommand(CLI::App& program)
     command->add_option("-o,--output", options->output, "The MP4 file to write")->required();
     command->add_option("--fps", options->framesPerSecond, "Frames per second [of the shot, or 24]")
         ->check(CLI::PositiveNumber);
-    command->footer("Example:\n  scree movie takes/rings_100 -o rings.mp4");
+    command->footer(
+        "Of a take without pictures of all its frames it makes what it can and ends with 66; a "
+        "pattern means\nthe pictures that are there.\nExample:\n  scree movie takes/rings_100 -o "
+        "rings.mp4");
     return {command, [options](Console& console) { return runMovie(*options, console); }};
 }
 

@@ -268,7 +268,7 @@ TEST_F(ProgramTest, ADiskThatFillsDuringAnExportExitsWith74AndLeavesNoHalfFile)
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1001-1003"}).code, 0);
     for (const std::string& name : kExports) {
         const fs::path output = fs::path(take("out")) / name;
-        Program program({"export", take("t"), "-o", output}, [] {
+        Program program({"export", take("t"), "--frames", "1001-1003", "-o", output}, [] {
             const rlimit limit = {200, 200};  // fewer bytes than any of the files has
             ::setrlimit(RLIMIT_FSIZE, &limit);
         });
@@ -283,7 +283,8 @@ TEST_F(ProgramTest, AnExportThatFailsLeavesTheOneBeforeItAlone)
 {
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1001-1003"}).code, 0);
     for (const std::string name : {"boxes.abc", "boxes.usda", "boxes.glb"}) {
-        ASSERT_EQ(runScree({"export", take("t"), "-o", folder / name}).code, 0);
+        ASSERT_EQ(
+            runScree({"export", take("t"), "--frames", "1001-1003", "-o", folder / name}).code, 0);
     }
     // A take cut short: the exports of before stay, and nothing is left of the new ones.
     fs::resize_file(TakePaths{take("t")}.frame(1003), 1000);
@@ -424,15 +425,46 @@ TEST_F(ProgramTest, TakeBecomesPicturesSheetFilmAndCache)
     EXPECT_EQ(render.code, 0) << render.err;
     EXPECT_TRUE(fs::exists(output + "/images/boxes.1003.png"));
     EXPECT_FALSE(fs::exists(output + "/images/boxes.1002.png"));
-    const Outcome sheet = runScree({"sheet", output, "--count", "4", "-o", take("sheet.png")});
+    const Outcome sheet =
+        runScree({"sheet", output, "--frames", "1001-1006x2", "-o", take("sheet.png")});
     EXPECT_EQ(sheet.code, 0) << sheet.err;
-    const Outcome movie = runScree({"movie", output, "-o", take("film.mp4")});
+    const Outcome movie =
+        runScree({"movie", output + "/images/boxes.####.png", "-o", take("film.mp4")});
     EXPECT_EQ(movie.code, 0) << movie.err;
     EXPECT_NE(movie.err.find("ffmpeg "), std::string::npos);
     EXPECT_GT(fs::file_size(take("film.mp4")), 500u);
-    const Outcome cache = runScree({"export", output, "-o", take("boxes.abc")});
+    const Outcome cache =
+        runScree({"export", output, "--frames", "1001-1006", "-o", take("boxes.abc")});
     EXPECT_EQ(cache.code, 0) << cache.err;
     EXPECT_GT(fs::file_size(take("boxes.abc")), 1000u);
+}
+
+// Whatever was made of the part that was there ended with 0 and no word.
+TEST_F(ProgramTest, WhatIsMadeOfAnUnfinishedTakeSaysSoAndExitsWith66)
+{
+    const std::string output = take("t");
+    ASSERT_EQ(runScree({"sim", shot(), "-o", output, "--frames", "1001-1005"}).code, 0);
+    const std::vector<std::vector<std::string>> commands = {{"export", output, "-o", take("x.abc")},
+                                                            {"render", output, "--size", "64x36"},
+                                                            {"sheet", output, "-o", take("x.png")},
+                                                            {"movie", output, "-o", take("x.mp4")}};
+    for (std::vector<std::string> words : commands) {
+        words.push_back("-q");
+        const Outcome partial = runScree(words);
+        EXPECT_EQ(partial.code, 66) << words[0] << ": " << partial.err;
+        EXPECT_NE(partial.err.find("1006-1040"), std::string::npos) << partial.err;
+        EXPECT_NE(partial.err.find("Warning: \""), std::string::npos) << partial.err;
+        EXPECT_NE(partial.err.find("Error: \""), std::string::npos) << partial.err;
+    }
+    for (const char* name : {"x.abc", "x.png", "x.mp4"}) EXPECT_TRUE(fs::exists(take(name)));
+    const Outcome asked =
+        runScree({"export", output, "--frames", "1001-1005", "-o", take("y.abc"), "-q"});
+    EXPECT_EQ(asked.code, 0) << asked.err;
+    EXPECT_EQ(asked.err, "");
+    const Outcome pattern =
+        runScree({"movie", output + "/images/boxes.####.png", "-o", take("y.mp4"), "-q"});
+    EXPECT_EQ(pattern.code, 0) << pattern.err;
+    EXPECT_EQ(pattern.err, "");
 }
 
 // Overwriting a take with a branch of itself emptied it.
