@@ -9,7 +9,6 @@
 #include <filesystem>
 
 #include "core/base/parallel.h"
-#include "core/diagnostics/state_hash.h"
 #include "core/dynamics/start_check.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
@@ -199,7 +198,7 @@ private:
     {
         FrameStats stats;
         stats.frame = shot_.firstFrame;
-        stats.report.stateHash = stateHash(world_);
+        stats.report = reportStart(world_, shot_.settings.gravity);
         take_->writeFrame(world_, stats);
     }
 

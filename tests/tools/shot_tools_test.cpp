@@ -191,5 +191,24 @@ TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
         << unknown.err;
 }
 
+TEST_F(ShotTools, TheFiguresOfTheFirstFrameAreThoseOfTheStart)
+{
+    const std::string emitter =
+        "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 2\n"
+        "frames = \"1001\"\nbox = { min = [5, 1, 5], max = [9, 2, 9] }\n";
+    writeFileBytes(folder / "moving.toml", kShotText + emitter);
+    ASSERT_EQ(run("sim moving.toml -o t --frames 1002 --set body.high.velocity=[2,0,0]").code, 0);
+    std::ifstream stats(folder / "t/stats.jsonl");
+    std::string line;
+    ASSERT_TRUE(std::getline(stats, line));
+    const nlohmann::json first = nlohmann::json::parse(line);
+    EXPECT_EQ(first["frame"], 1001);
+    EXPECT_NEAR(first["kinetic_energy_J"].get<double>(), 0.5 * 20.8 * 4.0, 1e-9);
+    EXPECT_NEAR(first["momentum"][0].get<double>(), 20.8 * 2.0, 1e-9);
+    EXPECT_GT(first["potential_energy_J"].get<double>(), 20.8 * 9.81 * (0.15 + 0.4));
+    EXPECT_EQ(first["births"]["born"], 2);
+    EXPECT_EQ(first["bodies_awake"], 4);
+}
+
 }  // namespace
 }  // namespace scree
