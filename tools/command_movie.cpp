@@ -12,10 +12,12 @@
 #include <regex>
 #include <thread>
 
+#include "core/base/parallel.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "io/frame_pattern.h"
 #include "io/take_reader.h"
+#include "render/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
@@ -131,6 +133,18 @@ TakeFrames tellMissingPictures(const MovieOptions& options, const PictureSequenc
     return chosen;
 }
 
+/// ffmpeg passes over pictures that are damaged: the film would be a frame short, or show one half
+/// grey.
+void requireWholePictures(const PictureSequence& sequence)
+{
+    if (sequence.pattern.extension() != ".png") return;
+    setThreadCount(threadsToUse(std::nullopt));
+    parallelFor(sequence.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end && !stopRequested(); ++i)
+            requireWholePng(expandFramePattern(sequence.pattern.string(), sequence.frames[i]));
+    });
+}
+
 std::string format(const char* pattern, double value)
 {
     char text[64];
@@ -193,8 +207,8 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
 /// Plays everywhere: H.264, even sizes, 4:2:0, and says which colours it means.
 std::vector<std::string> makeCommand(const PictureSequence& sequence, const std::string& output)
 {
-    std::vector<std::string> command = {"ffmpeg",    "-nostdin", "-hide_banner",
-                                        "-loglevel", "error",    "-y"};
+    std::vector<std::string> command = {"ffmpeg",  "-nostdin", "-hide_banner", "-loglevel", "error",
+                                        "-xerror", "-y"};
     for (const std::string& argument : inputArguments(sequence)) command.push_back(argument);
     for (const char* argument :
          {"-vf",
@@ -266,8 +280,10 @@ int runMovie(const MovieOptions& options, Console& console)
     AtomicFile{output};  // says now, with its own error, when nothing can be created there
     console.info(shellLine(makeCommand(sequence, output.string())));
 
-    // Under another name first: an interrupted ffmpeg leaves half a film.
     watchSignals();
+    requireWholePictures(sequence);
+
+    // Under another name first: an interrupted ffmpeg leaves half a film.
     const fs::path temporary = output.parent_path() / ("." + output.filename().string() + "." +
                                                        std::to_string(::getpid()) + ".tmp");
     std::error_code code;

@@ -17,6 +17,7 @@
 
 #include "io/file_bytes.h"
 #include "io/take.h"
+#include "render/png_writer.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
@@ -672,12 +673,26 @@ TEST_F(ProgramTest, AStoppedExportLeavesNoTemporary)
     EXPECT_EQ(namesIn(take("out")), std::vector<std::string>());
 }
 
+// ffmpeg passed over it, and the film was a frame short.
+TEST_F(ProgramTest, ADamagedPictureIsNamedAndNoFilmIsMade)
+{
+    fs::create_directory(take("out"));
+    for (const int frame : {1001, 1002, 1003})
+        writePng(take("p." + std::to_string(frame) + ".png"), Image(64, 64));
+    const std::string damaged = take("p.1002.png");
+    fs::resize_file(damaged, fs::file_size(damaged) / 2);
+    const Outcome outcome = runScree({"movie", take("p.####.png"), "-o", take("out/x.mp4")});
+    EXPECT_EQ(outcome.code, 74) << outcome.err;
+    EXPECT_NE(outcome.err.find("p.1002.png"), std::string::npos) << outcome.err;
+    EXPECT_EQ(namesIn(take("out")), std::vector<std::string>());
+}
+
 // A program of that name stands in for ffmpeg: it writes half a film and never ends by itself.
 TEST_F(ProgramTest, AStoppedMovieStopsFfmpegAndLeavesNoTemporary)
 {
     fs::create_directory(take("out"));
     fs::create_directory(take("bin"));
-    writeFileBytes(take("p.1001.png"), "");
+    writePng(take("p.1001.png"), Image(4, 4));
     writeFileBytes(take("bin/ffmpeg"),
                    "#!/bin/sh\nfor last; do :; done\necho half > \"$last\"\nexec sleep 60\n");
     fs::permissions(take("bin/ffmpeg"), fs::perms::owner_all);
