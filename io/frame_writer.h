@@ -62,4 +62,7 @@ private:
 /// and for a single file with one.
 std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& output);
 
+/// The same for a single frame: "out.obj" and its like need no place for the frame number.
+std::unique_ptr<FrameWriter> makePoseWriter(const std::filesystem::path& output);
+
 }  // namespace scree

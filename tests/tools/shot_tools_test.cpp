@@ -191,6 +191,22 @@ TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
         << unknown.err;
 }
 
+// It went through a file of its own, pose.1001.obj, which could be somebody else's.
+TEST_F(ShotTools, SettleTouchesNoFileButTheOneItWrites)
+{
+    for (int frame = 1001; frame < 1010; ++frame)
+        writeFileBytes(folder / ("pose." + std::to_string(frame) + ".obj"), "mine");
+    ASSERT_EQ(run("settle drop.toml -o pose.obj --seconds 0.1").code, 79);
+    for (int frame = 1001; frame < 1010; ++frame)
+        EXPECT_EQ(readFileBytes(folder / ("pose." + std::to_string(frame) + ".obj")), "mine");
+    EXPECT_EQ(run("settle drop.toml -o pose.pov --seconds 0.1").code, 79);
+    EXPECT_TRUE(contains(readFileBytes(folder / "pose.pov"), "pose_meshes.inc"));
+    std::filesystem::create_directories(folder / "taken.obj");
+    const Outcome taken = run("settle drop.toml -o taken.obj --seconds 0.1");
+    EXPECT_EQ(taken.code, 73) << taken.err;
+    EXPECT_TRUE(contains(taken.err, "taken.obj")) << taken.err;
+}
+
 TEST_F(ShotTools, TheFiguresOfTheFirstFrameAreThoseOfTheStart)
 {
     const std::string emitter =
