@@ -226,5 +226,21 @@ TEST_F(ShotTools, TheFiguresOfTheFirstFrameAreThoseOfTheStart)
     EXPECT_EQ(first["bodies_awake"], 4);
 }
 
+// The copy went into caches unseen, and a branch off it ended in a failed check.
+TEST_F(ShotTools, AFrameUnderTheNameOfAnotherIsRefused)
+{
+    ASSERT_EQ(run("sim drop.toml -o t").code, 0);
+    const auto frame = [&](int number) {
+        return folder / ("t/frames/frame.00" + std::to_string(number) + ".scree");
+    };
+    writeFileBytes(frame(1005), readFileBytes(frame(1004)));
+    for (const char* command :
+         {"export t -o x.abc", "render t", "sim drop.toml --from t@1005 -o b", "diff t t"}) {
+        const Outcome refused = run(command);
+        EXPECT_EQ(refused.code, 74) << command << ": " << refused.err;
+        EXPECT_TRUE(contains(refused.err, "frame.001005.scree: holds frame 1004")) << refused.err;
+    }
+}
+
 }  // namespace
 }  // namespace scree
