@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <new>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/start_check.h"
@@ -140,7 +141,7 @@ public:
     int run()
     {
         const std::string folder = take_->paths().root.string();
-        const int simulated = simulate();
+        const int simulated = simulateOrTell();
         if (isStopped_) {
             console_.info("stopped in frame " + std::to_string(stoppedIn_) +
                           "; the state is saved, go on with: " + commandToGoOn(options_, folder));
@@ -166,6 +167,19 @@ private:
                                               std::to_string(shot_.firstFrame) + "-" +
                                               std::to_string(shot_.lastFrame));
         return last;
+    }
+
+    int simulateOrTell()
+    {
+        try {
+            return simulate();
+        } catch (const std::bad_alloc&) {
+            const std::string folder = take_->paths().root.string();
+            throw Error(ErrorKind::internal,
+                        "memory ran out after frame " + std::to_string(take_->lastWholeFrame()) +
+                            "; the frames are kept, with more memory go on with: " +
+                            commandToGoOn(options_, folder));
+        }
     }
 
     /// Simulates what is missing; returns how many frames that were.

@@ -94,6 +94,16 @@ std::string unknownWord(const CLI::App& program, const std::vector<std::string>&
     return "";
 }
 
+/// A command that has nothing better to say of a lack of memory is named itself.
+int run(const Command& command, Console& console)
+{
+    try {
+        return command.run(console);
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::internal, "memory ran out in scree " + command.options->get_name());
+    }
+}
+
 int runProgram(int argumentCount, char** arguments, Console& console)
 {
     CLI::App program("Scree simulates heaps of rigid bodies for film.", "scree");
@@ -123,7 +133,7 @@ int runProgram(int argumentCount, char** arguments, Console& console)
                     (slip.empty() ? problem.what() : slip) + " (scree --help tells more)");
     }
     for (const Command& command : commands)
-        if (command.options->parsed()) return command.run(console);
+        if (command.options->parsed()) return run(command, console);
     return kExitUsage;
 }
 
@@ -167,7 +177,7 @@ int main(int argumentCount, char** arguments)
         console.error(std::string("reading or writing failed: ") + problem.what());
         return scree::exitCodeFor(scree::ErrorKind::inputOutput);
     } catch (const std::bad_alloc&) {
-        console.error("not enough memory");
+        console.error("memory ran out");
         return scree::kExitInternal;
     } catch (const std::exception& problem) {
         console.error(std::string("internal: ") + problem.what());

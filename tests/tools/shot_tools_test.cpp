@@ -242,5 +242,38 @@ TEST_F(ShotTools, AFrameUnderTheNameOfAnotherIsRefused)
     }
 }
 
+// Too little memory was an error of the shot, at the line of the shape that came next.
+TEST_F(ShotTools, ALackOfMemoryIsNotBlamedOnTheShot)
+{
+    bool ranOut = false;
+    for (int megabytes = 300; megabytes <= 700; megabytes += 20) {
+        const std::string command = "cd '" + folder.path().string() + "' && ulimit -v " +
+                                    std::to_string(megabytes * 1024) + " && '" + SCREE_PROGRAM +
+                                    "' check drop.toml --estimate 0 --threads 1 > out 2> err";
+        const int code = WEXITSTATUS(std::system(command.c_str()));
+        const std::string err = readFileBytes(folder / "err");
+        if (code == 127 || code == 134) continue;  // not even the libraries start
+        EXPECT_TRUE(code == 0 || code == 70) << code << ": " << err;
+        if (code != 70) continue;
+        ranOut = true;
+        EXPECT_TRUE(err.starts_with("Error: memory ran out ")) << err;
+    }
+    EXPECT_TRUE(ranOut) << "no limit was tried at which the program starts and runs out";
+}
+
+TEST_F(ShotTools, AHeaderThatPromisesTooMuchIsToldAsALackOfMemory)
+{
+    writeFileBytes(folder / "big.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+                   "property float y\nproperty float z\nelement face 1\n"
+                   "property list uchar int vertex_indices\nend_header\n0 0 0\n");
+    writeFileBytes(folder / "big.toml", kShotText + "[shape.big]\nfile = \"big.ply\"\n" +
+                                            test::bodyText("b", "position = [5, 5, 5]", "big"));
+    const Outcome refused = run("check big.toml --estimate 0");
+    EXPECT_EQ(refused.code, 65);
+    EXPECT_TRUE(contains(refused.err, "'big.ply' cannot be read: it needs more memory than"))
+        << refused.err;
+}
+
 }  // namespace
 }  // namespace scree
