@@ -99,7 +99,7 @@ public:
     {
         if (stopRequested()) throw StoppedBeforeStart();
         if (takeSaveRequest())
-            console_.line("scree: still building distance fields; there is nothing to save yet");
+            console_.answer("scree: still building distance fields; there is nothing to save yet");
     }
 
 private:
@@ -200,7 +200,7 @@ private:
         if (shot_.output.contacts) stepper.observe(&lastStep_);
         if (!take_->hasFrame(shot_.firstFrame)) {
             writeInitialFrame();
-            progress.frameDone(shot_.firstFrame, 0.0);
+            progress.frameDone(shot_.firstFrame, 0.0, {}, 0.0);  // nothing to time yet
         }
         for (int frame = shot_.firstFrame + 1; frame <= lastFrame_ && !isStopped_; ++frame)
             if (!take_->hasFrame(frame)) simulateFrame(frame, stepper, progress);
@@ -224,6 +224,7 @@ private:
         stats.resumedAtSubStep = world_.clock.subStep;
         const double wallBefore = wallSeconds(), cpuBefore = cpuSeconds();
         const double duration = 1.0 / shot_.framesPerSecond;
+        const double shareToDo = 1.0 - world_.clock.frameTimeDone / duration;
         const auto askStop = [&] {
             progress.insideFrame(frame, world_.clock.frameTimeDone / duration);
             if (takeSaveRequest()) saveAndTell(frame);
@@ -249,7 +250,7 @@ private:
         warnOfCap(frame, stats.report);
         if (frame == shot_.lastFrame) warnOfUnborn();
         progress.frameDone(frame, stats.wallSeconds,
-                           {stats.report.bodiesAwake, stats.report.sum.contactPairs});
+                           {stats.report.bodiesAwake, stats.report.sum.contactPairs}, shareToDo);
         if (takeSaveRequest()) tellSaved(frame);  // the frame itself is what to go on from
         if (stopRequested() && frame < lastFrame_) {
             isStopped_ = true;
@@ -272,9 +273,9 @@ private:
 
     void tellSaved(int frame)
     {
-        console_.line("scree: saved in frame " + std::to_string(frame) + " of " +
-                      std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) +
-                      ", sub-step " + std::to_string(world_.clock.subStep));
+        console_.answer("scree: saved in frame " + std::to_string(frame) + " of " +
+                        std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) +
+                        ", sub-step " + std::to_string(world_.clock.subStep));
     }
 
     void refuseNonFinite(int frame, const FrameReport& report)
