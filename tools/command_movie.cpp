@@ -319,7 +319,8 @@ Command addMovieCommand(CLI::App& program)
         ->type_name("TAKE|PATTERN");
     command->add_option("-o,--output", options->output, "The MP4 file to write")->required();
     command->add_option("--fps", options->framesPerSecond, "Frames per second [of the shot, or 24]")
-        ->check(CLI::PositiveNumber);
+        ->check(complaintIfNotFinite)
+        ->check(CLI::Range(0.01, 10000.0));
     command->footer(
         "Of a take without pictures of all its frames it makes what it can and ends with 66; a "
         "pattern means\nthe pictures that are there.\nExample:\n  scree movie takes/rings_100 -o "

@@ -220,11 +220,13 @@ Command addSettleCommand(CLI::App& program)
                      "out.obj, out.ply or out.pov")
         ->required();
     command->add_option("--seconds", options->seconds, "Simulated time to give up after [30]")
+        ->check(complaintIfNotFinite)
         ->check(CLI::Range(1e-3, 1e6));
     command
         ->add_option("--tolerance", options->tolerance,
                      "At rest is what moves less than this part of its radius in half a second "
                      "[0.005]")
+        ->check(complaintIfNotFinite)
         ->check(CLI::Range(1e-12, 1.0));
     addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");

@@ -242,6 +242,23 @@ TEST_F(ShotTools, AFrameUnderTheNameOfAnotherIsRefused)
     }
 }
 
+// A variable that a script never set took all frames, or wrote to another place.
+TEST_F(ShotTools, EmptyValuesAndNumbersWithoutEndAreRefused)
+{
+    ASSERT_EQ(run("sim drop.toml -o t --frames 1002").code, 0);
+    for (const char* command :
+         {"export t -o x.abc --frames ''", "export t -o x.abc --frames=", "sim drop.toml -o ''",
+          "sim drop.toml -o u --set ''", "render t --camera ''", "render t --size=", "info ''"}) {
+        const Outcome refused = run(command);
+        EXPECT_EQ(refused.code, 64) << command << ": " << refused.err;
+        EXPECT_TRUE(contains(refused.err, "empty")) << refused.err;
+    }
+    for (const char* command :
+         {"movie p.####.png -o x.mp4 --fps nan", "movie p.####.png -o x.mp4 --fps inf",
+          "settle drop.toml -o x.json --tolerance nan", "settle drop.toml -o x.json --seconds nan"})
+        EXPECT_EQ(run(command).code, 64) << command;
+}
+
 // Too little memory was an error of the shot, at the line of the shape that came next.
 TEST_F(ShotTools, ALackOfMemoryIsNotBlamedOnTheShot)
 {
