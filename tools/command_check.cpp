@@ -257,8 +257,8 @@ int runCheck(const CheckOptions& options, Console& console)
     else
         printText(shot, world, report, cache);
     // What sim would refuse, check refuses too.
-    const bool isRefused = !report.overlaps.empty() && shot.startOverlap == StartOverlapRule::error;
-    return isRefused ? exitCodeFor(ErrorKind::badInput) : kExitDone;
+    const bool begins = foretellStartRule(shot, world, report.overlaps, console);
+    return begins ? kExitDone : exitCodeFor(ErrorKind::badInput);
 }
 
 }  // namespace

@@ -259,6 +259,19 @@ TEST_F(ShotTools, EmptyValuesAndNumbersWithoutEndAreRefused)
         EXPECT_EQ(run(command).code, 64) << command;
 }
 
+TEST_F(ShotTools, CheckTellsOverlapsAsSimDoes)
+{
+    const std::string check =
+        "check drop.toml --estimate 0 --set body.high.position=[0.02,0.3,0.03]";
+    const Outcome refused = run(check);
+    EXPECT_EQ(refused.code, 65);
+    EXPECT_TRUE(refused.err.starts_with("Error: 1 pair overlaps before anything moves"))
+        << refused.err;
+    const Outcome warned = run(check + " --set start.overlap=\\\"warn\\\"");
+    EXPECT_EQ(warned.code, 0);
+    EXPECT_TRUE(warned.err.starts_with("Warning: 1 pair overlaps")) << warned.err;
+}
+
 // Too little memory was an error of the shot, at the line of the shape that came next.
 TEST_F(ShotTools, ALackOfMemoryIsNotBlamedOnTheShot)
 {
