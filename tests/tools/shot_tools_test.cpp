@@ -272,6 +272,29 @@ TEST_F(ShotTools, CheckTellsOverlapsAsSimDoes)
     EXPECT_TRUE(warned.err.starts_with("Warning: 1 pair overlaps")) << warned.err;
 }
 
+// A third too low: in the first frames nothing lies on anything yet.
+TEST_F(ShotTools, TheEstimateOfTheDiskIsThatOfTheFinishedTake)
+{
+    std::string bodies;
+    for (int i = 0; i < 12; ++i)
+        bodies += test::bodyText("b" + std::to_string(i),
+                                 "position = [" + std::to_string(i) + ", 0.3, 0]");
+    writeFileBytes(folder / "row.toml", test::shotTextOf({.name = "row",
+                                                          .frames = "1001-1100",
+                                                          .shotKeys = "",
+                                                          .woodKeys = "",
+                                                          .box = "[0.4, 0.2, 0.4]"},
+                                                         bodies));
+    const Outcome checked = run("check row.toml --json");
+    const double estimate =
+        nlohmann::json::parse(checked.out)["estimate"]["disk_bytes"].get<double>();
+    ASSERT_EQ(run("sim row.toml -o t").code, 0);
+    double bytes = 0.0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "t"))
+        if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+    EXPECT_NEAR(estimate, bytes, 0.15 * bytes);
+}
+
 // Too little memory was an error of the shot, at the line of the shape that came next.
 TEST_F(ShotTools, ALackOfMemoryIsNotBlamedOnTheShot)
 {
