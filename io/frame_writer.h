@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/scene/scene_description.h"
@@ -20,6 +21,10 @@ public:
 
     /// Whether the format can hold samples between frames.
     virtual bool holdsSubframes() const { return false; }
+
+    /// What of the scene the format cannot hold though its readers would look for it, a sentence
+    /// each.
+    virtual std::vector<std::string> losses(const SceneDescription& /*scene*/) const { return {}; }
 
     /// `frameCount` frames will follow, the first is `firstFrame`; each has one sample for every
     /// one of `offsets` [frames], which ascend within less than a frame and hold 0. A writer that

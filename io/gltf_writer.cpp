@@ -91,6 +91,7 @@ public:
     explicit GltfWriter(fs::path output) : output_(std::move(output)) {}
 
     bool holdsSubframes() const override { return true; }
+    std::vector<std::string> losses(const SceneDescription& scene) const override;
 
 private:
     void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
@@ -132,6 +133,22 @@ private:
     std::map<std::string, std::size_t> materials_;
     std::vector<std::size_t> nodeOfBody_, nodeOfCamera_;
 };
+
+/// glTF's cameras have one angle of view.
+std::vector<std::string> GltfWriter::losses(const SceneDescription& scene) const
+{
+    std::vector<std::string> sentences;
+    for (const SceneCamera& camera : scene.cameras) {
+        const bool zooms = std::ranges::any_of(camera.keys, [&](const CameraKey& key) {
+            return key.fovDegrees != camera.keys.front().fovDegrees;
+        });
+        if (!zooms) continue;
+        sentences.push_back("the zoom of camera '" + camera.name +
+                            "' is lost: a .glb holds one angle of view, that of the first frame; "
+                            "a .abc or a .usda keeps it");
+    }
+    return sentences;
+}
 
 void GltfWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*frameCount*/)
 {
@@ -365,7 +382,7 @@ void GltfWriter::addBirths(Json& samplers, Json& channels)
     }
 }
 
-/// Where keyed cameras stand. A zoom is lost: glTF's cameras have one angle of view.
+/// Where keyed cameras stand.
 void GltfWriter::addCameraMotion(Json& samplers, Json& channels)
 {
     const std::vector<double>& times = motion_->times();

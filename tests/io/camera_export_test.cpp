@@ -133,6 +133,16 @@ TEST(CameraExport, GltfMovesTheNodeOfTheCameraTheShortWay)
     EXPECT_EQ(seen, 4U) << "translation and rotation of two cameras";
 }
 
+TEST(CameraExport, OnlyTheFormatThatLosesAZoomSaysSo)
+{
+    const SceneDescription scene = filmedCast();
+    const std::vector<std::string> lost = makeGltfWriter("x.glb")->losses(scene);
+    ASSERT_EQ(lost.size(), 1u);
+    EXPECT_NE(lost[0].find("zoom of camera 'main'"), std::string::npos) << lost[0];
+    EXPECT_TRUE(makeUsdWriter("x.usda")->losses(scene).empty());
+    EXPECT_TRUE(makeGltfWriter("x.glb")->losses(test::castScene()).empty());
+}
+
 TEST(CameraExport, EveryPovFileHasTheCameraOfItsFrame)
 {
     const test::TemporaryFolder folder;
