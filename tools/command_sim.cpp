@@ -459,7 +459,7 @@ Command addSimCommand(CLI::App& program)
                           "Go on with the take, to the same bits; begin when there is none");
     command
         ->add_flag("--overwrite", options->overwrite,
-                   "Replace the take that is there, with its images/ and exports/")
+                   "Replace the take that is there, with its images/, exports/ and stats.html")
         ->excludes(resume);
     command->add_option("--from", options->from,
                         "TAKE@FRAME: begin with that take's frames up to this one; the shot may "

@@ -42,9 +42,8 @@ int runStats(const StatsOptions& options)
     const TakeReader take(options.take);
     if (take.frames().empty())
         throw Error(ErrorKind::missingInput, "\"" + options.take + "\" has no frames");
-    const std::filesystem::path output = options.output.empty()
-                                             ? take.paths().root / "stats.html"
-                                             : std::filesystem::path(options.output);
+    const std::filesystem::path output =
+        options.output.empty() ? take.paths().statsPage() : std::filesystem::path(options.output);
     createFolderOf(output);
     const std::vector<Thumbnail> thumbnails =
         options.pictures > 0 ? paintThumbnails(take, options.pictures) : std::vector<Thumbnail>();

@@ -295,6 +295,15 @@ TEST_F(ShotTools, TheEstimateOfTheDiskIsThatOfTheFinishedTake)
     EXPECT_NEAR(estimate, bytes, 0.15 * bytes);
 }
 
+TEST_F(ShotTools, OverwritingATakeRemovesItsPageOfFigures)
+{
+    ASSERT_EQ(run("sim drop.toml -o t --frames 1002").code, 0);
+    ASSERT_EQ(run("stats t --pictures 0").code, 0);
+    ASSERT_TRUE(std::filesystem::exists(folder / "t/stats.html"));
+    ASSERT_EQ(run("sim drop.toml -o t --frames 1002 --overwrite").code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "t/stats.html"));
+}
+
 // Too little memory was an error of the shot, at the line of the shape that came next.
 TEST_F(ShotTools, ALackOfMemoryIsNotBlamedOnTheShot)
 {
