@@ -204,8 +204,31 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
     return arguments;
 }
 
+/// Files that hold H.264 and that -movflags knows.
+struct Container {
+    const char *ending, *muxer;
+};
+constexpr Container kContainers[] = {{".mp4", "mp4"}, {".m4v", "mp4"}, {".mov", "mov"}};
+
+/// ffmpeg's name of the container that the ending asks for.
+std::string muxerOf(const std::string& name)
+{
+    std::string ending = fs::path(name).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char letter) { return std::tolower(letter); });
+    std::string known;
+    for (const Container& container : kContainers) {
+        if (ending == container.ending) return container.muxer;
+        known += (known.empty() ? "" : ", ") + std::string(container.ending);
+    }
+    throw Error(
+        ErrorKind::usage,
+        "\"" + name + "\" is no film that can be written; expected a name ending in " + known);
+}
+
 /// Plays everywhere: H.264, even sizes, 4:2:0, and says which colours it means.
-std::vector<std::string> makeCommand(const PictureSequence& sequence, const std::string& output)
+std::vector<std::string> makeCommand(const PictureSequence& sequence, const std::string& muxer,
+                                     const std::string& output)
 {
     std::vector<std::string> command = {"ffmpeg",  "-nostdin", "-hide_banner", "-loglevel", "error",
                                         "-xerror", "-y"};
@@ -213,25 +236,11 @@ std::vector<std::string> makeCommand(const PictureSequence& sequence, const std:
     for (const char* argument :
          {"-vf",
           "scale=trunc(iw/2)*2:trunc(ih/2)*2:out_color_matrix=bt709:out_range=tv,format=yuv420p",
-          "-c:v",
-          "libx264",
-          "-preset",
-          "medium",
-          "-crf",
-          "18",
-          "-color_range",
-          "tv",
-          "-color_primaries",
-          "bt709",
-          "-color_trc",
-          "bt709",
-          "-colorspace",
-          "bt709",
-          "-movflags",
-          "+faststart",
-          "-f",
-          "mp4"})
+          "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-color_range", "tv",
+          "-color_primaries", "bt709", "-color_trc", "bt709", "-colorspace", "bt709", "-movflags",
+          "+faststart", "-f"})
         command.push_back(argument);
+    command.push_back(muxer);
     command.push_back(output);
     return command;
 }
@@ -273,12 +282,13 @@ void runProgram(const std::vector<std::string>& command)
 
 int runMovie(const MovieOptions& options, Console& console)
 {
+    const std::string muxer = muxerOf(options.output);
     const PictureSequence sequence = findPictures(options);
     const TakeFrames chosen = tellMissingPictures(options, sequence, console);
     const fs::path output = options.output;
     createFolderOf(output);
     AtomicFile{output};  // says now, with its own error, when nothing can be created there
-    console.info(shellLine(makeCommand(sequence, output.string())));
+    console.info(shellLine(makeCommand(sequence, muxer, output.string())));
 
     watchSignals();
     requireWholePictures(sequence);
@@ -288,7 +298,7 @@ int runMovie(const MovieOptions& options, Console& console)
                                                        std::to_string(::getpid()) + ".tmp");
     std::error_code code;
     try {
-        runProgram(makeCommand(sequence, temporary.string()));
+        runProgram(makeCommand(sequence, muxer, temporary.string()));
         if (stopRequested()) {
             fs::remove(temporary, code);
             console.info("stopped; no film was made");
@@ -317,7 +327,8 @@ Command addMovieCommand(CLI::App& program)
                      "A take whose pictures are drawn, or a pattern like name.####.png")
         ->required()
         ->type_name("TAKE|PATTERN");
-    command->add_option("-o,--output", options->output, "The MP4 file to write")->required();
+    command->add_option("-o,--output", options->output, "The film to write: out.mp4 or out.mov")
+        ->required();
     command->add_option("--fps", options->framesPerSecond, "Frames per second [of the shot, or 24]")
         ->check(complaintIfNotFinite)
         ->check(CLI::Range(0.01, 10000.0));

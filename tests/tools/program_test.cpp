@@ -687,6 +687,19 @@ TEST_F(ProgramTest, ADamagedPictureIsNamedAndNoFilmIsMade)
     EXPECT_EQ(namesIn(take("out")), std::vector<std::string>());
 }
 
+// Any ending gave an MP4 under its name.
+TEST_F(ProgramTest, TheEndingOfAFilmDecidesItsContainerOrIsRefused)
+{
+    writePng(take("p.1001.png"), Image(64, 64));
+    ASSERT_EQ(runScree({"movie", take("p.####.png"), "-o", take("x.mov")}).code, 0);
+    ASSERT_EQ(runScree({"movie", take("p.####.png"), "-o", take("x.mp4")}).code, 0);
+    EXPECT_EQ(readFileBytes(take("x.mov")).substr(4, 6), "ftypqt");
+    EXPECT_EQ(readFileBytes(take("x.mp4")).substr(4, 7), "ftypiso");
+    const Outcome refused = runScree({"movie", take("p.####.png"), "-o", take("x.avi")});
+    EXPECT_EQ(refused.code, 64);
+    EXPECT_NE(refused.err.find(".mp4, .m4v, .mov"), std::string::npos) << refused.err;
+}
+
 // A program of that name stands in for ffmpeg: it writes half a film and never ends by itself.
 TEST_F(ProgramTest, AStoppedMovieStopsFfmpegAndLeavesNoTemporary)
 {
