@@ -20,6 +20,7 @@
 #include "core/scene/shaded_mesh.h"
 #include "io/atomic_file.h"
 #include "io/byte_order.h"
+#include "io/camera_names.h"
 #include "io/camera_pose.h"
 #include "io/motion_spool.h"
 
@@ -343,18 +344,19 @@ void GltfWriter::addBodies(Json& rootNodes)
 
 void GltfWriter::addCameras(Json& rootNodes)
 {
-    for (const SceneCamera& moving : scene_->cameras) {
-        const SceneCamera camera = cameraAt(moving, firstFrame_, scene_->zUp);
+    const std::vector<std::string> names = cameraNames(*scene_);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const SceneCamera camera = cameraAt(scene_->cameras[k], firstFrame_, scene_->zUp);
         const Pose pose = inYUpMetres(worldFromCamera(camera, scene_->zUp), *scene_);
         const double scale = scene_->metresPerUnit;
         const double distance = std::max((camera.eye - camera.target).norm() * scale, 1e-6);
         nodeOfCamera_.push_back(json_["nodes"].size());
         rootNodes.push_back(json_["nodes"].size());
-        json_["nodes"].push_back({{"name", camera.name},
+        json_["nodes"].push_back({{"name", names[k]},
                                   {"camera", json_["cameras"].size()},
                                   {"translation", jsonArray(pose.position)},
                                   {"rotation", jsonQuaternion(pose.orientation)}});
-        json_["cameras"].push_back({{"name", camera.name},
+        json_["cameras"].push_back({{"name", names[k]},
                                     {"type", "perspective"},
                                     {"perspective",
                                      {{"aspectRatio", scene_->aspect},
