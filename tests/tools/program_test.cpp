@@ -602,6 +602,21 @@ TEST_F(ProgramTest, NamesThatCannotBeReachedHaveTheCodeOfWhatTheyWereFor)
     }
 }
 
+TEST_F(ProgramTest, AShotThatMayNotBeReadSaysWhy)
+{
+    fs::permissions(folder.path(),
+                    fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+    fs::permissions(shot(), fs::perms::none);
+    // Root may read everything: as nobody it may not.
+    const Outcome refused = Program({"check", shot()}, [] {
+                                if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(126);
+                            }).wait();
+    if (refused.code == 126 || refused.code == 127) GTEST_SKIP() << "nobody may not run scree here";
+    EXPECT_EQ(refused.code, 66) << refused.err;
+    EXPECT_NE(refused.err.find("cannot be read: Permission denied"), std::string::npos)
+        << refused.err;
+}
+
 TEST_F(ProgramTest, OptionsBeforeTheCommandChangeNoMessage)
 {
     const std::vector<std::vector<std::string>> slips = {
