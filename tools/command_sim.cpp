@@ -26,6 +26,7 @@
 #include "tools/simulation.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
+#include "tools/stoppable_fields.h"
 #include "tools/take_export.h"
 #include "tools/version.h"
 
@@ -72,40 +73,6 @@ std::string commandToGoOn(const SimOptions& options, const std::string& folder)
     words.push_back("--resume");
     return shellLine(words);
 }
-
-/// Thrown where a request to stop is heeded before there is anything to save.
-struct StoppedBeforeStart {};
-
-/// Passes on to a store what is asked of it. It is asked before a distance field is built, which
-/// can take minutes, and told after: the places where signals are heeded while the world comes
-/// about.
-class StoppableFields : public FieldStore {
-public:
-    StoppableFields(FieldStore& fields, Console& console) : fields_(fields), console_(console) {}
-
-    std::optional<DistanceField> find(std::uint64_t key) override
-    {
-        heedSignals();
-        return fields_.find(key);
-    }
-
-    void keep(std::uint64_t key, const DistanceField& field) override
-    {
-        fields_.keep(key, field);
-        heedSignals();
-    }
-
-    void heedSignals()
-    {
-        if (stopRequested()) throw StoppedBeforeStart();
-        if (takeSaveRequest())
-            console_.answer("scree: still building distance fields; there is nothing to save yet");
-    }
-
-private:
-    FieldStore& fields_;
-    Console& console_;
-};
 
 /// One run of `scree sim`, from the first missing frame to the last.
 class SimRun {

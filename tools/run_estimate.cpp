@@ -14,7 +14,6 @@
 #include "io/take_info.h"
 
 namespace scree {
-
 namespace {
 
 /// Places at which a body of a heap bears on others: 4.0 in the middle and 4.4 at the end of
@@ -63,7 +62,8 @@ std::uint64_t takeBytes(const Shot& shot, const World& world, const FrameReport&
 
 }  // namespace
 
-RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double mostSeconds)
+RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double mostSeconds,
+                        const std::function<bool()>& stopRequested)
 {
     RunEstimate estimate;
     World copy = world;
@@ -73,13 +73,13 @@ RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     };
+    const auto isOver = [&] { return elapsed() >= mostSeconds || stopRequested(); };
     double framesDone = 0.0;
     FrameReport lastReport;
     const double duration = 1.0 / shot.framesPerSecond;
     frames = std::min(frames, shot.lastFrame - shot.firstFrame);
-    while (framesDone < frames && elapsed() < mostSeconds) {
-        const FrameReport report =
-            stepper.advanceFrame(copy, duration, [&] { return elapsed() >= mostSeconds; });
+    while (framesDone < frames && !isOver()) {
+        const FrameReport report = stepper.advanceFrame(copy, duration, isOver);
         lastReport = report;
         estimate.stepsTried += report.steps;
         framesDone += report.finished ? 1.0 : copy.clock.frameTimeDone / duration;

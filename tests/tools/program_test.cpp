@@ -715,6 +715,29 @@ TEST_F(ProgramTest, TheEndingOfAFilmDecidesItsContainerOrIsRefused)
     EXPECT_NE(refused.err.find(".mp4, .m4v, .mov"), std::string::npos) << refused.err;
 }
 
+TEST_F(ProgramTest, WhatLooksOrDrawsStopsWith75Too)
+{
+    std::ofstream(take("slow.toml")) << test::shotTextOf(
+        {.name = "slow", .frames = "1001-1002"},
+        "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = [400, 200] }\n"
+        "sdf = { resolution = 400 }\n" +
+            test::bodyText("ring", "position = [0, 3, 0]", "ring"));
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t")}).code, 0);
+    const std::vector<std::vector<std::string>> commands = {
+        {"check", take("slow.toml"), "--no-cache"},
+        {"sheet", take("t"), "--count", "40", "--width", "4096", "-o", take("out.png")},
+        {"stats", take("t"), "--pictures", "1000", "-o", take("out.html")}};
+    for (const std::vector<std::string>& words : commands) {
+        Program program(words);
+        std::this_thread::sleep_for(std::chrono::milliseconds(250));
+        program.signal(SIGTERM);
+        const Outcome stopped = program.wait();
+        EXPECT_EQ(stopped.code, 75) << words[0] << ": " << stopped.err;
+        EXPECT_NE(stopped.err.find("stopped"), std::string::npos) << stopped.err;
+    }
+    EXPECT_FALSE(fs::exists(take("out.png")) || fs::exists(take("out.html")));
+}
+
 // A program of that name stands in for ffmpeg: it writes half a film and never ends by itself.
 TEST_F(ProgramTest, AStoppedMovieStopsFfmpegAndLeavesNoTemporary)
 {
