@@ -17,6 +17,7 @@
 #include "core/scene/shaded_mesh.h"
 #include "io/alembic_archive.h"
 #include "io/byte_order.h"
+#include "io/camera_names.h"
 #include "io/camera_pose.h"
 
 namespace scree {
@@ -181,10 +182,9 @@ private:
     AlembicObject writeShape(const std::string& name, const MeshSamples& mesh,
                              const std::string& material);
     AlembicObject writeMaterial(const std::string& name, const MeshSamples& mesh);
-    AlembicObject writeCamera(const SceneCamera& camera);
+    AlembicObject writeCamera(const SceneCamera& camera, const std::string& name);
     AlembicProperty writeLens(const std::vector<SceneCamera>& samples);
     AlembicProperty textProperty(const std::string& name, const std::string& text);
-    std::string freeName(std::string name) const;
     AlembicObject writeTransform(const std::string& name, const TransformTrack& track, bool moves,
                                  const std::vector<AlembicProperty>& userProperties,
                                  std::span<const AlembicObject> children,
@@ -297,7 +297,9 @@ void AlembicWriter::finishScene()
     std::vector<AlembicObject> children;
     children.reserve(bodies_.size() + scene_->cameras.size());
     for (std::size_t body = 0; body < bodies_.size(); ++body) children.push_back(writeBody(body));
-    for (const SceneCamera& camera : scene_->cameras) children.push_back(writeCamera(camera));
+    const std::vector<std::string> names = cameraNames(*scene_);
+    for (std::size_t k = 0; k < names.size(); ++k)
+        children.push_back(writeCamera(scene_->cameras[k], names[k]));
 
     TransformTrack axes;
     addSample(axes, scene_->zUp ? kYUpFromZUp : kIdentity);
@@ -414,14 +416,6 @@ AlembicObject AlembicWriter::writeMaterial(const std::string& name, const MeshSa
     return archive_->writeObject(name, metadata, std::span(&faceSet, 1), {});
 }
 
-/// The name, or one with underscores behind it if a body has it.
-std::string AlembicWriter::freeName(std::string name) const
-{
-    const auto isTaken = [&](const SceneBody& body) { return body.name == name; };
-    while (std::any_of(scene_->bodies.begin(), scene_->bodies.end(), isTaken)) name += '_';
-    return name;
-}
-
 AlembicProperty AlembicWriter::writeLens(const std::vector<SceneCamera>& samples)
 {
     const auto first = lensOf(samples.front(), *scene_);
@@ -439,7 +433,7 @@ AlembicProperty AlembicWriter::writeLens(const std::vector<SceneCamera>& samples
     return archive_->writeProperty(scalarLayout(".core", AlembicType::f64, 16, sampling), track);
 }
 
-AlembicObject AlembicWriter::writeCamera(const SceneCamera& camera)
+AlembicObject AlembicWriter::writeCamera(const SceneCamera& camera, const std::string& name)
 {
     const std::vector<SceneCamera> samples =
         moves(camera) ? camerasAt(camera, times(), scene_->zUp)
@@ -447,7 +441,6 @@ AlembicObject AlembicWriter::writeCamera(const SceneCamera& camera)
     const AlembicProperty property = writeLens(samples);
     const AlembicProperty geometry =
         archive_->writeCompound(".geom", std::string(kCameraSchema), std::span(&property, 1));
-    const std::string name = freeName(camera.name);
     const AlembicObject lens = archive_->writeObject(
         name + "Camera", std::string(kCameraSchema) + std::string(kCameraTitle),
         std::span(&geometry, 1), {});

@@ -1,6 +1,7 @@
 #include "io/build_world.h"
 
 #include <memory>
+#include <new>
 #include <optional>
 #include <unordered_map>
 
@@ -163,6 +164,9 @@ private:
             const ShotShape& shape = *shapeNamed_.at(name);
             try {
                 known->second = world_.addShape(buildShape(shape));
+            } catch (const std::bad_alloc&) {
+                throw Error(ErrorKind::internal,
+                            "memory ran out while the shape '" + name + "' was built");
             } catch (const Error& error) {
                 problems_.add(shape.location, error.what(), error.kind());
             }

@@ -22,7 +22,7 @@ namespace scree {
 namespace {
 
 // The first byte of the answer.
-constexpr char kResult = 'R', kRefusal = 'E';
+constexpr char kResult = 'R', kRefusal = 'E', kNoMemory = 'M';
 
 std::uint64_t addressSpaceInUse()
 {
@@ -34,13 +34,18 @@ std::uint64_t addressSpaceInUse()
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void limit(int resource, std::uint64_t value)
+/// False when the process is held to less already.
+bool limit(int resource, std::uint64_t value)
 {
     const rlimit both{value, value};
-    ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
+    rlimit before{};
+    ::getrlimit(static_cast<__rlimit_resource>(resource), &before);
+    if (before.rlim_cur < value) return false;
+    return ::setrlimit(static_cast<__rlimit_resource>(resource), &both) == 0;
 }
 
-void confine(const ConfinedLimits& limits)
+/// True when the memory is limited by `limits`, and not by what the whole program may have.
+bool confine(const ConfinedLimits& limits)
 {
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
@@ -48,13 +53,14 @@ void confine(const ConfinedLimits& limits)
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_CPU, static_cast<std::uint64_t>(limits.seconds));
-    limit(RLIMIT_AS, addressSpaceInUse() + limits.memoryBytes);
+    const bool isOwnLimit = limit(RLIMIT_AS, addressSpaceInUse() + limits.memoryBytes);
     for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGXCPU}) {
         std::signal(signal, SIG_DFL);
     }
     // Whatever a parser prints is nobody's business.
     const int nowhere = ::open("/dev/null", O_RDWR);
     for (const int stream : {0, 1, 2}) ::dup2(nowhere, stream);
+    return isOwnLimit;
 }
 
 void writeAll(int descriptor, const char* bytes, std::size_t count)
@@ -72,14 +78,17 @@ void writeAll(int descriptor, const char* bytes, std::size_t count)
 [[noreturn]] void runChild(int output, const std::function<std::string()>& work,
                            const ConfinedLimits& limits)
 {
-    confine(limits);
+    const bool isOwnLimit = confine(limits);
     char tag = kResult;
     std::string answer;
     try {
         answer = work();
     } catch (const std::bad_alloc&) {
-        tag = kRefusal;
-        answer = "it needs more memory than an import may take";
+        tag = isOwnLimit ? kRefusal : kNoMemory;
+        answer = isOwnLimit
+                     ? "it needs more memory than the " + std::to_string(limits.memoryBytes >> 20) +
+                           " MB that an import may take; a damaged header may ask for them"
+                     : "memory ran out";
     } catch (const std::exception& error) {
         tag = kRefusal;
         answer = error.what();
@@ -147,6 +156,9 @@ std::string runConfined(const std::string& what, const std::function<std::string
     }
     if (!isWhole || status != 0 || answer.empty()) {
         throw Error(ErrorKind::badInput, what + ": " + causeOf(status));
+    }
+    if (answer.front() == kNoMemory) {
+        throw Error(ErrorKind::internal, what + ": " + answer.substr(1));
     }
     if (answer.front() != kResult) {
         throw Error(ErrorKind::badInput, what + ": " + answer.substr(1));

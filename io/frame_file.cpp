@@ -517,4 +517,14 @@ FrameState readFrameFile(const std::filesystem::path& path)
     return decodeFrame(readFileBytes(path), path);
 }
 
+FrameState readFrameFile(const std::filesystem::path& path, int frame)
+{
+    FrameState state = readFrameFile(path);
+    if (state.scene.frame != frame)
+        throw Error(ErrorKind::inputOutput, {path.string(), 0, 0},
+                    "holds frame " + std::to_string(state.scene.frame) +
+                        " under the name of frame " + std::to_string(frame));
+    return state;
+}
+
 }  // namespace scree

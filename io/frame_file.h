@@ -44,4 +44,7 @@ FrameState decodeFrame(std::string_view bytes, const std::filesystem::path& path
 /// Reads and decodes; Error{missingInput} when there is no such file.
 FrameState readFrameFile(const std::filesystem::path& path);
 
+/// The same, but only of that frame: a file copied under another frame's name is refused.
+FrameState readFrameFile(const std::filesystem::path& path, int frame);
+
 }  // namespace scree

@@ -118,4 +118,9 @@ std::string expandFramePattern(std::string_view path, int frame)
            std::string(path.substr(place.begin + place.length));
 }
 
+std::string framePath(std::string_view path, int frame)
+{
+    return hasFramePattern(path) ? expandFramePattern(path, frame) : std::string(path);
+}
+
 }  // namespace scree

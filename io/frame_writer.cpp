@@ -45,6 +45,19 @@ std::string knownEndings()
     return list;
 }
 
+/// The row for the ending of `output`.
+const Format& formatOf(const fs::path& output)
+{
+    std::string name = output.filename().string();
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    for (const Format& format : kFormats) {
+        if (name.size() > format.ending.size() && name.ends_with(format.ending)) return format;
+    }
+    throw Error(ErrorKind::usage, "cannot export to \"" + output.string() +
+                                      "\": expected a name ending in " + knownEndings());
+}
+
 bool isIdentifier(std::string_view name)
 {
     const auto fits = [](unsigned char letter) {
@@ -165,22 +178,21 @@ void FrameWriter::finish()
 
 std::unique_ptr<FrameWriter> makeFrameWriter(const fs::path& output)
 {
-    std::string name = output.filename().string();
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    for (const Format& format : kFormats) {
-        if (name.size() <= format.ending.size() || !name.ends_with(format.ending)) continue;
-        if (format.isSequence) {
-            expandFramePattern(output.string(), 0);  // explains itself if there is no place
-        } else if (hasFramePattern(output.string())) {
-            throw Error(ErrorKind::usage, "\"" + output.string() + "\": one " +
-                                              std::string(format.ending) +
-                                              " file holds all frames; leave out the frame number");
-        }
-        return format.make(output);
+    const Format& format = formatOf(output);
+    if (format.isSequence) {
+        expandFramePattern(output.string(), 0);  // explains itself if there is no place
+    } else if (hasFramePattern(output.string())) {
+        throw Error(ErrorKind::usage, "\"" + output.string() + "\": one " +
+                                          std::string(format.ending) +
+                                          " file holds all frames; leave out the frame number");
     }
-    throw Error(ErrorKind::usage, "cannot export to \"" + output.string() +
-                                      "\": expected a name ending in " + knownEndings());
+    return format.make(output);
+}
+
+std::unique_ptr<FrameWriter> makePoseWriter(const fs::path& output)
+{
+    const Format& format = formatOf(output);
+    return format.isSequence ? format.make(output) : makeFrameWriter(output);
 }
 
 }  // namespace scree

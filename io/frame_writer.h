@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/scene/scene_description.h"
@@ -20,6 +21,10 @@ public:
 
     /// Whether the format can hold samples between frames.
     virtual bool holdsSubframes() const { return false; }
+
+    /// What of the scene the format cannot hold though its readers would look for it, a sentence
+    /// each.
+    virtual std::vector<std::string> losses(const SceneDescription& /*scene*/) const { return {}; }
 
     /// `frameCount` frames will follow, the first is `firstFrame`; each has one sample for every
     /// one of `offsets` [frames], which ascend within less than a frame and hold 0. A writer that
@@ -61,5 +66,8 @@ private:
 /// ending (the message lists the known ones), for a sequence without a place for the frame number,
 /// and for a single file with one.
 std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& output);
+
+/// The same for a single frame: "out.obj" and its like need no place for the frame number.
+std::unique_ptr<FrameWriter> makePoseWriter(const std::filesystem::path& output);
 
 }  // namespace scree

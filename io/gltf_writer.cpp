@@ -20,6 +20,7 @@
 #include "core/scene/shaded_mesh.h"
 #include "io/atomic_file.h"
 #include "io/byte_order.h"
+#include "io/camera_names.h"
 #include "io/camera_pose.h"
 #include "io/motion_spool.h"
 
@@ -91,6 +92,7 @@ public:
     explicit GltfWriter(fs::path output) : output_(std::move(output)) {}
 
     bool holdsSubframes() const override { return true; }
+    std::vector<std::string> losses(const SceneDescription& scene) const override;
 
 private:
     void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
@@ -132,6 +134,22 @@ private:
     std::map<std::string, std::size_t> materials_;
     std::vector<std::size_t> nodeOfBody_, nodeOfCamera_;
 };
+
+/// glTF's cameras have one angle of view.
+std::vector<std::string> GltfWriter::losses(const SceneDescription& scene) const
+{
+    std::vector<std::string> sentences;
+    for (const SceneCamera& camera : scene.cameras) {
+        const bool zooms = std::ranges::any_of(camera.keys, [&](const CameraKey& key) {
+            return key.fovDegrees != camera.keys.front().fovDegrees;
+        });
+        if (!zooms) continue;
+        sentences.push_back("the zoom of camera '" + camera.name +
+                            "' is lost: a .glb holds one angle of view, that of the first frame; "
+                            "a .abc or a .usda keeps it");
+    }
+    return sentences;
+}
 
 void GltfWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*frameCount*/)
 {
@@ -326,18 +344,19 @@ void GltfWriter::addBodies(Json& rootNodes)
 
 void GltfWriter::addCameras(Json& rootNodes)
 {
-    for (const SceneCamera& moving : scene_->cameras) {
-        const SceneCamera camera = cameraAt(moving, firstFrame_, scene_->zUp);
+    const std::vector<std::string> names = cameraNames(*scene_);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const SceneCamera camera = cameraAt(scene_->cameras[k], firstFrame_, scene_->zUp);
         const Pose pose = inYUpMetres(worldFromCamera(camera, scene_->zUp), *scene_);
         const double scale = scene_->metresPerUnit;
         const double distance = std::max((camera.eye - camera.target).norm() * scale, 1e-6);
         nodeOfCamera_.push_back(json_["nodes"].size());
         rootNodes.push_back(json_["nodes"].size());
-        json_["nodes"].push_back({{"name", camera.name},
+        json_["nodes"].push_back({{"name", names[k]},
                                   {"camera", json_["cameras"].size()},
                                   {"translation", jsonArray(pose.position)},
                                   {"rotation", jsonQuaternion(pose.orientation)}});
-        json_["cameras"].push_back({{"name", camera.name},
+        json_["cameras"].push_back({{"name", names[k]},
                                     {"type", "perspective"},
                                     {"perspective",
                                      {{"aspectRatio", scene_->aspect},
@@ -365,7 +384,7 @@ void GltfWriter::addBirths(Json& samplers, Json& channels)
     }
 }
 
-/// Where keyed cameras stand. A zoom is lost: glTF's cameras have one angle of view.
+/// Where keyed cameras stand.
 void GltfWriter::addCameraMotion(Json& samplers, Json& channels)
 {
     const std::vector<double>& times = motion_->times();

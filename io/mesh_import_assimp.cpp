@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <new>
 #include <set>
 
 #include <assimp/DefaultIOSystem.h>
@@ -461,7 +462,10 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
         throw Error(ErrorKind::badInput,
                     "it refers to '" + files->refused() + "', outside its own folder");
     }
-    if (!scene || !scene->mRootNode) throw Error(ErrorKind::badInput, importer.GetErrorString());
+    const std::string problem = importer.GetErrorString();
+    // The library tells of it in no other way; whoever limits the memory has words for it.
+    if (problem.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    if (!scene || !scene->mRootNode) throw Error(ErrorKind::badInput, problem);
     NodeReader reader(*scene, ending, mostDepth);
     reader.visit(*scene->mRootNode);
     ImportedFile file;

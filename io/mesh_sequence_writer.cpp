@@ -43,7 +43,7 @@ private:
 
     void finishScene() override {}
 
-    fs::path fileOf(int frame) const { return expandFramePattern(output_.string(), frame); }
+    fs::path fileOf(int frame) const { return framePath(output_.string(), frame); }
 
     fs::path output_;
     WriteOneFrame writeOneFrame_;

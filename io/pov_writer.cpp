@@ -79,14 +79,14 @@ void PovWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*
     for (const SceneMaterial& material : scene.materials) {
         materials_.emplace(material.name, materials_.size());
     }
-    const AtomicFile probe(expandFramePattern(output_.string(), firstFrame));
+    const AtomicFile probe(framePath(output_.string(), firstFrame));
     writeInclude();
 }
 
-/// heap.####.pov → heap_meshes.inc
+/// heap.####.pov and heap.pov → heap_meshes.inc
 fs::path PovWriter::includeFile() const
 {
-    std::string name = output_.filename().string();
+    std::string name = output_.stem().string();
     name.resize(std::min(name.find_first_of("#%$"), name.size()));
     while (!name.empty() && (name.back() == '.' || name.back() == '_')) name.pop_back();
     return output_.parent_path() / ((name.empty() ? scene_->name : name) + "_meshes.inc");
@@ -160,7 +160,7 @@ void PovWriter::writeFrame(const SceneFrame& frame)
     else if (!camera_)
         camera_ = cameraOfAll(*scene_, frame);
 
-    AtomicFile file(expandFramePattern(output_.string(), frame.frame));
+    AtomicFile file(framePath(output_.string(), frame.frame));
     const std::string include = includeFile().filename().string();
     file.write("// " + scene_->name + ", frame " + std::to_string(frame.frame) +
                ". Render in this folder: it holds " + include + ".\n#version 3.7;\n");

@@ -7,6 +7,8 @@ namespace scree {
 
 void ProblemList::add(const SourceLocation& where, const std::string& message, ErrorKind kind)
 {
+    // A lack of memory and our own mistakes are no fault of the shot, and end everything at once.
+    if (kind == ErrorKind::internal) throw Error(kind, where, message);
     problems_.push_back({where, message, kind});
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <tuple>
 
@@ -267,13 +266,7 @@ void requireShotFile(const std::string& path, const SourceLocation& where = {})
 std::string readWholeFile(const std::string& path)
 {
     requireShotFile(path);
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (file) text << file.rdbuf();
-    if (!file || file.bad()) {
-        throw Error(ErrorKind::badInput, "shot file '" + path + "' cannot be read");
-    }
-    return text.str();
+    return readFileBytes(path);
 }
 
 /// A shot may be a folder of its own, with its assets beside its shot.toml.

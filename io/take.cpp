@@ -470,7 +470,7 @@ void TakeWriter::rewriteStats() const
 void TakeWriter::removeTake(bool hasInfo)
 {
     std::vector<fs::path> doomed;
-    if (hasInfo) doomed = {paths_.images(), paths_.exports()};
+    if (hasInfo) doomed = {paths_.images(), paths_.exports(), paths_.statsPage()};
     // The description goes before the frames: from then on nobody takes the rest for a take.
     doomed.insert(doomed.end(), {paths_.info(), paths_.frames(), paths_.shapes(), paths_.stats(),
                                  paths_.checkpoint()});

@@ -121,7 +121,7 @@ std::string readBranchFrame(const TakeBranch& branch, int frame, const Shot& sho
         throw Error(ErrorKind::missingInput, "\"" + branch.take.string() + "\" has no frame " +
                                                  std::to_string(frame) + " to begin with");
     }
-    FrameState state = readFrameFile(from.frame(frame));
+    FrameState state = readFrameFile(from.frame(frame), frame);
     state.shotHash = hashText(shot.resolvedText);
     if (frame == branch.frame) {
         const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());

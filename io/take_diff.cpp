@@ -188,8 +188,8 @@ TakeComparison compareTakes(const TakeReader& a, const TakeReader& b)
     std::set_intersection(a.frames().begin(), a.frames().end(), b.frames().begin(),
                           b.frames().end(), std::back_inserter(frames));
     for (const int frame : frames) {
-        const FrameState stateA = readFrameFile(a.paths().frame(frame));
-        const FrameState stateB = readFrameFile(b.paths().frame(frame));
+        const FrameState stateA = readFrameFile(a.paths().frame(frame), frame);
+        const FrameState stateB = readFrameFile(b.paths().frame(frame), frame);
         const std::size_t count = a.info().bodies.size();
         if (stateA.motion.size() != count || stateB.motion.size() != count) {
             throw Error(ErrorKind::inputOutput,

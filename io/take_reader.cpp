@@ -122,7 +122,7 @@ FrameState TakeReader::readState(int frame) const
     if (!std::filesystem::exists(path))
         throw Error(ErrorKind::missingInput, "frame " + std::to_string(frame) + " is not in \"" +
                                                  paths_.root.string() + "\"");
-    FrameState state = readFrameFile(path);
+    FrameState state = readFrameFile(path, frame);
     if (state.shotHash != info_.shotHash || state.motion.size() != info_.bodies.size())
         throw Error(ErrorKind::inputOutput, {path.string(), 0, 0}, "is a frame of another take");
     return state;

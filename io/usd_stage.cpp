@@ -4,6 +4,7 @@
 
 #include "core/math/rotation.h"
 #include "core/scene/shaded_mesh.h"
+#include "io/camera_names.h"
 #include "io/camera_pose.h"
 #include "io/motion_spool.h"
 #include "io/unique_names.h"
@@ -181,7 +182,7 @@ UsdNames::UsdNames(const SceneDescription& scene) : root(UniqueNames().take(scen
     meshScope = children.take("Prototypes");
     materialScope = children.take("Materials");
     instancer = children.take("Bodies");
-    for (const SceneCamera& camera : scene.cameras) cameras.push_back(children.take(camera.name));
+    for (const std::string& name : cameraNames(scene)) cameras.push_back(children.take(name));
 
     UniqueNames meshNames, materialNames;
     for (const SceneMesh& mesh : scene.meshes) meshes.push_back(meshNames.take(mesh.name));

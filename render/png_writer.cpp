@@ -272,6 +272,21 @@ bool decodePixels(PngDecoder& decoder, std::span<std::uint8_t*> rows)
     return true;
 }
 
+/// The pixels, three bytes each; the header stays with the decoder.
+std::vector<std::uint8_t> decode(PngDecoder& decoder, const std::filesystem::path& path)
+{
+    const auto failure = [&] {
+        return Error(ErrorKind::inputOutput,
+                     path.string() + " is not a readable PNG file: " + decoder.error);
+    };
+    if (!decodeHeader(decoder)) throw failure();
+    const std::size_t rowBytes = png_get_rowbytes(decoder.png, decoder.info);
+    std::vector<std::uint8_t> pixels(rowBytes * png_get_image_height(decoder.png, decoder.info));
+    std::vector<std::uint8_t*> rows = rowPointers(pixels, rowBytes);
+    if (!decodePixels(decoder, rows)) throw failure();
+    return pixels;
+}
+
 PngText textsOf(const PngDecoder& decoder)
 {
     PngText result;
@@ -310,19 +325,17 @@ PngContents readPng(const std::filesystem::path& path)
 {
     const std::vector<std::uint8_t> bytes = readBytes(path);
     PngDecoder decoder(bytes);
-    const auto failure = [&] {
-        return Error(ErrorKind::inputOutput,
-                     path.string() + " is not a readable PNG file: " + decoder.error);
-    };
-    if (!decodeHeader(decoder)) throw failure();
-
-    const std::size_t rowBytes = png_get_rowbytes(decoder.png, decoder.info);
+    const std::vector<std::uint8_t> pixels = decode(decoder, path);
     const int width = static_cast<int>(png_get_image_width(decoder.png, decoder.info));
     const int height = static_cast<int>(png_get_image_height(decoder.png, decoder.info));
-    std::vector<std::uint8_t> pixels(rowBytes * height);
-    std::vector<std::uint8_t*> rows = rowPointers(pixels, rowBytes);
-    if (!decodePixels(decoder, rows)) throw failure();
     return {fromSrgbBytes(width, height, pixels), textsOf(decoder)};
+}
+
+void requireWholePng(const std::filesystem::path& path)
+{
+    const std::vector<std::uint8_t> bytes = readBytes(path);
+    PngDecoder decoder(bytes);
+    decode(decoder, path);
 }
 
 }  // namespace scree

@@ -33,4 +33,7 @@ void writePng(const std::filesystem::path& path, const Image& image, const PngTe
 /// no such file and Error{inputOutput} when it is no readable PNG.
 PngContents readPng(const std::filesystem::path& path);
 
+/// Reads all of the file and keeps nothing: throws as readPng does.
+void requireWholePng(const std::filesystem::path& path);
+
 }  // namespace scree

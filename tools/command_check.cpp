@@ -15,6 +15,8 @@
 #include "tools/exit_code.h"
 #include "tools/run_estimate.h"
 #include "tools/start_rule.h"
+#include "tools/stop_signals.h"
+#include "tools/stoppable_fields.h"
 
 namespace scree {
 namespace {
@@ -78,7 +80,7 @@ ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
     report.repairs = repairsOf(world);
     report.overlaps = findStartOverlaps(world, shot.penetrationWarn);
     report.warnings = warningsBeforeStart(shot, world);
-    report.estimate = estimateRun(shot, world, estimateFrames, kMostEstimateSeconds);
+    report.estimate = estimateRun(shot, world, estimateFrames, kMostEstimateSeconds, stopRequested);
     return report;
 }
 
@@ -240,7 +242,7 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
     std::printf("%s\n", json.dump(2).c_str());
 }
 
-int runCheck(const CheckOptions& options, Console& console)
+int checkShot(const CheckOptions& options, Console& console)
 {
     const Shot shot = parseShot(options.shot, options.overrides, options.importLimits);
     if (options.resolved) {
@@ -249,16 +251,30 @@ int runCheck(const CheckOptions& options, Console& console)
     }
     setThreadCount(threadsToUse(options.threads));
     DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-    const World world = buildWorld(shot, &cache);
+    StoppableFields fields(cache, console);
+    const World world = buildWorld(shot, &fields);
     if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
+    fields.heedSignals();
     const ShotReport report = examine(shot, world, options.estimateFrames);
+    fields.heedSignals();
     if (options.json)
         printJson(shot, world, report);
     else
         printText(shot, world, report, cache);
     // What sim would refuse, check refuses too.
-    const bool isRefused = !report.overlaps.empty() && shot.startOverlap == StartOverlapRule::error;
-    return isRefused ? exitCodeFor(ErrorKind::badInput) : kExitDone;
+    const bool begins = foretellStartRule(shot, world, report.overlaps, console);
+    return begins ? kExitDone : exitCodeFor(ErrorKind::badInput);
+}
+
+int runCheck(const CheckOptions& options, Console& console)
+{
+    watchSignals();
+    try {
+        return checkShot(options, console);
+    } catch (const StoppedBeforeStart&) {
+        console.info("stopped; the shot was not looked at to the end");
+        return kExitStopped;
+    }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "tools/exit_code.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/take_frames.h"
 
 namespace scree {
 namespace {
@@ -18,14 +19,14 @@ int runExport(const ExportOptions& options, Console& console)
 {
     const ProgressMode progress = parseProgressMode(options.progress);
     const TakeReader take(options.take);
-    const std::vector<int> frames = chooseFrames(options.frames, take.frames());
+    const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
     watchSignals();
-    if (!exportTake(take, frames, options.output, console, progress)) {
+    if (!exportTake(take, chosen.frames, options.output, console, progress)) {
         console.info("stopped before the end of \"" + options.output + "\"");
         return kExitStopped;
     }
     std::printf("%s\n", options.output.c_str());
-    return kExitDone;
+    return finishTakeFrames(chosen, options.output, console);
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ Command addExportCommand(CLI::App& program)
         ->required();
     command->add_option("--frames", options->frames, "Only these, without gaps: 1001-1240");
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
-    command->footer("Example:\n  scree export takes/rings_100 -o rings.abc");
+    command->footer(std::string(kMissingFramesHelp) +
+                    "Example:\n  scree export takes/rings_100 -o rings.abc");
     return {command, [options](Console& console) { return runExport(*options, console); }};
 }
 

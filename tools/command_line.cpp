@@ -233,6 +233,12 @@ std::vector<std::pair<std::string, std::string>> changedLimits(const ImportLimit
     return changed;
 }
 
+std::string complaintIfNotFinite(const std::string& text)
+{
+    // What is no number at all is complained of where it is converted.
+    return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : "'" + text + "' is not finite";
+}
+
 void requirePngName(const std::string& name)
 {
     std::string ending = std::filesystem::path(name).extension().string();

@@ -50,6 +50,10 @@ void addImportLimits(CLI::App& command, ImportLimits& limits);
 /// Those flags and their values that are not the defaults.
 std::vector<std::pair<std::string, std::string>> changedLimits(const ImportLimits& limits);
 
+/// For CLI11's check of an option: a complaint when the number is none, or without end. The ranges
+/// of the library let "nan" pass, and "inf" where they have no upper end.
+std::string complaintIfNotFinite(const std::string& text);
+
 /// Throws Error{usage} when the name of a picture does not end in .png, the format they are written
 /// in.
 void requirePngName(const std::string& name);

@@ -8,19 +8,23 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <regex>
 #include <thread>
 
+#include "core/base/parallel.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "io/frame_pattern.h"
 #include "io/take_reader.h"
+#include "render/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/shell_line.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/take_frames.h"
 
 extern char** environ;
 
@@ -40,6 +44,7 @@ struct MovieOptions {
 struct PictureSequence {
     fs::path pattern;  ///< with one place for the frame number
     std::vector<int> frames;
+    std::optional<TakeInfo> take;  ///< whose pictures they are, where a take was named
     double framesPerSecond = 24.0;
 };
 
@@ -76,6 +81,7 @@ PictureSequence findPictures(const MovieOptions& options)
         const TakeReader take(options.input);
         sequence.pattern = take.paths().root / "images" / (take.info().name + ".####.png");
         sequence.framesPerSecond = take.info().framesPerSecond;
+        sequence.take = take.info();
         sequence.frames = findFrames(sequence.pattern);
         if (sequence.frames.empty())
             throw Error(ErrorKind::missingInput, "\"" + options.input +
@@ -106,6 +112,37 @@ int spacingOf(const PictureSequence& sequence)
                         "the pictures have gaps: " + describeFrames(frames) +
                             "; render the missing ones first");
     return spacing;
+}
+
+/// Who names a take wants the whole shot on film; who names a pattern wants the pictures that are
+/// there.
+TakeFrames tellMissingPictures(const MovieOptions& options, const PictureSequence& sequence,
+                               Console& console)
+{
+    TakeFrames chosen{sequence.frames, ""};
+    if (!sequence.take) return chosen;
+    // Of every n-th picture the last stands for the frames up to the next one.
+    const int between = spacingOf(sequence) - 1;
+    chosen.missing = framesBeyond(*sequence.take, sequence.frames.front() - between,
+                                  sequence.frames.back() + between);
+    if (!chosen.missing.empty())
+        console.warning("\"" + options.input + "\" has no pictures of frames " + chosen.missing +
+                        "; " + shellLine({"scree", "render", options.input}) +
+                        " draws those that are simulated, the pattern " +
+                        sequence.pattern.string() + " asks for these alone");
+    return chosen;
+}
+
+/// ffmpeg passes over pictures that are damaged: the film would be a frame short, or show one half
+/// grey.
+void requireWholePictures(const PictureSequence& sequence)
+{
+    if (sequence.pattern.extension() != ".png") return;
+    setThreadCount(threadsToUse(std::nullopt));
+    parallelFor(sequence.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end && !stopRequested(); ++i)
+            requireWholePng(expandFramePattern(sequence.pattern.string(), sequence.frames[i]));
+    });
 }
 
 std::string format(const char* pattern, double value)
@@ -167,34 +204,43 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
     return arguments;
 }
 
-/// Plays everywhere: H.264, even sizes, 4:2:0, and says which colours it means.
-std::vector<std::string> makeCommand(const PictureSequence& sequence, const std::string& output)
+/// Files that hold H.264 and that -movflags knows.
+struct Container {
+    const char *ending, *muxer;
+};
+constexpr Container kContainers[] = {{".mp4", "mp4"}, {".m4v", "mp4"}, {".mov", "mov"}};
+
+/// ffmpeg's name of the container that the ending asks for.
+std::string muxerOf(const std::string& name)
 {
-    std::vector<std::string> command = {"ffmpeg",    "-nostdin", "-hide_banner",
-                                        "-loglevel", "error",    "-y"};
+    std::string ending = fs::path(name).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char letter) { return std::tolower(letter); });
+    std::string known;
+    for (const Container& container : kContainers) {
+        if (ending == container.ending) return container.muxer;
+        known += (known.empty() ? "" : ", ") + std::string(container.ending);
+    }
+    throw Error(
+        ErrorKind::usage,
+        "\"" + name + "\" is no film that can be written; expected a name ending in " + known);
+}
+
+/// Plays everywhere: H.264, even sizes, 4:2:0, and says which colours it means.
+std::vector<std::string> makeCommand(const PictureSequence& sequence, const std::string& muxer,
+                                     const std::string& output)
+{
+    std::vector<std::string> command = {"ffmpeg",  "-nostdin", "-hide_banner", "-loglevel", "error",
+                                        "-xerror", "-y"};
     for (const std::string& argument : inputArguments(sequence)) command.push_back(argument);
     for (const char* argument :
          {"-vf",
           "scale=trunc(iw/2)*2:trunc(ih/2)*2:out_color_matrix=bt709:out_range=tv,format=yuv420p",
-          "-c:v",
-          "libx264",
-          "-preset",
-          "medium",
-          "-crf",
-          "18",
-          "-color_range",
-          "tv",
-          "-color_primaries",
-          "bt709",
-          "-color_trc",
-          "bt709",
-          "-colorspace",
-          "bt709",
-          "-movflags",
-          "+faststart",
-          "-f",
-          "mp4"})
+          "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-color_range", "tv",
+          "-color_primaries", "bt709", "-color_trc", "bt709", "-colorspace", "bt709", "-movflags",
+          "+faststart", "-f"})
         command.push_back(argument);
+    command.push_back(muxer);
     command.push_back(output);
     return command;
 }
@@ -236,19 +282,23 @@ void runProgram(const std::vector<std::string>& command)
 
 int runMovie(const MovieOptions& options, Console& console)
 {
+    const std::string muxer = muxerOf(options.output);
     const PictureSequence sequence = findPictures(options);
+    const TakeFrames chosen = tellMissingPictures(options, sequence, console);
     const fs::path output = options.output;
     createFolderOf(output);
     AtomicFile{output};  // says now, with its own error, when nothing can be created there
-    console.info(shellLine(makeCommand(sequence, output.string())));
+    console.info(shellLine(makeCommand(sequence, muxer, output.string())));
+
+    watchSignals();
+    requireWholePictures(sequence);
 
     // Under another name first: an interrupted ffmpeg leaves half a film.
-    watchSignals();
     const fs::path temporary = output.parent_path() / ("." + output.filename().string() + "." +
                                                        std::to_string(::getpid()) + ".tmp");
     std::error_code code;
     try {
-        runProgram(makeCommand(sequence, temporary.string()));
+        runProgram(makeCommand(sequence, muxer, temporary.string()));
         if (stopRequested()) {
             fs::remove(temporary, code);
             console.info("stopped; no film was made");
@@ -263,7 +313,7 @@ int runMovie(const MovieOptions& options, Console& console)
         throw;
     }
     std::printf("%s\n", output.c_str());
-    return kExitDone;
+    return finishTakeFrames(chosen, output.string(), console);
 }
 
 }  // namespace
@@ -277,10 +327,15 @@ Command addMovieCommand(CLI::App& program)
                      "A take whose pictures are drawn, or a pattern like name.####.png")
         ->required()
         ->type_name("TAKE|PATTERN");
-    command->add_option("-o,--output", options->output, "The MP4 file to write")->required();
+    command->add_option("-o,--output", options->output, "The film to write: out.mp4 or out.mov")
+        ->required();
     command->add_option("--fps", options->framesPerSecond, "Frames per second [of the shot, or 24]")
-        ->check(CLI::PositiveNumber);
-    command->footer("Example:\n  scree movie takes/rings_100 -o rings.mp4");
+        ->check(complaintIfNotFinite)
+        ->check(CLI::Range(0.01, 10000.0));
+    command->footer(
+        "Of a take without pictures of all its frames it makes what it can and ends with 66; a "
+        "pattern means\nthe pictures that are there.\nExample:\n  scree movie takes/rings_100 -o "
+        "rings.mp4");
     return {command, [options](Console& console) { return runMovie(*options, console); }};
 }
 

@@ -16,6 +16,7 @@
 #include "tools/progress.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/take_frames.h"
 #include "tools/take_painter.h"
 
 namespace scree {
@@ -118,7 +119,8 @@ public:
           progressMode_(parseProgressMode(options.progress)),
           take_((setThreadCount(threadsToUse(options.threads)), options.take))
     {
-        const std::vector<int> asked = chooseFrames(options.frames, take_.frames());
+        chosen_ = chooseTakeFrames(options.frames, take_, console);
+        const std::vector<int>& asked = chosen_.frames;
         if (asked.empty())
             throw Error(ErrorKind::missingInput, "\"" + options.take + "\" has no frames");
         frames_ = chunkOf(asked, options.chunk);
@@ -167,7 +169,7 @@ public:
             return kExitStopped;
         }
         std::printf("%s\n", pattern_.c_str());
-        return kExitDone;
+        return finishTakeFrames(chosen_, pattern_, console_);
     }
 
 private:
@@ -184,7 +186,8 @@ private:
     Console& console_;
     ProgressMode progressMode_;
     TakeReader take_;
-    std::vector<int> frames_;
+    TakeFrames chosen_;
+    std::vector<int> frames_;  // of those the ones in this chunk
     std::string pattern_;
     std::array<int, 2> size_ = {};
     std::map<int, FrameSummary> stats_;
@@ -227,7 +230,8 @@ Command addRenderCommand(CLI::App& program)
     command->add_flag("--slate", options->slate,
                       "A card that says what follows, one frame before the first");
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
-    command->footer("Example:\n  scree render takes/rings_100 --frames 1001-1240x2 --size 640x360");
+    command->footer(std::string(kMissingFramesHelp) +
+                    "Example:\n  scree render takes/rings_100 --frames 1001-1240x2 --size 640x360");
     return {command, [options](Console& console) { return RenderRun(*options, console).run(); }};
 }
 

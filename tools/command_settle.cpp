@@ -13,7 +13,6 @@
 #include "core/scene/motion_script.h"
 #include "io/build_world.h"
 #include "io/file_bytes.h"
-#include "io/frame_pattern.h"
 #include "io/frame_writer.h"
 #include "io/pose_json.h"
 #include "io/shot_parser.h"
@@ -201,26 +200,13 @@ private:
             writeFileBytes(options_.output, encodePoses(scene, frame));
             return;
         }
-        const std::string pattern = outputPattern();
-        const std::unique_ptr<FrameWriter> writer = makeFrameWriter(pattern);
+        const std::unique_ptr<FrameWriter> writer = makePoseWriter(options_.output);
         writer->begin(scene, frame.frame, 1);
         writer->write(frame);
         writer->finish();
-        if (pattern == options_.output) return;
-        std::filesystem::rename(expandFramePattern(pattern, frame.frame), options_.output);
     }
 
     bool isJson() const { return options_.output.ends_with(".json"); }
-
-    /// Formats of one file a frame want a place for its number; a pose needs none.
-    std::string outputPattern() const
-    {
-        const std::filesystem::path output = options_.output;
-        const std::string ending = output.extension().string();
-        const bool isSequence = ending == ".obj" || ending == ".ply" || ending == ".pov";
-        if (!isSequence || hasFramePattern(options_.output)) return options_.output;
-        return (output.parent_path() / (output.stem().string() + ".####" + ending)).string();
-    }
 
     const SettleOptions& options_;
     Console& console_;
@@ -245,11 +231,13 @@ Command addSettleCommand(CLI::App& program)
                      "out.obj, out.ply or out.pov")
         ->required();
     command->add_option("--seconds", options->seconds, "Simulated time to give up after [30]")
+        ->check(complaintIfNotFinite)
         ->check(CLI::Range(1e-3, 1e6));
     command
         ->add_option("--tolerance", options->tolerance,
                      "At rest is what moves less than this part of its radius in half a second "
                      "[0.005]")
+        ->check(complaintIfNotFinite)
         ->check(CLI::Range(1e-12, 1.0));
     addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");

@@ -8,7 +8,9 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/take_frames.h"
 #include "tools/take_painter.h"
 
 namespace scree {
@@ -24,10 +26,9 @@ struct SheetOptions {
 };
 
 /// Draws the frames anew, in the size of the cells: quicker than reading large pictures.
-std::vector<LabelledImage> paintTake(const SheetOptions& options)
+std::vector<LabelledImage> paintTake(const SheetOptions& options, const TakeReader& take,
+                                     const std::vector<int>& chosen)
 {
-    const TakeReader take(options.inputs[0]);
-    const std::vector<int> chosen = chooseFrames(options.frames, take.frames());
     const std::vector<int> frames =
         options.frames.empty() ? spreadFrames(chosen, options.count) : chosen;
     const std::array<int, 2> shotSize = take.info().pictureSize;
@@ -35,8 +36,10 @@ std::vector<LabelledImage> paintTake(const SheetOptions& options)
     const int height = std::max(1, width * shotSize[1] / shotSize[0]);
     TakePainter painter(take, options.camera, {width, height});
     std::vector<LabelledImage> pictures;
-    for (const int frame : frames)
+    for (const int frame : frames) {
+        if (stopRequested()) break;
         pictures.push_back({painter.paint(frame), std::to_string(frame)});
+    }
     return pictures;
 }
 
@@ -44,6 +47,7 @@ std::vector<LabelledImage> readPictures(const SheetOptions& options)
 {
     std::vector<LabelledImage> pictures;
     for (const std::string& path : options.inputs) {
+        if (stopRequested()) break;
         std::error_code ignored;
         if (fs::is_directory(path, ignored))
             throw Error(ErrorKind::usage, "\"" + path +
@@ -57,19 +61,35 @@ std::vector<LabelledImage> readPictures(const SheetOptions& options)
     return pictures;
 }
 
-int runSheet(const SheetOptions& options)
+/// False when it was stopped, and the pictures are not all there.
+bool writeSheet(const SheetOptions& options, const std::vector<LabelledImage>& pictures,
+                Console& console)
 {
+    if (stopRequested()) {
+        console.info("stopped; no sheet was written");
+        return false;
+    }
+    createFolderOf(options.output);
+    writePng(options.output, makeContactSheet(pictures, options.layout), {{"Software", "scree"}});
+    std::printf("%s\n", options.output.c_str());
+    return true;
+}
+
+int runSheet(const SheetOptions& options, Console& console)
+{
+    watchSignals();
     setThreadCount(threadsToUse(std::nullopt));
     requirePngName(options.output);
     std::error_code ignored;
     const bool isTake = options.inputs.size() == 1 && fs::is_directory(options.inputs[0], ignored);
     if (!isTake && !(options.frames.empty() && options.camera.empty()))
         throw Error(ErrorKind::usage, "--frames and --camera belong to a take, not to pictures");
-    const std::vector<LabelledImage> pictures = isTake ? paintTake(options) : readPictures(options);
-    createFolderOf(options.output);
-    writePng(options.output, makeContactSheet(pictures, options.layout), {{"Software", "scree"}});
-    std::printf("%s\n", options.output.c_str());
-    return kExitDone;
+    if (!isTake)
+        return writeSheet(options, readPictures(options), console) ? kExitDone : kExitStopped;
+    const TakeReader take(options.inputs[0]);
+    const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
+    if (!writeSheet(options, paintTake(options, take, chosen.frames), console)) return kExitStopped;
+    return finishTakeFrames(chosen, options.output, console);
 }
 
 }  // namespace
@@ -91,8 +111,9 @@ Command addSheetCommand(CLI::App& program)
     command->add_option("--width", options->layout.cellWidth, "Of one picture, in pixels [400]")
         ->check(CLI::Range(16, 4096));
     command->add_option("--camera", options->camera, "Name of a camera of the shot [the first]");
-    command->footer("Example:\n  scree sheet takes/rings_100 -o rings.png");
-    return {command, [options](Console&) { return runSheet(*options); }};
+    command->footer(std::string(kMissingFramesHelp) +
+                    "Example:\n  scree sheet takes/rings_100 -o rings.png");
+    return {command, [options](Console& console) { return runSheet(*options, console); }};
 }
 
 }  // namespace scree

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 
 #include "core/base/parallel.h"
-#include "core/diagnostics/state_hash.h"
 #include "core/dynamics/start_check.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
@@ -26,6 +26,7 @@
 #include "tools/simulation.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
+#include "tools/stoppable_fields.h"
 #include "tools/take_export.h"
 #include "tools/version.h"
 
@@ -66,40 +67,6 @@ std::string commandToGoOn(const SimOptions& options, const std::string& folder)
     return shellLine(words);
 }
 
-/// Thrown where a request to stop is heeded before there is anything to save.
-struct StoppedBeforeStart {};
-
-/// Passes on to a store what is asked of it. It is asked before a distance field is built, which
-/// can take minutes, and told after: the places where signals are heeded while the world comes
-/// about.
-class StoppableFields : public FieldStore {
-public:
-    StoppableFields(FieldStore& fields, Console& console) : fields_(fields), console_(console) {}
-
-    std::optional<DistanceField> find(std::uint64_t key) override
-    {
-        heedSignals();
-        return fields_.find(key);
-    }
-
-    void keep(std::uint64_t key, const DistanceField& field) override
-    {
-        fields_.keep(key, field);
-        heedSignals();
-    }
-
-    void heedSignals()
-    {
-        if (stopRequested()) throw StoppedBeforeStart();
-        if (takeSaveRequest())
-            console_.line("scree: still building distance fields; there is nothing to save yet");
-    }
-
-private:
-    FieldStore& fields_;
-    Console& console_;
-};
-
 /// One run of `scree sim`, from the first missing frame to the last.
 class SimRun {
 public:
@@ -134,7 +101,7 @@ public:
     int run()
     {
         const std::string folder = take_->paths().root.string();
-        const int simulated = simulate();
+        const int simulated = simulateOrTell();
         if (isStopped_) {
             console_.info("stopped in frame " + std::to_string(stoppedIn_) +
                           "; the state is saved, go on with: " + commandToGoOn(options_, folder));
@@ -162,6 +129,19 @@ private:
         return last;
     }
 
+    int simulateOrTell()
+    {
+        try {
+            return simulate();
+        } catch (const std::bad_alloc&) {
+            const std::string folder = take_->paths().root.string();
+            throw Error(ErrorKind::internal,
+                        "memory ran out after frame " + std::to_string(take_->lastWholeFrame()) +
+                            "; the frames are kept, with more memory go on with: " +
+                            commandToGoOn(options_, folder));
+        }
+    }
+
     /// Simulates what is missing; returns how many frames that were.
     int simulate()
     {
@@ -180,7 +160,7 @@ private:
         if (shot_.output.contacts) stepper.observe(&lastStep_);
         if (!take_->hasFrame(shot_.firstFrame)) {
             writeInitialFrame();
-            progress.frameDone(shot_.firstFrame, 0.0);
+            progress.frameDone(shot_.firstFrame, 0.0, {}, 0.0);  // nothing to time yet
         }
         for (int frame = shot_.firstFrame + 1; frame <= lastFrame_ && !isStopped_; ++frame)
             if (!take_->hasFrame(frame)) simulateFrame(frame, stepper, progress);
@@ -192,7 +172,7 @@ private:
     {
         FrameStats stats;
         stats.frame = shot_.firstFrame;
-        stats.report.stateHash = stateHash(world_);
+        stats.report = reportStart(world_, shot_.settings.gravity);
         take_->writeFrame(world_, stats);
     }
 
@@ -204,6 +184,7 @@ private:
         stats.resumedAtSubStep = world_.clock.subStep;
         const double wallBefore = wallSeconds(), cpuBefore = cpuSeconds();
         const double duration = 1.0 / shot_.framesPerSecond;
+        const double shareToDo = 1.0 - world_.clock.frameTimeDone / duration;
         const auto askStop = [&] {
             progress.insideFrame(frame, world_.clock.frameTimeDone / duration);
             if (takeSaveRequest()) saveAndTell(frame);
@@ -229,7 +210,7 @@ private:
         warnOfCap(frame, stats.report);
         if (frame == shot_.lastFrame) warnOfUnborn();
         progress.frameDone(frame, stats.wallSeconds,
-                           {stats.report.bodiesAwake, stats.report.sum.contactPairs});
+                           {stats.report.bodiesAwake, stats.report.sum.contactPairs}, shareToDo);
         if (takeSaveRequest()) tellSaved(frame);  // the frame itself is what to go on from
         if (stopRequested() && frame < lastFrame_) {
             isStopped_ = true;
@@ -252,9 +233,9 @@ private:
 
     void tellSaved(int frame)
     {
-        console_.line("scree: saved in frame " + std::to_string(frame) + " of " +
-                      std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) +
-                      ", sub-step " + std::to_string(world_.clock.subStep));
+        console_.answer("scree: saved in frame " + std::to_string(frame) + " of " +
+                        std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) +
+                        ", sub-step " + std::to_string(world_.clock.subStep));
     }
 
     void refuseNonFinite(int frame, const FrameReport& report)
@@ -438,7 +419,7 @@ Command addSimCommand(CLI::App& program)
                           "Go on with the take, to the same bits; begin when there is none");
     command
         ->add_flag("--overwrite", options->overwrite,
-                   "Replace the take that is there, with its images/ and exports/")
+                   "Replace the take that is there, with its images/, exports/ and stats.html")
         ->excludes(resume);
     command->add_option("--from", options->from,
                         "TAKE@FRAME: begin with that take's frames up to this one; the shot may "

@@ -9,6 +9,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/stats_page.h"
+#include "tools/stop_signals.h"
 #include "tools/take_export.h"
 #include "tools/take_painter.h"
 
@@ -30,24 +31,28 @@ std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count)
     TakePainter painter(take, "", {kThumbnailWidth, height});
     std::vector<Thumbnail> thumbnails(frames.size());
     parallelFor(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = begin; i < end && !stopRequested(); ++i)
             thumbnails[i] = {frames[i], encodePng(painter.paint(frames[i]))};
     });
     return thumbnails;
 }
 
-int runStats(const StatsOptions& options)
+int runStats(const StatsOptions& options, Console& console)
 {
+    watchSignals();
     setThreadCount(threadsToUse(std::nullopt));
     const TakeReader take(options.take);
     if (take.frames().empty())
         throw Error(ErrorKind::missingInput, "\"" + options.take + "\" has no frames");
-    const std::filesystem::path output = options.output.empty()
-                                             ? take.paths().root / "stats.html"
-                                             : std::filesystem::path(options.output);
+    const std::filesystem::path output =
+        options.output.empty() ? take.paths().statsPage() : std::filesystem::path(options.output);
     createFolderOf(output);
     const std::vector<Thumbnail> thumbnails =
         options.pictures > 0 ? paintThumbnails(take, options.pictures) : std::vector<Thumbnail>();
+    if (stopRequested()) {
+        console.info("stopped; no page was written");
+        return kExitStopped;
+    }
     writeFileBytes(output, makeStatsPage(take, thumbnails));
     std::printf("%s\n", output.c_str());
     return kExitDone;
@@ -66,7 +71,7 @@ Command addStatsCommand(CLI::App& program)
         ->add_option("--pictures", options->pictures, "Frames that are drawn, evenly spread [32]")
         ->check(CLI::Range(0, 1000));
     command->footer("Example:\n  scree stats takes/rings_100 -o rings.html");
-    return {command, [options](Console&) { return runStats(*options); }};
+    return {command, [options](Console& console) { return runStats(*options, console); }};
 }
 
 }  // namespace scree

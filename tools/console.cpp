@@ -48,6 +48,11 @@ void Console::error(const std::string& message)
     log("error", "Error: ", message);
 }
 
+void Console::answer(const std::string& message)
+{
+    log("info", "", message);
+}
+
 void Console::redraw(const std::string& status)
 {
     status_ = status;

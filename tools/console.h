@@ -23,6 +23,9 @@ public:
     void redraw(const std::string& status);
     void clearStatus();
 
+    /// What a signal asked for: also with -q.
+    void answer(const std::string& message);
+
     /// A line as it is, whatever the format: for progress that another program reads.
     void line(const std::string& text);
 

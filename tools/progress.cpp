@@ -1,10 +1,11 @@
 #include "tools/progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -13,16 +14,33 @@
 namespace scree {
 namespace {
 
-constexpr int kBarWidth = 24;
+constexpr std::size_t kLongestBar = 24, kShortestBar = 6;  ///< without its brackets
+constexpr std::size_t kUsualColumns = 80;                  ///< where the terminal does not say
+constexpr double kLeastShare = 0.1;      ///< of a frame that tells what a whole one costs
 constexpr double kRedrawSeconds = 0.1;   ///< a terminal
 constexpr double kChattySeconds = 1.0;   ///< between lines for a farm inside one frame
 constexpr double kSilentSeconds = 45.0;  ///< a farm takes a minute of silence for a hang
 constexpr double kRecentWeight = 0.2;    ///< of the newest frame in the running mean
 
-std::string bar(double share)
+std::string bar(double share, std::size_t width)
 {
-    const int filled = static_cast<int>(std::lround(kBarWidth * std::clamp(share, 0.0, 1.0)));
-    return "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "]";
+    const auto filled = static_cast<std::size_t>(
+        std::lround(static_cast<double>(width) * std::clamp(share, 0.0, 1.0)));
+    return " [" + std::string(filled, '#') + std::string(width - filled, '.') + "]";
+}
+
+std::size_t terminalColumns()
+{
+    winsize size = {};
+    const bool isTold = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return isTold ? size.ws_col : kUsualColumns;
+}
+
+/// Whether a line can be redrawn there: a dumb terminal shows control codes as rubbish.
+bool canRedraw()
+{
+    const char* kind = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) && !(kind && std::string(kind) == "dumb");
 }
 
 }  // namespace
@@ -45,8 +63,10 @@ Progress::Progress(Console& console, ProgressMode mode, const std::string& what,
     if (mode_ != ProgressMode::automatic) return;
     if (console_.isQuiet)
         mode_ = ProgressMode::none;
+    else if (console_.format == LogFormat::json)
+        mode_ = ProgressMode::json;  // who reads the log as JSON could not read other lines
     else
-        mode_ = ::isatty(STDERR_FILENO) ? ProgressMode::tty : ProgressMode::alf;
+        mode_ = canRedraw() ? ProgressMode::tty : ProgressMode::alf;
 }
 
 Progress::~Progress()
@@ -54,11 +74,14 @@ Progress::~Progress()
     console_.clearStatus();
 }
 
-void Progress::frameDone(int frame, double seconds, const ProgressFigures& figures)
+void Progress::frameDone(int frame, double seconds, const ProgressFigures& figures, double share)
 {
-    secondsPerFrame_ = secondsPerFrame_ == 0.0
-                           ? seconds
-                           : (1.0 - kRecentWeight) * secondsPerFrame_ + kRecentWeight * seconds;
+    if (share >= kLeastShare) {
+        const double whole = seconds / share;
+        secondsPerFrame_ = secondsPerFrame_
+                               ? (1.0 - kRecentWeight) * *secondsPerFrame_ + kRecentWeight * whole
+                               : whole;
+    }
     figures_ = figures;
     ++framesDone_;
     show(frame, framesDone_, true);
@@ -92,24 +115,41 @@ void Progress::show(int frame, double done, bool isFrameDone)
 
 void Progress::showLine(int frame)
 {
-    if (mode_ == ProgressMode::tty)
+    if (mode_ == ProgressMode::tty) {
+        columns_ = terminalColumns();  // each time: windows change their size
         console_.redraw(statusLine(frame));
-    else if (mode_ == ProgressMode::json)
+    } else if (mode_ == ProgressMode::json) {
         console_.line(jsonLine(frame));
-    else
+    } else {
         console_.line("ALF_PROGRESS " + std::to_string(percent_) + "%");
+    }
 }
 
+/// Never wider than the terminal: a line that wraps cannot be redrawn. The bar gives way first,
+/// then the figures of the frame.
 std::string Progress::statusLine(int frame) const
 {
-    std::string text = what_ + " " + bar(done_ / frameCount_) + " " + std::to_string(percent_) +
-                       "%  frame " + std::to_string(frame);
-    if (figures_.bodiesAwake >= 0) text += "  awake " + std::to_string(figures_.bodiesAwake);
-    if (figures_.contacts >= 0) text += "  contacts " + std::to_string(figures_.contacts);
-    if (secondsPerFrame_ > 0.0)
-        text += "  " + describeDuration(secondsPerFrame_) + "/frame  left " +
-                describeDuration(secondsLeft());
-    return text;
+    const std::string place = " " + std::to_string(percent_) + "%  frame " + std::to_string(frame);
+    std::string awake, contacts, left;
+    if (figures_.bodiesAwake >= 0) awake = "  awake " + std::to_string(figures_.bodiesAwake);
+    if (figures_.contacts >= 0) contacts = "  contacts " + std::to_string(figures_.contacts);
+    if (secondsPerFrame_)
+        left = "  " + describeDuration(*secondsPerFrame_) + "/frame  left " +
+               describeDuration(secondsLeft());
+    const std::size_t needed = what_.size() + place.size() + left.size();
+    if (needed + awake.size() + contacts.size() >= columns_) contacts.clear();
+    if (needed + awake.size() + contacts.size() >= columns_) awake.clear();
+    const std::string text =
+        what_ + barFor(needed + awake.size() + contacts.size()) + place + awake + contacts + left;
+    return text.substr(0, columns_ - 1);
+}
+
+/// As long as the rest of the line lets it be; the last column stays free.
+std::string Progress::barFor(std::size_t otherColumns) const
+{
+    constexpr std::size_t kBrackets = 3;  // and the space before them
+    if (otherColumns + kBrackets + kShortestBar >= columns_) return "";
+    return bar(done_ / frameCount_, std::min(kLongestBar, columns_ - 1 - otherColumns - kBrackets));
 }
 
 std::string Progress::jsonLine(int frame) const
@@ -117,14 +157,19 @@ std::string Progress::jsonLine(int frame) const
     nlohmann::ordered_json json = {{"progress", percent_}, {"frame", frame}};
     if (figures_.bodiesAwake >= 0) json["bodies_awake"] = figures_.bodiesAwake;
     if (figures_.contacts >= 0) json["contacts"] = figures_.contacts;
-    json["seconds_per_frame"] = secondsPerFrame_;
-    json["seconds_left"] = secondsLeft();
+    // Nothing is known before a frame was timed, and 0 would say that it is done.
+    json["seconds_per_frame"] = nullptr;
+    json["seconds_left"] = nullptr;
+    if (secondsPerFrame_) {
+        json["seconds_per_frame"] = *secondsPerFrame_;
+        json["seconds_left"] = secondsLeft();
+    }
     return json.dump();
 }
 
 double Progress::secondsLeft() const
 {
-    return secondsPerFrame_ * std::max(frameCount_ - done_, 0.0);
+    return secondsPerFrame_.value_or(0.0) * std::max(frameCount_ - done_, 0.0);
 }
 
 }  // namespace scree

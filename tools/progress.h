@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "tools/console.h"
@@ -29,8 +30,10 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// A frame is done; `seconds` is what it cost.
-    void frameDone(int frame, double seconds, const ProgressFigures& figures = {});
+    /// A frame is done; `seconds` is what `share` of it (0 … 1) cost: of one that was begun in an
+    /// earlier sitting only the rest was timed.
+    void frameDone(int frame, double seconds, const ProgressFigures& figures = {},
+                   double share = 1.0);
 
     /// Still inside `frame`, `share` of it done (0 … 1): keeps watchers from giving up on a long
     /// one.
@@ -43,6 +46,7 @@ private:
     void showLine(int frame);
     std::string statusLine(int frame) const;
     std::string jsonLine(int frame) const;
+    std::string barFor(std::size_t otherColumns) const;
     double secondsLeft() const;
 
     Console& console_;
@@ -51,8 +55,9 @@ private:
     int frameCount_;
     int framesDone_;
     int percent_ = -1;
-    double done_ = 0.0;             // frames, with the share of the present one
-    double secondsPerFrame_ = 0.0;  // running mean, recent frames count more
+    double done_ = 0.0;                      // frames, with the share of the present one
+    std::optional<double> secondsPerFrame_;  // running mean, recent frames count more
+    std::size_t columns_ = 0;                // of the terminal
     ProgressFigures figures_;
     Time shown_ = {};
 };

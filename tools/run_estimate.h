@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "core/scene/world.h"
 #include "io/shot.h"
@@ -18,6 +19,8 @@ struct RunEstimate {
 
 /// Simulates the first `frames` of a copy of the world, or as many as begin within `mostSeconds`.
 /// Bodies still in the air are cheap: a heap that forms later costs more than this says.
-RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double mostSeconds);
+/// Ends early when `stopRequested` says so.
+RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double mostSeconds,
+                        const std::function<bool()>& stopRequested);
 
 }  // namespace scree

@@ -94,6 +94,33 @@ std::string unknownWord(const CLI::App& program, const std::vector<std::string>&
     return "";
 }
 
+/// An empty word is a shell variable that was never set: taken for "not given" it would simulate
+/// all frames, or write to another place, without a word.
+void refuseEmptyWords(const std::vector<std::string>& words)
+{
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const bool isOption = word.starts_with("--") && word.find('=') == word.size() - 1;
+        if (!word.empty() && !isOption) continue;
+        const bool followsOption = word.empty() && i > 0 && words[i - 1].starts_with("-");
+        const std::string where = isOption        ? word.substr(0, word.size() - 1) + " has"
+                                  : followsOption ? words[i - 1] + " has"
+                                                  : "argument " + std::to_string(i + 1) + " is";
+        throw Error(ErrorKind::usage,
+                    where + (isOption || followsOption ? " an empty value" : " empty"));
+    }
+}
+
+/// A command that has nothing better to say of a lack of memory is named itself.
+int run(const Command& command, Console& console)
+{
+    try {
+        return command.run(console);
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::internal, "memory ran out in scree " + command.options->get_name());
+    }
+}
+
 int runProgram(int argumentCount, char** arguments, Console& console)
 {
     CLI::App program("Scree simulates heaps of rigid bodies for film.", "scree");
@@ -110,6 +137,9 @@ int runProgram(int argumentCount, char** arguments, Console& console)
     };
     for (const Command& command : commands) command.options->fallthrough();
 
+    const std::vector<std::string> words(arguments + 1, arguments + argumentCount);
+    refuseEmptyWords(words);
+
     // --help and --version arrive here too: they are printed by CLI11 and are no error.
     try {
         program.parse(argumentCount, arguments);
@@ -118,12 +148,12 @@ int runProgram(int argumentCount, char** arguments, Console& console)
             program.exit(problem);
             return kExitDone;
         }
-        const std::string slip = unknownWord(program, {arguments + 1, arguments + argumentCount});
+        const std::string slip = unknownWord(program, words);
         throw Error(ErrorKind::usage,
                     (slip.empty() ? problem.what() : slip) + " (scree --help tells more)");
     }
     for (const Command& command : commands)
-        if (command.options->parsed()) return command.run(console);
+        if (command.options->parsed()) return run(command, console);
     return kExitUsage;
 }
 
@@ -167,7 +197,7 @@ int main(int argumentCount, char** arguments)
         console.error(std::string("reading or writing failed: ") + problem.what());
         return scree::exitCodeFor(scree::ErrorKind::inputOutput);
     } catch (const std::bad_alloc&) {
-        console.error("not enough memory");
+        console.error("memory ran out");
         return scree::kExitInternal;
     } catch (const std::exception& problem) {
         console.error(std::string("internal: ") + problem.what());

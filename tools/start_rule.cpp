@@ -43,6 +43,15 @@ std::string listOf(const std::vector<StartOverlap>& overlaps, const World& world
     return text;
 }
 
+std::string sentenceOf(const std::vector<StartOverlap>& overlaps, const World& world)
+{
+    return std::to_string(overlaps.size()) +
+           (overlaps.size() == 1 ? " pair overlaps" : " pairs overlap") +
+           " before anything moves:" + listOf(overlaps, world);
+}
+
+constexpr const char* kAdvice = "\nMove them, or write [start] overlap = \"separate\" or \"warn\"";
+
 std::string namesOf(const std::vector<BodyId>& bodies, const World& world)
 {
     std::string text;
@@ -112,13 +121,10 @@ void applyStartRule(const Shot& shot, World& world, Console& console)
 {
     const std::vector<StartOverlap> overlaps = findStartOverlaps(world, shot.penetrationWarn);
     if (overlaps.empty()) return;
-    const std::string what = std::to_string(overlaps.size()) +
-                             (overlaps.size() == 1 ? " pair overlaps" : " pairs overlap") +
-                             " before anything moves:" + listOf(overlaps, world);
+    const std::string what = sentenceOf(overlaps, world);
     switch (shot.startOverlap) {
         case StartOverlapRule::error:
-            throw Error(ErrorKind::badInput,
-                        what + "\nMove them, or write [start] overlap = \"separate\" or \"warn\"");
+            throw Error(ErrorKind::badInput, what + kAdvice);
         case StartOverlapRule::warn:
             console.warning(what);
             return;
@@ -132,6 +138,25 @@ void applyStartRule(const Shot& shot, World& world, Console& console)
             console.info(what + "\nThey were pushed apart");
             return;
     }
+}
+
+bool foretellStartRule(const Shot& shot, const World& world,
+                       const std::vector<StartOverlap>& overlaps, Console& console)
+{
+    if (overlaps.empty()) return true;
+    const std::string what = sentenceOf(overlaps, world);
+    switch (shot.startOverlap) {
+        case StartOverlapRule::error:
+            console.error(what + kAdvice);
+            return false;
+        case StartOverlapRule::warn:
+            console.warning(what);
+            return true;
+        case StartOverlapRule::separate:
+            console.info(what + "\nsim pushes them apart, or refuses the shot if it cannot");
+            return true;
+    }
+    return true;
 }
 
 std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world)

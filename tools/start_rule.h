@@ -20,6 +20,11 @@ std::string describe(const MeshDeviation& drawnToColliding);
 /// when they are an error or will not come apart.
 void applyStartRule(const Shot& shot, World& world, Console& console);
 
+/// Says what applyStartRule will do about those overlaps, without doing it; false when it will
+/// refuse the shot.
+bool foretellStartRule(const Shot& shot, const World& world,
+                       const std::vector<StartOverlap>& overlaps, Console& console);
+
 /// Says what was repaired of the shapes, and what will not do as it is: bodies that nothing holds,
 /// speeds beyond the cap. One sentence each.
 std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world);

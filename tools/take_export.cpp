@@ -27,6 +27,8 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
     SceneDescription scene = take.describe();
     // A cache shows what the previews show, from where they show it.
     if (scene.cameras.empty()) scene.cameras.push_back(viewOfAction(take, scene, scene.aspect));
+    for (const std::string& loss : writer->losses(scene))
+        console.warning("\"" + output.string() + "\": " + loss);
     Progress shown(console, progress, "export", frameCount);
     const bool withSubframes = writer->holdsSubframes();
     writer->begin(scene, frames.front(), frameCount,

@@ -431,4 +431,17 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
     return frame;
 }
 
+FrameReport reportStart(const World& world, const Vec3& gravity)
+{
+    FrameReport report;
+    describeState(world, gravity, report);
+    for (const PlannedBirth& birth : world.births) {
+        report.births.born += world.isBorn(birth.body);
+        report.births.skipped += world.bornAt[birth.body] == kSkipped;
+        report.births.waiting += birth.frame <= world.clock.frame && !world.isBorn(birth.body) &&
+                                 world.bornAt[birth.body] != kSkipped;
+    }
+    return report;
+}
+
 }  // namespace scree

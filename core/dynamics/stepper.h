@@ -55,4 +55,8 @@ private:
     std::unique_ptr<GapScratch> gaps_;
 };
 
+/// The figures of a world that no step has moved yet: energies, momenta, who is awake, who was born
+/// where it begins, and the hash. `gravity` in [m/s²].
+FrameReport reportStart(const World& world, const Vec3& gravity);
+
 }  // namespace scree

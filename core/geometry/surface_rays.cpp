@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
@@ -18,6 +19,12 @@ RTCDevice sharedDevice()
 {
     static const RTCDevice device = rtcNewDevice("isa=avx2,max_isa=avx2");
     return device;
+}
+
+/// Embree tells of a lack of memory by a code, if it is asked, and by what it then does not make.
+void requireMemory(RTCDevice device, bool isMade)
+{
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE || !isMade) throw std::bad_alloc();
 }
 
 struct FacingContext {
@@ -69,7 +76,7 @@ SurfaceRays& SurfaceRays::operator=(SurfaceRays&&) noexcept = default;
 SurfaceRays::SurfaceRays(const TriMesh& mesh) : scene_(std::make_unique<Scene>())
 {
     const RTCDevice device = sharedDevice();
-    SCREE_CHECK(device != nullptr, "Embree cannot make a device");
+    requireMemory(device, device != nullptr);
     scene_->mesh = mesh;
     scene_->scene = rtcNewScene(device);
     rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -82,6 +89,7 @@ SurfaceRays::SurfaceRays(const TriMesh& mesh) : scene_(std::make_unique<Scene>()
     auto* corners = static_cast<unsigned*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(unsigned), mesh.triangles.cols()));
+    requireMemory(device, points && corners);
     for (Eigen::Index i = 0; i < mesh.points.size(); ++i) {
         points[i] = static_cast<float>(mesh.points.data()[i]);
     }
@@ -93,6 +101,7 @@ SurfaceRays::SurfaceRays(const TriMesh& mesh) : scene_(std::make_unique<Scene>()
     rtcAttachGeometry(scene_->scene, geometry);
     rtcReleaseGeometry(geometry);
     onOneThread([&] { rtcCommitScene(scene_->scene); });
+    requireMemory(device, true);
 }
 
 std::optional<SurfaceRays::Hit> SurfaceRays::firstHit(const Vec3& origin, const Vec3& direction,

@@ -304,9 +304,9 @@ TEST(AlembicWriter, ACameraStandsWhereTheShotPutsItUnderAFreeName)
     SceneDescription scene = test::sceneOf({test::bodyNamed("main")});
     scene.cameras.push_back({"main", Vec3(3.0, 4.0, 5.0), Vec3(3.0, 4.0, -5.0), 40.0});
     exportFrames(scene, tumblingFrames(scene, 2), folder / "a.abc");
-    EXPECT_NE(strictTree(folder / "a.abc").find("/test_shot/main_/main_Camera AbcGeom_Camera_v1"),
+    EXPECT_NE(strictTree(folder / "a.abc").find("/test_shot/main_2/main_2Camera AbcGeom_Camera_v1"),
               std::string::npos);
-    const auto samples = readTransforms(folder / "a.abc")["/test_shot/main_"];
+    const auto samples = readTransforms(folder / "a.abc")["/test_shot/main_2"];
     ASSERT_EQ(samples.size(), 1u);
     // It looks along -z already, so only its place is left.
     const Eigen::Matrix4d expected = matrixOf({Vec3(3.0, 4.0, 5.0), Quat::Identity()});

@@ -133,6 +133,34 @@ TEST(CameraExport, GltfMovesTheNodeOfTheCameraTheShortWay)
     EXPECT_EQ(seen, 4U) << "translation and rotation of two cameras";
 }
 
+TEST(CameraExport, OnlyTheFormatThatLosesAZoomSaysSo)
+{
+    const SceneDescription scene = filmedCast();
+    const std::vector<std::string> lost = makeGltfWriter("x.glb")->losses(scene);
+    ASSERT_EQ(lost.size(), 1u);
+    EXPECT_NE(lost[0].find("zoom of camera 'main'"), std::string::npos) << lost[0];
+    EXPECT_TRUE(makeUsdWriter("x.usda")->losses(scene).empty());
+    EXPECT_TRUE(makeGltfWriter("x.glb")->losses(test::castScene()).empty());
+}
+
+// It was main_ in Alembic, main_2 in USD and main, like the body, in glTF.
+TEST(CameraExport, ACameraThatIsCalledLikeABodyHasOneNameInAllFormats)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::castScene();
+    scene.bodies[0].name = "main";
+    test::exportCast(*makeAlembicWriter(folder / "x.abc"), scene);
+    test::exportCast(*makeUsdWriter(folder / "x.usda"), scene);
+    test::exportCast(*makeUsdInstancesWriter(folder / "x.instances.usda"), scene);
+    test::exportCast(*makeGltfWriter(folder / "x.glb"), scene);
+    for (const char* file : {"x.usda", "x.instances.usda"}) {
+        EXPECT_NE(contentOf(folder / file).find("def Camera \"main_2\""), std::string::npos);
+    }
+    EXPECT_NE(contentOf(folder / "x.glb").find("{\"name\":\"main_2\",\"camera\":0"),
+              std::string::npos);
+    EXPECT_NE(contentOf(folder / "x.abc").find("main_2Camera"), std::string::npos);
+}
+
 TEST(CameraExport, EveryPovFileHasTheCameraOfItsFrame)
 {
     const test::TemporaryFolder folder;

@@ -54,6 +54,20 @@ TEST(FrameWriter, SequencesNeedAPlaceForTheFrameNumberAndCachesNone)
     messageOf(ErrorKind::usage, [] { makeFrameWriter("x.####.abc"); });
 }
 
+TEST(FrameWriter, APoseNeedsNoPlaceForTheFrameNumber)
+{
+    const test::TemporaryFolder folder;
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("ring")});
+    for (const char* name : {"x.obj", "x.ply", "x.pov", "x.glb"}) {
+        const auto writer = makePoseWriter(folder / name);
+        writer->begin(scene, 1, 1);
+        writer->write(test::tumblingFrame(scene, 1, 1));
+        writer->finish();
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    }
+    messageOf(ErrorKind::usage, [] { makePoseWriter("x.fbx"); });
+}
+
 TEST(FrameWriter, AFolderThatDoesNotExistIsFoundBeforeTheFirstFrame)
 {
     const test::TemporaryFolder folder;

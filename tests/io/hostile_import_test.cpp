@@ -55,7 +55,8 @@ TEST(ConfinedProcess, TakesNeitherMemoryNorTimeWithoutEnd)
     limits.memoryBytes = 64 << 20;
     limits.seconds = 1;
     EXPECT_EQ(refusalOf([] { return std::string(std::size_t{1} << 30, 'x'); }, limits),
-              "work: it needs more memory than an import may take");
+              "work: it needs more memory than the 64 MB that an import may take; a damaged header "
+              "may ask for them");
     EXPECT_EQ(refusalOf(
                   []() -> std::string {
                       for (volatile int i = 0;;) i = i + 1;

@@ -17,6 +17,7 @@
 
 #include "io/file_bytes.h"
 #include "io/take.h"
+#include "render/png_writer.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
@@ -268,7 +269,7 @@ TEST_F(ProgramTest, ADiskThatFillsDuringAnExportExitsWith74AndLeavesNoHalfFile)
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1001-1003"}).code, 0);
     for (const std::string& name : kExports) {
         const fs::path output = fs::path(take("out")) / name;
-        Program program({"export", take("t"), "-o", output}, [] {
+        Program program({"export", take("t"), "--frames", "1001-1003", "-o", output}, [] {
             const rlimit limit = {200, 200};  // fewer bytes than any of the files has
             ::setrlimit(RLIMIT_FSIZE, &limit);
         });
@@ -283,7 +284,8 @@ TEST_F(ProgramTest, AnExportThatFailsLeavesTheOneBeforeItAlone)
 {
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1001-1003"}).code, 0);
     for (const std::string name : {"boxes.abc", "boxes.usda", "boxes.glb"}) {
-        ASSERT_EQ(runScree({"export", take("t"), "-o", folder / name}).code, 0);
+        ASSERT_EQ(
+            runScree({"export", take("t"), "--frames", "1001-1003", "-o", folder / name}).code, 0);
     }
     // A take cut short: the exports of before stay, and nothing is left of the new ones.
     fs::resize_file(TakePaths{take("t")}.frame(1003), 1000);
@@ -424,15 +426,46 @@ TEST_F(ProgramTest, TakeBecomesPicturesSheetFilmAndCache)
     EXPECT_EQ(render.code, 0) << render.err;
     EXPECT_TRUE(fs::exists(output + "/images/boxes.1003.png"));
     EXPECT_FALSE(fs::exists(output + "/images/boxes.1002.png"));
-    const Outcome sheet = runScree({"sheet", output, "--count", "4", "-o", take("sheet.png")});
+    const Outcome sheet =
+        runScree({"sheet", output, "--frames", "1001-1006x2", "-o", take("sheet.png")});
     EXPECT_EQ(sheet.code, 0) << sheet.err;
-    const Outcome movie = runScree({"movie", output, "-o", take("film.mp4")});
+    const Outcome movie =
+        runScree({"movie", output + "/images/boxes.####.png", "-o", take("film.mp4")});
     EXPECT_EQ(movie.code, 0) << movie.err;
     EXPECT_NE(movie.err.find("ffmpeg "), std::string::npos);
     EXPECT_GT(fs::file_size(take("film.mp4")), 500u);
-    const Outcome cache = runScree({"export", output, "-o", take("boxes.abc")});
+    const Outcome cache =
+        runScree({"export", output, "--frames", "1001-1006", "-o", take("boxes.abc")});
     EXPECT_EQ(cache.code, 0) << cache.err;
     EXPECT_GT(fs::file_size(take("boxes.abc")), 1000u);
+}
+
+// Whatever was made of the part that was there ended with 0 and no word.
+TEST_F(ProgramTest, WhatIsMadeOfAnUnfinishedTakeSaysSoAndExitsWith66)
+{
+    const std::string output = take("t");
+    ASSERT_EQ(runScree({"sim", shot(), "-o", output, "--frames", "1001-1005"}).code, 0);
+    const std::vector<std::vector<std::string>> commands = {{"export", output, "-o", take("x.abc")},
+                                                            {"render", output, "--size", "64x36"},
+                                                            {"sheet", output, "-o", take("x.png")},
+                                                            {"movie", output, "-o", take("x.mp4")}};
+    for (std::vector<std::string> words : commands) {
+        words.push_back("-q");
+        const Outcome partial = runScree(words);
+        EXPECT_EQ(partial.code, 66) << words[0] << ": " << partial.err;
+        EXPECT_NE(partial.err.find("1006-1040"), std::string::npos) << partial.err;
+        EXPECT_NE(partial.err.find("Warning: \""), std::string::npos) << partial.err;
+        EXPECT_NE(partial.err.find("Error: \""), std::string::npos) << partial.err;
+    }
+    for (const char* name : {"x.abc", "x.png", "x.mp4"}) EXPECT_TRUE(fs::exists(take(name)));
+    const Outcome asked =
+        runScree({"export", output, "--frames", "1001-1005", "-o", take("y.abc"), "-q"});
+    EXPECT_EQ(asked.code, 0) << asked.err;
+    EXPECT_EQ(asked.err, "");
+    const Outcome pattern =
+        runScree({"movie", output + "/images/boxes.####.png", "-o", take("y.mp4"), "-q"});
+    EXPECT_EQ(pattern.code, 0) << pattern.err;
+    EXPECT_EQ(pattern.err, "");
 }
 
 // Overwriting a take with a branch of itself emptied it.
@@ -569,6 +602,21 @@ TEST_F(ProgramTest, NamesThatCannotBeReachedHaveTheCodeOfWhatTheyWereFor)
     }
 }
 
+TEST_F(ProgramTest, AShotThatMayNotBeReadSaysWhy)
+{
+    fs::permissions(folder.path(),
+                    fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+    fs::permissions(shot(), fs::perms::none);
+    // Root may read everything: as nobody it may not.
+    const Outcome refused = Program({"check", shot()}, [] {
+                                if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(126);
+                            }).wait();
+    if (refused.code == 126 || refused.code == 127) GTEST_SKIP() << "nobody may not run scree here";
+    EXPECT_EQ(refused.code, 66) << refused.err;
+    EXPECT_NE(refused.err.find("cannot be read: Permission denied"), std::string::npos)
+        << refused.err;
+}
+
 TEST_F(ProgramTest, OptionsBeforeTheCommandChangeNoMessage)
 {
     const std::vector<std::vector<std::string>> slips = {
@@ -640,12 +688,62 @@ TEST_F(ProgramTest, AStoppedExportLeavesNoTemporary)
     EXPECT_EQ(namesIn(take("out")), std::vector<std::string>());
 }
 
+// ffmpeg passed over it, and the film was a frame short.
+TEST_F(ProgramTest, ADamagedPictureIsNamedAndNoFilmIsMade)
+{
+    fs::create_directory(take("out"));
+    for (const int frame : {1001, 1002, 1003})
+        writePng(take("p." + std::to_string(frame) + ".png"), Image(64, 64));
+    const std::string damaged = take("p.1002.png");
+    fs::resize_file(damaged, fs::file_size(damaged) / 2);
+    const Outcome outcome = runScree({"movie", take("p.####.png"), "-o", take("out/x.mp4")});
+    EXPECT_EQ(outcome.code, 74) << outcome.err;
+    EXPECT_NE(outcome.err.find("p.1002.png"), std::string::npos) << outcome.err;
+    EXPECT_EQ(namesIn(take("out")), std::vector<std::string>());
+}
+
+// Any ending gave an MP4 under its name.
+TEST_F(ProgramTest, TheEndingOfAFilmDecidesItsContainerOrIsRefused)
+{
+    writePng(take("p.1001.png"), Image(64, 64));
+    ASSERT_EQ(runScree({"movie", take("p.####.png"), "-o", take("x.mov")}).code, 0);
+    ASSERT_EQ(runScree({"movie", take("p.####.png"), "-o", take("x.mp4")}).code, 0);
+    EXPECT_EQ(readFileBytes(take("x.mov")).substr(4, 6), "ftypqt");
+    EXPECT_EQ(readFileBytes(take("x.mp4")).substr(4, 7), "ftypiso");
+    const Outcome refused = runScree({"movie", take("p.####.png"), "-o", take("x.avi")});
+    EXPECT_EQ(refused.code, 64);
+    EXPECT_NE(refused.err.find(".mp4, .m4v, .mov"), std::string::npos) << refused.err;
+}
+
+TEST_F(ProgramTest, WhatLooksOrDrawsStopsWith75Too)
+{
+    std::ofstream(take("slow.toml")) << test::shotTextOf(
+        {.name = "slow", .frames = "1001-1002"},
+        "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = [400, 200] }\n"
+        "sdf = { resolution = 400 }\n" +
+            test::bodyText("ring", "position = [0, 3, 0]", "ring"));
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("t")}).code, 0);
+    const std::vector<std::vector<std::string>> commands = {
+        {"check", take("slow.toml"), "--no-cache"},
+        {"sheet", take("t"), "--count", "40", "--width", "4096", "-o", take("out.png")},
+        {"stats", take("t"), "--pictures", "1000", "-o", take("out.html")}};
+    for (const std::vector<std::string>& words : commands) {
+        Program program(words);
+        std::this_thread::sleep_for(std::chrono::milliseconds(250));
+        program.signal(SIGTERM);
+        const Outcome stopped = program.wait();
+        EXPECT_EQ(stopped.code, 75) << words[0] << ": " << stopped.err;
+        EXPECT_NE(stopped.err.find("stopped"), std::string::npos) << stopped.err;
+    }
+    EXPECT_FALSE(fs::exists(take("out.png")) || fs::exists(take("out.html")));
+}
+
 // A program of that name stands in for ffmpeg: it writes half a film and never ends by itself.
 TEST_F(ProgramTest, AStoppedMovieStopsFfmpegAndLeavesNoTemporary)
 {
     fs::create_directory(take("out"));
     fs::create_directory(take("bin"));
-    writeFileBytes(take("p.1001.png"), "");
+    writePng(take("p.1001.png"), Image(4, 4));
     writeFileBytes(take("bin/ffmpeg"),
                    "#!/bin/sh\nfor last; do :; done\necho half > \"$last\"\nexec sleep 60\n");
     fs::permissions(take("bin/ffmpeg"), fs::perms::owner_all);

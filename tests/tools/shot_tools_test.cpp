@@ -208,5 +208,151 @@ TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
         << unknown.err;
 }
 
+// It went through a file of its own, pose.1001.obj, which could be somebody else's.
+TEST_F(ShotTools, SettleTouchesNoFileButTheOneItWrites)
+{
+    for (int frame = 1001; frame < 1010; ++frame)
+        writeFileBytes(folder / ("pose." + std::to_string(frame) + ".obj"), "mine");
+    ASSERT_EQ(run("settle drop.toml -o pose.obj --seconds 0.1").code, 79);
+    for (int frame = 1001; frame < 1010; ++frame)
+        EXPECT_EQ(readFileBytes(folder / ("pose." + std::to_string(frame) + ".obj")), "mine");
+    EXPECT_EQ(run("settle drop.toml -o pose.pov --seconds 0.1").code, 79);
+    EXPECT_TRUE(contains(readFileBytes(folder / "pose.pov"), "pose_meshes.inc"));
+    std::filesystem::create_directories(folder / "taken.obj");
+    const Outcome taken = run("settle drop.toml -o taken.obj --seconds 0.1");
+    EXPECT_EQ(taken.code, 73) << taken.err;
+    EXPECT_TRUE(contains(taken.err, "taken.obj")) << taken.err;
+}
+
+TEST_F(ShotTools, TheFiguresOfTheFirstFrameAreThoseOfTheStart)
+{
+    const std::string emitter =
+        "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 2\n"
+        "frames = \"1001\"\nbox = { min = [5, 1, 5], max = [9, 2, 9] }\n";
+    writeFileBytes(folder / "moving.toml", kShotText + emitter);
+    ASSERT_EQ(run("sim moving.toml -o t --frames 1002 --set body.high.velocity=[2,0,0]").code, 0);
+    std::ifstream stats(folder / "t/stats.jsonl");
+    std::string line;
+    ASSERT_TRUE(std::getline(stats, line));
+    const nlohmann::json first = nlohmann::json::parse(line);
+    EXPECT_EQ(first["frame"], 1001);
+    EXPECT_NEAR(first["kinetic_energy_J"].get<double>(), 0.5 * 20.8 * 4.0, 1e-9);
+    EXPECT_NEAR(first["momentum"][0].get<double>(), 20.8 * 2.0, 1e-9);
+    EXPECT_GT(first["potential_energy_J"].get<double>(), 20.8 * 9.81 * (0.15 + 0.4));
+    EXPECT_EQ(first["births"]["born"], 2);
+    EXPECT_EQ(first["bodies_awake"], 4);
+}
+
+// The copy went into caches unseen, and a branch off it ended in a failed check.
+TEST_F(ShotTools, AFrameUnderTheNameOfAnotherIsRefused)
+{
+    ASSERT_EQ(run("sim drop.toml -o t").code, 0);
+    const auto frame = [&](int number) {
+        return folder / ("t/frames/frame.00" + std::to_string(number) + ".scree");
+    };
+    writeFileBytes(frame(1005), readFileBytes(frame(1004)));
+    for (const char* command :
+         {"export t -o x.abc", "render t", "sim drop.toml --from t@1005 -o b", "diff t t"}) {
+        const Outcome refused = run(command);
+        EXPECT_EQ(refused.code, 74) << command << ": " << refused.err;
+        EXPECT_TRUE(contains(refused.err, "frame.001005.scree: holds frame 1004")) << refused.err;
+    }
+}
+
+// A variable that a script never set took all frames, or wrote to another place.
+TEST_F(ShotTools, EmptyValuesAndNumbersWithoutEndAreRefused)
+{
+    ASSERT_EQ(run("sim drop.toml -o t --frames 1002").code, 0);
+    for (const char* command :
+         {"export t -o x.abc --frames ''", "export t -o x.abc --frames=", "sim drop.toml -o ''",
+          "sim drop.toml -o u --set ''", "render t --camera ''", "render t --size=", "info ''"}) {
+        const Outcome refused = run(command);
+        EXPECT_EQ(refused.code, 64) << command << ": " << refused.err;
+        EXPECT_TRUE(contains(refused.err, "empty")) << refused.err;
+    }
+    for (const char* command :
+         {"movie p.####.png -o x.mp4 --fps nan", "movie p.####.png -o x.mp4 --fps inf",
+          "settle drop.toml -o x.json --tolerance nan", "settle drop.toml -o x.json --seconds nan"})
+        EXPECT_EQ(run(command).code, 64) << command;
+}
+
+TEST_F(ShotTools, CheckTellsOverlapsAsSimDoes)
+{
+    const std::string check =
+        "check drop.toml --estimate 0 --set body.high.position=[0.02,0.3,0.03]";
+    const Outcome refused = run(check);
+    EXPECT_EQ(refused.code, 65);
+    EXPECT_TRUE(refused.err.starts_with("Error: 1 pair overlaps before anything moves"))
+        << refused.err;
+    const Outcome warned = run(check + " --set start.overlap=\\\"warn\\\"");
+    EXPECT_EQ(warned.code, 0);
+    EXPECT_TRUE(warned.err.starts_with("Warning: 1 pair overlaps")) << warned.err;
+}
+
+// A third too low: in the first frames nothing lies on anything yet.
+TEST_F(ShotTools, TheEstimateOfTheDiskIsThatOfTheFinishedTake)
+{
+    std::string bodies;
+    for (int i = 0; i < 12; ++i)
+        bodies += test::bodyText("b" + std::to_string(i),
+                                 "position = [" + std::to_string(i) + ", 0.3, 0]");
+    writeFileBytes(folder / "row.toml", test::shotTextOf({.name = "row",
+                                                          .frames = "1001-1100",
+                                                          .shotKeys = "",
+                                                          .woodKeys = "",
+                                                          .box = "[0.4, 0.2, 0.4]"},
+                                                         bodies));
+    const Outcome checked = run("check row.toml --json");
+    const double estimate =
+        nlohmann::json::parse(checked.out)["estimate"]["disk_bytes"].get<double>();
+    ASSERT_EQ(run("sim row.toml -o t").code, 0);
+    double bytes = 0.0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "t"))
+        if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+    EXPECT_NEAR(estimate, bytes, 0.15 * bytes);
+}
+
+TEST_F(ShotTools, OverwritingATakeRemovesItsPageOfFigures)
+{
+    ASSERT_EQ(run("sim drop.toml -o t --frames 1002").code, 0);
+    ASSERT_EQ(run("stats t --pictures 0").code, 0);
+    ASSERT_TRUE(std::filesystem::exists(folder / "t/stats.html"));
+    ASSERT_EQ(run("sim drop.toml -o t --frames 1002 --overwrite").code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "t/stats.html"));
+}
+
+// Too little memory was an error of the shot, at the line of the shape that came next.
+TEST_F(ShotTools, ALackOfMemoryIsNotBlamedOnTheShot)
+{
+    bool ranOut = false;
+    for (int megabytes = 300; megabytes <= 700; megabytes += 20) {
+        const std::string command = "cd '" + folder.path().string() + "' && ulimit -v " +
+                                    std::to_string(megabytes * 1024) + " && '" + SCREE_PROGRAM +
+                                    "' check drop.toml --estimate 0 --threads 1 > out 2> err";
+        const int code = WEXITSTATUS(std::system(command.c_str()));
+        const std::string err = readFileBytes(folder / "err");
+        if (code == 127 || code == 134) continue;  // not even the libraries start
+        EXPECT_TRUE(code == 0 || code == 70) << code << ": " << err;
+        if (code != 70) continue;
+        ranOut = true;
+        EXPECT_TRUE(err.starts_with("Error: memory ran out ")) << err;
+    }
+    EXPECT_TRUE(ranOut) << "no limit was tried at which the program starts and runs out";
+}
+
+TEST_F(ShotTools, AHeaderThatPromisesTooMuchIsToldAsALackOfMemory)
+{
+    writeFileBytes(folder / "big.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+                   "property float y\nproperty float z\nelement face 1\n"
+                   "property list uchar int vertex_indices\nend_header\n0 0 0\n");
+    writeFileBytes(folder / "big.toml", kShotText + "[shape.big]\nfile = \"big.ply\"\n" +
+                                            test::bodyText("b", "position = [5, 5, 5]", "big"));
+    const Outcome refused = run("check big.toml --estimate 0");
+    EXPECT_EQ(refused.code, 65);
+    EXPECT_TRUE(contains(refused.err, "'big.ply' cannot be read: it needs more memory than"))
+        << refused.err;
+}
+
 }  // namespace
 }  // namespace scree

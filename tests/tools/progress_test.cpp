@@ -1,0 +1,89 @@
+#include "tools/progress.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+namespace scree {
+namespace {
+
+/// What is told on stderr of frames that `tell` reports. Tests' stderr is no terminal.
+template <class Tell>
+std::string told(ProgressMode mode, int frameCount, int framesDone, Tell tell,
+                 LogFormat format = LogFormat::text)
+{
+    testing::internal::CaptureStderr();
+    {
+        Console console;
+        console.format = format;
+        Progress progress(console, mode, "sim", frameCount, framesDone);
+        tell(progress);
+    }
+    return testing::internal::GetCapturedStderr();
+}
+
+/// The last line, as JSON.
+nlohmann::json lastJson(const std::string& text)
+{
+    std::istringstream lines(text);
+    std::string last;
+    for (std::string line; std::getline(lines, line);) last = line;
+    return nlohmann::json::parse(last);
+}
+
+// It was 97 columns wide, wrapped, and filled the terminal with its remains.
+TEST(Progress, TheLineFitsEightyColumnsWhateverItTells)
+{
+    for (const ProgressFigures figures :
+         {ProgressFigures{}, ProgressFigures{2, 0}, ProgressFigures{1000, 12345},
+          ProgressFigures{100000, 1234567890}}) {
+        for (const double seconds : {0.1, 59.0, 3599.0, 86000.0}) {
+            const std::string text = told(ProgressMode::tty, 1000, 0, [&](Progress& progress) {
+                progress.frameDone(1001, seconds, figures);
+                progress.frameDone(100002, seconds, figures);
+            });
+            const std::regex redrawn("\r\033\\[K");
+            std::sregex_token_iterator line(text.begin(), text.end(), redrawn, -1), end;
+            for (; line != end; ++line) {
+                const std::string shown = *line;
+                EXPECT_LT(shown.size(), 80u) << shown;
+                const bool tellsWhatIsLeft = shown.find("left ") != std::string::npos;
+                EXPECT_TRUE(shown.empty() || tellsWhatIsLeft) << shown;
+            }
+        }
+    }
+}
+
+// The rest of a frame, done in a second, promised that every frame takes no longer.
+TEST(Progress, AFrameThatWasResumedHalfWayCountsAsTheWholeOfIt)
+{
+    const auto resumed = lastJson(told(ProgressMode::json, 10, 4, [](Progress& progress) {
+        progress.frameDone(1005, 2.0, {}, 0.25);
+    }));
+    EXPECT_DOUBLE_EQ(resumed["seconds_per_frame"].get<double>(), 8.0);
+    EXPECT_DOUBLE_EQ(resumed["seconds_left"].get<double>(), 40.0);
+}
+
+TEST(Progress, WhatIsLeftIsUnknownBeforeAFrameWasTimed)
+{
+    const auto first = lastJson(told(ProgressMode::json, 10, 0, [](Progress& progress) {
+        progress.frameDone(1001, 0.0, {}, 0.0);
+    }));
+    EXPECT_TRUE(first["seconds_per_frame"].is_null());
+    EXPECT_TRUE(first["seconds_left"].is_null());
+}
+
+TEST(Progress, ALogOfJsonHoldsNothingElse)
+{
+    const std::string text = told(
+        ProgressMode::automatic, 4, 0, [](Progress& progress) { progress.frameDone(1001, 1.0); },
+        LogFormat::json);
+    EXPECT_EQ(lastJson(text)["progress"], 25) << text;
+    EXPECT_EQ(text.find("ALF"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace scree
