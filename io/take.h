@@ -83,6 +83,7 @@ public:
 
     /// Whether a whole frame file stands there.
     bool hasFrame(int frame) const { return wholeFrames_.contains(frame); }
+    int lastWholeFrame() const { return wholeFrames_.empty() ? 0 : *wholeFrames_.rbegin(); }
 
     /// Makes `world` ready to simulate towards `frame`, whose predecessor must exist: nothing to do
     /// when it stands there already, else from the checkpoint inside that frame or the frame
