@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
-#include "core/dynamics/disjoint_sets.h"
 
 namespace scree {
 namespace {

@@ -1,4 +1,5 @@
 #include "core/dynamics/sleep.h"
+#include "core/base/disjoint_sets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,6 @@
 
 #include "core/collision/broad_phase.h"
 #include "core/collision/near_features.h"
-#include "core/dynamics/disjoint_sets.h"
 #include "core/dynamics/forces.h"
 #include "core/dynamics/impulse.h"
 

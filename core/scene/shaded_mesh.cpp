@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 
+#include "core/base/disjoint_sets.h"
 #include "core/geometry/tri_mesh.h"
 
 namespace scree {
@@ -70,37 +70,10 @@ std::vector<HalfEdge> sortedHalfEdges(const Triangles& triangles)
     return edges;
 }
 
-/// Sets of corners, by union and find; a set is named after its smallest member.
-class CornerGroups {
-public:
-    explicit CornerGroups(std::size_t count) : parent_(count)
-    {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
-
-    int find(int corner)
-    {
-        while (parent_[corner] != corner) {
-            parent_[corner] = parent_[parent_[corner]];
-            corner = parent_[corner];
-        }
-        return corner;
-    }
-
-    void join(int a, int b)
-    {
-        const int rootA = find(a), rootB = find(b);
-        parent_[std::max(rootA, rootB)] = std::min(rootA, rootB);
-    }
-
-private:
-    std::vector<int> parent_;
-};
-
 /// Joins corners across every smooth edge, at both of its ends. True when all edges are shared by
 /// two triangles of opposite sense, which makes the surface closed.
 bool joinAcrossSmoothEdges(const TriMesh& mesh, const Points& normals, double creaseDegrees,
-                           CornerGroups& groups)
+                           DisjointSets& groups)
 {
     const double smoothest = std::cos(creaseDegrees * std::numbers::pi / 180.0);
     const std::vector<HalfEdge> edges = sortedHalfEdges(mesh.triangles);
@@ -119,12 +92,12 @@ bool joinAcrossSmoothEdges(const TriMesh& mesh, const Points& normals, double cr
 }
 
 /// For every corner the first one of its group that is seen at the same place of the texture.
-std::vector<int> drawnCorners(CornerGroups& groups, const TriMesh& mesh)
+std::vector<int> drawnCorners(DisjointSets& groups, const TriMesh& mesh)
 {
     std::vector<int> drawnAs(static_cast<std::size_t>(mesh.triangles.size()));
     std::map<std::tuple<int, float, float>, int> firstAt;
     for (int corner = 0; corner < static_cast<int>(drawnAs.size()); ++corner) {
-        drawnAs[corner] = groups.find(corner);
+        drawnAs[corner] = static_cast<int>(groups.find(corner));
         if (mesh.cornerUvs.cols() == 0) continue;
         const Eigen::Vector2f uv = mesh.cornerUvs.col(corner);
         const auto entry = firstAt.try_emplace({drawnAs[corner], uv.x(), uv.y()}, corner).first;
@@ -152,7 +125,7 @@ ShadedMesh shadeMesh(const SceneMesh& sceneMesh, double creaseDegrees)
 
     // Find which corners look like one smooth piece of surface.
     ShadedMesh result;
-    CornerGroups groups(cornerCount);
+    DisjointSets groups(cornerCount);
     result.isClosed = joinAcrossSmoothEdges(mesh, normals, creaseDegrees, groups);
 
     // Sum the normals of each group.

@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// Representative of a set of bodies; the lowest index stands for the set.
+/// Of 0 … count − 1, each alone at first; the lowest member stands for its set.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : parent_(count)
