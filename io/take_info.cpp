@@ -56,6 +56,16 @@ int frameFrom(const Json& json)
     return static_cast<int>(value);
 }
 
+/// Files are named after shots and shapes: what leads out of the take is no name.
+std::string nameFrom(const Json& json)
+{
+    const std::string name = json;
+    const bool isName = !name.empty() && name.front() != '.' &&
+                        name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
+    require(isName, "name", json, "one that a file may have");
+    return name;
+}
+
 const char* motionWord(BodyKind kind)
 {
     switch (kind) {
@@ -262,7 +272,7 @@ TakeInfo infoFromJson(const Json& json)
 {
     TakeInfo info;
     info.programVersion = json.at("program_version");
-    info.name = json.at("name");
+    info.name = nameFrom(json.at("name"));
     info.framesPerSecond = numberFrom<double>(json.at("fps"), "shot.fps");
     info.firstFrame = frameFrom(json.at("frames").at(0));
     info.lastFrame = frameFrom(json.at("frames").at(1));
@@ -282,7 +292,7 @@ TakeInfo infoFromJson(const Json& json)
     for (const Json& input : json.at("inputs"))
         info.inputs.push_back({input.at("path"), fromHex(input.at("hash"))});
     for (const Json& shape : json.at("shapes"))
-        info.shapes.push_back({shape.at("name"), fromHex(shape.at("hash"))});
+        info.shapes.push_back({nameFrom(shape.at("name")), fromHex(shape.at("hash"))});
     for (const Json& body : json.at("bodies")) info.bodies.push_back(bodyFromJson(body));
     readPictures(json, info);
     info.offsets = json.value("subframes", std::vector<double>{0.0});

@@ -110,10 +110,12 @@ std::vector<int> chooseFrames(const std::string& text, const std::vector<int>& a
     if (text.empty()) {
         for (std::size_t i = 1; i < available.size(); ++i) {
             if (available[i] == available[i - 1] + 1) continue;
-            throw Error(ErrorKind::missingInput, "frame " + std::to_string(available[i - 1] + 1) +
-                                                     " is not there; --frames " +
-                                                     describeFrames(available) +
-                                                     " asks for those that are");
+            // A list with gaps is not for every command.
+            throw Error(ErrorKind::missingInput,
+                        "frame " + std::to_string(available[i - 1] + 1) +
+                            " is not there; --frames " +
+                            describeFrames({available.begin(), available.begin() + i}) +
+                            " asks for those before it");
         }
         return available;
     }

@@ -107,7 +107,11 @@ public:
                           "; the state is saved, go on with: " + commandToGoOn(options_, folder));
             return kExitStopped;
         }
-        if (simulated == 0) console_.info("nothing to simulate: " + folder + " is complete");
+        if (simulated == 0)
+            console_.info("nothing to simulate: " + folder +
+                          (lastFrame_ == shot_.lastFrame
+                               ? " is complete"
+                               : " has all frames up to " + std::to_string(lastFrame_)));
         if (!writeExports(simulated > 0)) {
             console_.info("stopped while exporting; the frames are saved, go on with: " +
                           commandToGoOn(options_, folder));
@@ -121,8 +125,9 @@ private:
     int chooseLastFrame() const
     {
         if (options_.frames.empty()) return shot_.lastFrame;
-        const int last = parseFrames(options_.frames).back();
-        if (last < shot_.firstFrame || last > shot_.lastFrame)
+        const std::vector<int> asked = parseFrames(options_.frames);
+        const int last = asked.back();
+        if (asked.front() < shot_.firstFrame || last > shot_.lastFrame)
             throw Error(ErrorKind::usage, "--frames " + options_.frames + ": the shot has " +
                                               std::to_string(shot_.firstFrame) + "-" +
                                               std::to_string(shot_.lastFrame));

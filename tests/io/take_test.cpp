@@ -258,6 +258,8 @@ TEST_F(TakeTest, WhatNoShotCouldHaveSaidIsRefusedByItsKey)
     expectRefusal("/frames/1", 1e300);
     expectRefusal("/metres_per_unit", 0.0);
     expectRefusal("/up", "+x");
+    expectRefusal("/name", "../../elsewhere");
+    expectRefusal("/name", "");
     expectRefusal("/cameras/0/fov", 180.0);
     expectRefusal("/bodies/1/motion", "dynamik");
     expectRefusal("/bodies/1/mass", -1.0);
