@@ -263,7 +263,10 @@ int checkShot(const CheckOptions& options, Console& console)
         printText(shot, world, report, cache);
     // What sim would refuse, check refuses too.
     const bool begins = foretellStartRule(shot, world, report.overlaps, console);
-    return begins ? kExitDone : exitCodeFor(ErrorKind::badInput);
+    if (!begins) return exitCodeFor(ErrorKind::badInput);
+    if (report.estimate.complaint.empty()) return kExitDone;
+    console.error(report.estimate.complaint);
+    return exitCodeFor(ErrorKind::qualityLimit);
 }
 
 int runCheck(const CheckOptions& options, Console& console)

@@ -333,8 +333,10 @@ Command addMovieCommand(CLI::App& program)
         ->check(complaintIfNotFinite)
         ->check(CLI::Range(0.01, 10000.0));
     command->footer(
-        "Of a take without pictures of all its frames it makes what it can and ends with 66; a "
-        "pattern means\nthe pictures that are there.\nExample:\n  scree movie takes/rings_100 -o "
+        "Of a take whose pictures end before its shot it makes what it can and ends with 66; a "
+        "pattern "
+        "means\nthe pictures that are there, at even distances.\nExample:\n  scree movie "
+        "takes/rings_100 -o "
         "rings.mp4");
     return {command, [options](Console& console) { return runMovie(*options, console); }};
 }

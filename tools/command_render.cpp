@@ -144,9 +144,23 @@ public:
 
     int run()
     {
+        watchSignals();
+        paintAll();
+        if (stopRequested()) {
+            console_.info(
+                "stopped; the pictures written so far are whole, --skip-existing keeps "
+                "them");
+            return kExitStopped;
+        }
+        std::printf("%s\n", pattern_.c_str());
+        return finishTakeFrames(chosen_, pattern_, console_);
+    }
+
+private:
+    void paintAll() const
+    {
         // Without a camera of its own the view follows from all frames, not from those asked for: a
         // frame rendered alone looks as it does in the sequence.
-        watchSignals();
         TakePainter painter(take_, options_.camera, size_, paintSettings(options_, take_.info()));
         Progress progress(console_, progressMode_, "render", static_cast<int>(frames_.size()));
         std::atomic<std::size_t> next = 0;
@@ -162,17 +176,8 @@ public:
                 progress.frameDone(frames_[i], taken.count() / painter.usefulThreads());
             }
         });
-        if (stopRequested()) {
-            console_.info(
-                "stopped; the pictures written so far are whole, --skip-existing keeps "
-                "them");
-            return kExitStopped;
-        }
-        std::printf("%s\n", pattern_.c_str());
-        return finishTakeFrames(chosen_, pattern_, console_);
     }
 
-private:
     void paint(TakePainter& painter, int frame) const
     {
         const fs::path picture =

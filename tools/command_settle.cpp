@@ -16,6 +16,7 @@
 #include "io/frame_writer.h"
 #include "io/pose_json.h"
 #include "io/shot_parser.h"
+#include "tools/broken_frame.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
@@ -128,8 +129,7 @@ private:
             const FrameReport report =
                 stepper.advanceFrame(world_, 1.0 / shot_.framesPerSecond, stopRequested);
             if (!report.finished) return false;
-            refuseNonFinite(report);
-            refuseFailedBirth(report.births);
+            refuseBroken(report, shot_.firstFrame + frame);
             past.push_back(world_.motion);
             if (past.size() > window + 1) past.pop_front();
             if (past.size() == window + 1 && isAtRest(past.front(), report.births)) {
@@ -168,23 +168,10 @@ private:
                " of its radius in half a second";
     }
 
-    void refuseNonFinite(const FrameReport& report) const
+    void refuseBroken(const FrameReport& report, int frame) const
     {
-        if (report.sum.nonFinite.empty()) return;
-        throw Error(ErrorKind::qualityLimit,
-                    "'" + world_.info[report.sum.nonFinite.front()].name +
-                        "' is no longer finite after frame " +
-                        std::to_string(shot_.firstFrame + world_.clock.frame));
-    }
-
-    void refuseFailedBirth(const BirthReport& births) const
-    {
-        if (births.failed < 0) return;
-        throw Error(ErrorKind::qualityLimit,
-                    "'" + world_.info[births.failed].name + "' cannot be born, '" +
-                        world_.info[births.occupant].name +
-                        "' stands in its place; clear = \"wait\" lets it wait, \"skip\" leaves it "
-                        "out");
+        const std::string complaint = complaintOf(report, world_, frame);
+        if (!complaint.empty()) throw Error(ErrorKind::qualityLimit, complaint);
     }
 
     void write() const

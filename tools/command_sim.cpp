@@ -17,6 +17,7 @@
 #include "io/subframes.h"
 #include "io/take.h"
 #include "io/take_reader.h"
+#include "tools/broken_frame.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/cpu_time.h"
@@ -200,8 +201,7 @@ private:
             [&](const World& world, double time) { subframes_->afterStep(world, time); });
         stats.wallSeconds = wallSeconds() - wallBefore;
         stats.cpuSeconds = cpuSeconds() - cpuBefore;
-        refuseNonFinite(frame, stats.report);
-        refuseFailedBirth(frame, stats.report.births);
+        refuseBroken(frame, stats.report);
         if (!stats.report.finished) {
             take_->writeCheckpoint(world_, subframes_->samples());
             isStopped_ = true;
@@ -243,31 +243,13 @@ private:
                         ", sub-step " + std::to_string(world_.clock.subStep));
     }
 
-    void refuseNonFinite(int frame, const FrameReport& report)
+    void refuseBroken(int frame, const FrameReport& report)
     {
-        if (report.sum.nonFinite.empty()) return;
-        std::string names;
-        for (const BodyId body : report.sum.nonFinite) {
-            if (!names.empty()) names += ", ";
-            names += world_.info[body].name;
-        }
-        throw Error(ErrorKind::qualityLimit,
-                    "frame " + std::to_string(frame) + ", step " + std::to_string(report.steps) +
-                        ", after " + nameOf(report.sum.nonFinitePhase) + ": no longer finite: " +
-                        names + "; frames up to " + std::to_string(frame - 1) + " are kept in \"" +
-                        take_->paths().root.string() + "\"");
-    }
-
-    void refuseFailedBirth(int frame, const BirthReport& births)
-    {
-        if (births.failed < 0) return;
-        throw Error(ErrorKind::qualityLimit,
-                    "frame " + std::to_string(frame) + ": '" + world_.info[births.failed].name +
-                        "' cannot be born, '" + world_.info[births.occupant].name +
-                        "' stands in its place; clear = \"wait\" lets it wait, \"skip\" leaves it "
-                        "out; frames up to " +
-                        std::to_string(frame - 1) + " are kept in \"" +
-                        take_->paths().root.string() + "\"");
+        const std::string complaint = complaintOf(report, world_, frame);
+        if (complaint.empty()) return;
+        throw Error(ErrorKind::qualityLimit, complaint + "; frames up to " +
+                                                 std::to_string(frame - 1) + " are kept in \"" +
+                                                 take_->paths().root.string() + "\"");
     }
 
     /// An emitter's count is a promise: who could not come is told.

@@ -11,6 +11,7 @@
 #include "io/ply_mesh.h"
 #include "io/take.h"
 #include "io/take_info.h"
+#include "tools/broken_frame.h"
 #include "tools/cpu_time.h"
 
 namespace scree {
@@ -84,7 +85,8 @@ RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double
         estimate.stepsTried += report.steps;
         framesDone += report.finished ? 1.0 : copy.clock.frameTimeDone / duration;
         ++estimate.framesTried;
-        if (!report.finished || !report.sum.nonFinite.empty()) break;
+        estimate.complaint = complaintOf(report, copy, shot.firstFrame + estimate.framesTried);
+        if (!report.finished || !estimate.complaint.empty()) break;
     }
     const int total = shot.lastFrame - shot.firstFrame;
     const double scale = framesDone > 0.0 ? total / framesDone : 0.0;

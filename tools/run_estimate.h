@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "core/scene/world.h"
 #include "io/shot.h"
@@ -15,6 +16,7 @@ struct RunEstimate {
     double cpuSeconds = 0.0, wallSeconds = 0.0;  ///< for all frames of the shot, if they go on so
     std::uint64_t diskBytes = 0;                 ///< of the take
     std::uint64_t memoryBytes = 0;               ///< the most this process had
+    std::string complaint;                       ///< what broke a frame that was tried; else ""
 };
 
 /// Simulates the first `frames` of a copy of the world, or as many as begin within `mostSeconds`.

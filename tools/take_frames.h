@@ -11,8 +11,9 @@ namespace scree {
 
 /// For --help of the commands that work on whole takes.
 inline constexpr const char* kMissingFramesHelp =
-    "When the take lacks frames of its shot and --frames does not ask for a part, what is there is "
-    "made\nand the exit code is 66.\n";
+    "When the take ends before its shot and --frames does not ask for a part, what is there is "
+    "made\n"
+    "and the exit code is 66.\n";
 
 /// What there is of the frames of a shot.
 struct TakeFrames {

@@ -170,7 +170,7 @@ TEST_F(ShotTools, SettleWaitsForWhatTheShotHasInStore)
     EXPECT_TRUE(contains(blown.err, "go on until")) << blown.err;
 }
 
-TEST_F(ShotTools, SettleRefusesABirthThatCannotBe)
+TEST_F(ShotTools, SettleAndCheckRefuseABirthThatCannotBe)
 {
     const std::string stuck =
         "[[body]]\nname = \"table\"\nshape = \"block\"\nmaterial = \"wood\"\n"
@@ -180,10 +180,12 @@ TEST_F(ShotTools, SettleRefusesABirthThatCannotBe)
         "frames = \"1002-1003\"\n"
         "box = { min = [9, 0.15, 0], max = [9, 0.15, 0] }\n";
     std::ofstream(folder / "stuck.toml") << readFileBytes(folder / "drop.toml") + stuck;
-    const Outcome outcome = run("settle stuck.toml -o stuck.json");
-    EXPECT_EQ(outcome.code, 79);
-    EXPECT_TRUE(contains(outcome.err, "cannot be born, 'table' stands in its place"))
-        << outcome.err;
+    for (const char* command : {"settle stuck.toml -o stuck.json", "check stuck.toml"}) {
+        const Outcome outcome = run(command);
+        EXPECT_EQ(outcome.code, 79) << command;
+        EXPECT_TRUE(contains(outcome.err, "frame 1002: 'late_0000' cannot be born, 'table' stands"))
+            << outcome.err;
+    }
     EXPECT_FALSE(std::filesystem::exists(folder / "stuck.json"));
 }
 
