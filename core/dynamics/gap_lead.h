@@ -14,11 +14,15 @@ struct VelocityLead {
     Vec3 velocity;
 };
 
-/// Gives the bodies of a block velocities that are right at the places that their contacts will
-/// have half a step later. After the blows, before the forces; to be taken back when the block is
-/// solved.
+/// Gives the bodies of a block that roll on one round place velocities that are right where this
+/// place will be half a step later: for contacts, before the forces.
 std::vector<VelocityLead> leadPlaces(const World& world, double dt, const GapBlock& block,
                                      GapScratch& scratch);
+
+/// The same where it was half a step earlier, of contacts that have carried: for blows, or each
+/// would seem to strike.
+std::vector<VelocityLead> trailPlaces(const World& world, const GapBlock& block,
+                                      GapScratch& scratch);
 
 void takeBack(const std::vector<VelocityLead>& leads, GapScratch& scratch);
 

@@ -299,7 +299,9 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         const PhaseTimer timer(seconds, Phase::collision);
         const std::vector<Held> held = heldAsBefore(dt, block, scratch);
         letPass(world, dt, held, block, scratch);
+        const std::vector<VelocityLead> trails = trailPlaces(world, block, scratch);
         resolveImpacts(settings_, dt, held, block, scratch);
+        takeBack(trails, scratch);
         findLevels(dt, block, scratch);
     }
     std::vector<VelocityLead> leads;
