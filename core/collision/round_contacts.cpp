@@ -7,8 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/collision/ball_contacts.h"
-
 namespace scree {
 namespace {
 
@@ -213,18 +211,19 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
     return {};
 }
 
-std::optional<Vec3> placeTouchedFrom(const Shape& shape, const Vec3& near, const Vec3& outward)
+std::optional<Vec3> placeOnRim(const Shape& shape, const Vec3& near, const Vec3& outward)
 {
-    if (isBall(shape) || shape.isPlane) return {};
+    if (shape.rims.bulge() == 0.0) return {};
     std::int32_t vertex = 0;
     if (shape.distance.solid()) {  // has no rays, and few vertices
         (shape.mesh.points.colwise() - near).colwise().squaredNorm().minCoeff(&vertex);
     } else {
         vertex = nearestVertex(shape, near);
     }
-    Side side(shape, {Kind::corner, vertex}, kUnturned, kUnmoved, near, outward);
-    if (!side.isRoundMesh() || side.turnTo(outward) != Search::found) return {};
-    return Vec3(side.place().point + side.place().bulge * outward);
+    std::int32_t rim = shape.rims.atCorner(vertex);
+    RoundPlace place;
+    if (rim < 0 || shape.rims.findFacing(rim, outward, place) != Search::found) return {};
+    return Vec3(place.point + place.bulge * outward);
 }
 
 }  // namespace scree

@@ -38,8 +38,8 @@ struct Rounding {
 Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
                       const FeatureContact& contact);
 
-/// The place near `near` where the smooth surface of a shape is touched from the direction
-/// `outward`, both in its frame; nothing where it is not round.
-std::optional<Vec3> placeTouchedFrom(const Shape& shape, const Vec3& near, const Vec3& outward);
+/// The place of a rim near `near` that is touched from the direction `outward`, all in the frame of
+/// the shape; nothing where it has no rim.
+std::optional<Vec3> placeOnRim(const Shape& shape, const Vec3& near, const Vec3& outward);
 
 }  // namespace scree

@@ -1,5 +1,5 @@
-// Contacts whose place goes round on a body that wobbles: a coin that comes to rest, a plate, a
-// hubcap. [A40; algorithm 14]
+// Contacts whose place runs round the rim of a body that wobbles: a coin that comes to rest, a
+// plate, a hubcap. [A40; algorithm 14]
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct VelocityLead {
     Vec3 velocity;
 };
 
-/// Gives the bodies of a block that roll on one round place velocities that are right where this
+/// Gives the bodies of a block that roll on one place of a rim velocities that are right where this
 /// place will be half a step later: for contacts, before the forces.
 std::vector<VelocityLead> leadPlaces(const World& world, double dt, const GapBlock& block,
                                      GapScratch& scratch);
