@@ -493,6 +493,20 @@ void NearFeatures::Memory::prefetchLists() const
     fetchItems(edges_);
 }
 
+namespace {
+
+/// Corners past the middle of a plate lead out on its far side: with these a cube that had been
+/// pressed half into a keyed plate hung in it for ever.
+void dropContrary(const Vec3& out, std::vector<GapContact>& contacts, std::size_t first)
+{
+    const auto begin = contacts.begin() + static_cast<std::ptrdiff_t>(first);
+    contacts.erase(std::remove_if(begin, contacts.end(),
+                                  [&](const GapContact& one) { return one.normal.dot(out) < 0.0; }),
+                   contacts.end());
+}
+
+}  // namespace
+
 NearFeatures::NearFeatures() = default;
 NearFeatures::~NearFeatures() = default;
 NearFeatures::NearFeatures(NearFeatures&&) noexcept = default;
@@ -529,11 +543,13 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     }
 
     const std::optional<DeepContact> deep = findDeepContact(pair, back);
+    Vec3 out = Vec3::Zero();  // of what is deep
     if (deep) {
         const std::uint64_t feature =
             featureId(FeatureKind::round, kInnerBall, deep->isOfFirst ? 0 : 1);
         contacts.push_back((deep->isOfFirst ? ofA : ofB)(feature, deep->contact));
         if (deep->speaksAlone) return deep->contact.gap;
+        out = contacts.back().normal;
     }
     const double least = deep ? deep->contact.gap : std::numeric_limits<double>::infinity();
     const bool isNew = !memory_ || memory_->isStaleAt(pair, reach);
@@ -553,6 +569,7 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     }
     memory_->addContacts(pair, back, ofA, ofB, reach, isNew, list);
     list.finish();
+    if (deep) dropContrary(out, contacts, known);
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? worldFromA : worldFromB, smaller);
     return std::min(least, memory_->farFor(pair) - bulge);

@@ -192,5 +192,21 @@ TEST(GapPushOut, WhatBeginsInsideSomethingLargeComesOutOfItsNearestFace)
     EXPECT_NEAR(world.motion[large].position.y(), 0.5, 1e-3);
 }
 
+/// One of its corners is past the middle of the plate, and led out above.
+TEST(GapPushOut, ACubePressedPartlyIntoAPlateFallsFromUnderIt)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    addBody(world, boxShape({4.0, 0.2, 4.0}, 8), material, {{0.0, 1.2, 0.0}, Quat::Identity()},
+            0.0);
+    const BodyId cube =
+        addBody(world, boxShape(Vec3::Constant(0.2), 1), material,
+                {{0.16, 1.057, -0.155}, Quat(0.707, 0.076, 0.547, -0.442).normalized()});
+    Stepper stepper(screeSettings());
+    for (int k = 0; k < 48; ++k) stepper.advanceFrame(world, 1.0 / 24.0);
+    EXPECT_LT(world.motion[cube].position.y(), 0.2);
+}
+
 }  // namespace
 }  // namespace scree::test
