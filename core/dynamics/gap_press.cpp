@@ -2,7 +2,7 @@
 //
 // Sweeps over a contradiction add about m U to every impulse each time, and the next step begins
 // with what this one found. Two balls in a straight line under a plate that came down at 1 m/s
-// carried two million times their momentum after a hundred steps, and friction and the last bit of
+// carried three million times their momentum after a hundred steps, and friction and the last bit of
 // their direction threw them at 700 m/s. A cap of their speeds did not hold: what was left grew
 // again in every step.
 #include "core/dynamics/gap_press.h"
