@@ -230,7 +230,7 @@ Vec3 ImpactVisits::slideUntil(const Impact& impact) const
 
 /// The row of an impact with the lever arms it has then: the place goes along with both.
 /// Angular momentum is kept so, and energy too. Keeps the arms of now where they alone see it
-/// coming.
+/// coming. Rows that have been foreseen have the arms of then.
 GapRow ImpactVisits::rowAt(Impact& impact) const
 {
     GapRow row = *impact.row;
@@ -240,6 +240,11 @@ GapRow ImpactVisits::rowAt(Impact& impact) const
     row.impulse = Vec3::Zero();
     row.target = impact.velocityAfter;
     impact.slid = Vec3::Zero();
+    if (row.isOfBlow) {
+        const Vec3 bFromA = scratch_.seenAt[row.a].position - scratch_.seenAt[row.b].position;
+        if (row.movesA && row.movesB) impact.slid = row.rB - row.rA - bFromA;
+        return row;
+    }
     if (slid.isZero(0.0)) return row;
     row.rA -= 0.5 * slid;
     row.rB += 0.5 * slid;

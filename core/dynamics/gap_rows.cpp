@@ -195,6 +195,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
                 row.restitution = surface.restitution;
                 row.target = 0.0;
                 row.wasHit = false;
+                row.isOfBlow = false;
                 row.impulse = Vec3::Zero();
                 row.isUnmovedA = isUnmovedA;
                 row.isUnmovedB = isUnmovedB;

@@ -40,6 +40,7 @@ struct GapRow {
                           ///< nor on one that the other's group does not move
     bool isUnmovedA, isUnmovedB;  ///< by its group
     bool wasHit;                  ///< by an impact of this step
+    bool isOfBlow;                ///< has the arms and the normal of the moment it is hit
     Vec3 rA, rB;                  ///< contact point from either centre, world [m]
     Vec3 normal;                  ///< from B to A
     double gap;                   ///< [m]

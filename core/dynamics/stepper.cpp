@@ -20,7 +20,7 @@
 #include "core/dynamics/gap_lead.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
-#include "core/dynamics/gap_passing.h"
+#include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/integrator.h"
@@ -298,7 +298,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
     {
         const PhaseTimer timer(seconds, Phase::collision);
         const std::vector<Held> held = heldAsBefore(dt, block, scratch);
-        letPass(world, dt, held, block, scratch);
+        foreseeBlows(world, dt, held, block, scratch);
         const std::vector<VelocityLead> trails = trailPlaces(world, block, scratch);
         resolveImpacts(settings_, dt, held, block, scratch);
         takeBack(trails, scratch);

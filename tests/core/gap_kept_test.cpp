@@ -13,7 +13,7 @@
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_pairs.h"
-#include "core/dynamics/gap_passing.h"
+#include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_search.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/stepper.h"
@@ -72,7 +72,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
     for (GapBlock& block : scratch.blocks) {
         buildRows(world, settings, kStep, block, scratch);
         const std::vector<Held> held = heldAsBefore(kStep, block, scratch);
-        letPass(world, kStep, held, block, scratch);
+        foreseeBlows(world, kStep, held, block, scratch);
         resolveImpacts(settings, kStep, held, block, scratch);
         findLevels(kStep, block, scratch);
         addForcesToGaps(kStep, block, scratch);

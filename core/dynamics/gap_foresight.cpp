@@ -1,5 +1,5 @@
 // Symbols: u normal velocity (approaching < 0), t time since the step began.
-#include "core/dynamics/gap_passing.h"
+#include "core/dynamics/gap_foresight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,17 @@ constexpr double kOfFastest = 0.1;
 /// Nobody knows how bodies go on for longer, in steps.
 constexpr double kFarAhead = 8.0;
 
+/// What passes is let through by so much more than it takes: by rounding it would seem to bear.
+constexpr double kSpare = 1e-6;
+
 constexpr int kMostLooks = 8;
+
+/// Round surfaces that slide along each other by more than this share of the smaller body until
+/// they meet do so along another normal than they have now.
+constexpr double kSlidesOn = 2e-3;
+
+/// The moment of a blow is known when it changes by less than this share of the step.
+constexpr double kSameMoment = 1e-6;
 
 /// A body on its way, if what carried it in the last step still does.
 struct Course {
@@ -68,11 +78,17 @@ struct Blow {
     const GapContact* contact = nullptr;
 };
 
+/// What already bears is there to be borne by.
+bool bears(const GapRow& row)
+{
+    return row.impulse.x() > 0.0;
+}
+
 /// A pair on its way, of which something comes closer as fast as that.
-class Passing {
+class Foresight {
 public:
-    Passing(const World& world, const std::vector<Held>& held, GapScratch& scratch,
-            const GapPair& pair, double dt, double fastest)
+    Foresight(const World& world, const std::vector<Held>& held, GapScratch& scratch,
+              const GapPair& pair, double dt, double fastest)
         : world_(world),
           scratch_(scratch),
           bodies_(pair.bodies),
@@ -93,7 +109,7 @@ public:
     /// Whether what is about to be hit in this step is not.
     bool passes(const std::vector<GapContact>& contacts)
     {
-        Blow blow = nextBlow(contacts, 0.0);
+        Blow blow = nextBlow(contacts, 0.0, fastEnough_);
         for (int look = 0; look < kMostLooks; ++look) {
             if (blow.time >= dt_) return look > 0;
             const double t = blow.time + after_ / blow.speed;
@@ -102,29 +118,89 @@ public:
             lookAt(t, 0.0);
             if (deepestOf(found_) >= kGoneIn * after_) return false;
             lookAt(t, std::max(dt_ - t, 0.0) * fastestOfAll());
-            blow = nextBlow(found_, t);
+            blow = nextBlow(found_, t, fastEnough_);
         }
         return false;
     }
 
+    /// Takes the rows of round surfaces that slide along each other until they meet from where
+    /// they are then, or at the end of the step if they miss.
+    void aim(const std::vector<GapContact>& contacts, std::span<GapRow> rows)
+    {
+        Blow blow = nextBlow(contacts, 0.0, fastEnough_);
+        if (!blow.contact || !turnsUntil(blow)) return;
+        const double reach = 2.0 * std::max(blow.contact->gap, after_);
+        double t = 0.0;
+        for (int look = 0; look < kMostLooks; ++look) {
+            const double next = std::min(blow.time, dt_);
+            if (look > 0 && next - t <= kSameMoment * dt_) break;
+            t = next;
+            lookAt(t, reach);
+            blow = nextBlow(found_, t, 0.0);
+        }
+        for (GapRow& row : rows) {
+            const GapContact& contact = contacts[&row - rows.data()];
+            if (bears(row) || kindOf(contact.feature) != FeatureKind::round) continue;
+            if (const GapContact* then = sameAs(contact)) takeFrom(*then, t, row);
+        }
+    }
+
 private:
-    Vec3 velocityAt(const GapContact& contact, double t) const
+    bool turnsUntil(const Blow& blow) const
+    {
+        if (kindOf(blow.contact->feature) != FeatureKind::round) return false;
+        const Vec3 v = a_.velocity - b_.velocity;
+        const Vec3& n = blow.contact->normal;
+        return std::min(blow.time, dt_) * (v - v.dot(n) * n).norm() >
+               kSlidesOn * smallerRadius(world_, bodies_.a, bodies_.b);
+    }
+
+    /// Of what was found last.
+    const GapContact* sameAs(const GapContact& contact) const
+    {
+        const GapContact* nearest = nullptr;
+        const auto away = [&](const GapContact& other) {
+            return (other.rA - contact.rA).squaredNorm();
+        };
+        for (const GapContact& other : found_) {
+            if (other.feature != contact.feature) continue;
+            if (!nearest || away(other) < away(*nearest)) nearest = &other;
+        }
+        return nearest;
+    }
+
+    /// With the gap that closes when that of `contact` does.
+    void takeFrom(const GapContact& contact, double t, GapRow& row) const
+    {
+        row.rA = contact.rA;
+        row.rB = contact.rA + a_.placeAt(t) - b_.placeAt(t);
+        row.normal = contact.normal;
+        row.isOfBlow = true;
+        const double u =
+            velocityAt(row, scratch_.bodies[bodies_.a], scratch_.bodies[bodies_.b]).dot(row.normal);
+        const double g = (a_.acceleration - b_.acceleration).dot(row.normal);
+        row.gap = contact.gap - t * (u + 0.5 * g * t);
+        prepareRow(scratch_.bodies, row);
+    }
+
+    Vec3 velocityOf(const GapContact& contact, double t) const
     {
         const Vec3 bFromA = a_.placeAt(t) - b_.placeAt(t);
         return a_.velocityAt(contact.rA, t) - b_.velocityAt(contact.rA + bFromA, t);
     }
 
-    Blow nextBlow(const std::vector<GapContact>& contacts, double t) const
+    /// Of what comes closer faster than that.
+    Blow nextBlow(const std::vector<GapContact>& contacts, double t, double speed) const
     {
         const Vec3 acceleration = a_.acceleration - b_.acceleration;
         Blow first;
         for (const GapContact& contact : contacts) {
-            const double u = velocityAt(contact, t).dot(contact.normal);
-            if (!isFast(u)) continue;
+            const double u = velocityOf(contact, t).dot(contact.normal);
+            if (-u <= speed) continue;
             const double g = acceleration.dot(contact.normal);
-            const double speed = -u - std::min(0.5 * g * (dt_ - t), 0.0);
-            const double time = t + std::max(contact.gap, 0.0) / speed;
-            if (time < first.time) first = {time, speed, t, &contact};
+            const double atMost = -u - std::min(0.5 * g * (dt_ - t), 0.0);
+            const double time = t + std::max(contact.gap, 0.0) / atMost;
+            if (time < first.time) first = {time, atMost, t, &contact};
         }
         return first;
     }
@@ -175,8 +251,8 @@ double closedBy(const GapScratch& scratch, const GapRow& row, double u, double d
 
 }  // namespace
 
-void letPass(const World& world, double dt, const std::vector<Held>& held, const GapBlock& block,
-             GapScratch& scratch)
+void foreseeBlows(const World& world, double dt, const std::vector<Held>& held,
+                  const GapBlock& block, GapScratch& scratch)
 {
     forPairs(block, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
@@ -186,8 +262,6 @@ void letPass(const World& world, double dt, const std::vector<Held>& held, const
         const auto speedOf = [&](const GapRow& row) {
             return velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
         };
-        // What already bears is there to be borne by.
-        const auto bears = [](const GapRow& row) { return row.impulse.x() > 0.0; };
         const double slow = kSlow * smallerRadius(world, pair.bodies.a, pair.bodies.b) / dt;
         double fastest = slow;
         for (const GapRow& row : rows) {
@@ -196,13 +270,14 @@ void letPass(const World& world, double dt, const std::vector<Held>& held, const
             if (-u > fastest && closedBy(scratch, row, u, dt) > 0.0) fastest = -u;
         }
         if (fastest == slow) return;
-        Passing passing(world, held, scratch, pair, dt, fastest);
+        Foresight foresight(world, held, scratch, pair, dt, fastest);
         const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
-        if (!passing.passes(contacts)) return;
+        if (!foresight.passes(contacts)) return foresight.aim(contacts, rows);
         for (GapRow& row : rows) {
             const double u = speedOf(row);
-            if (bears(row) || !passing.isFast(u)) continue;
-            row.gap = std::max(row.gap, 0.0) + std::max(closedBy(scratch, row, u, dt), 0.0);
+            if (bears(row) || !foresight.isFast(u)) continue;
+            const double closed = std::max(closedBy(scratch, row, u, dt), 0.0);
+            row.gap = std::max(row.gap, 0.0) + (1.0 + kSpare) * closed;
         }
     });
 }

@@ -47,7 +47,7 @@ World overAnEdge(std::shared_ptr<const Shape> shape, double lowest, double clear
     return world;
 }
 
-TEST(GapPassing, WhatFliesOverAnEdgeDoesNotFeelIt)
+TEST(GapForesight, WhatFliesOverAnEdgeDoesNotFeelIt)
 {
     for (const double clearance : {0.001, 0.005, 0.02, 0.05}) {
         for (const bool isBall : {false, true}) {
@@ -61,7 +61,7 @@ TEST(GapPassing, WhatFliesOverAnEdgeDoesNotFeelIt)
     }
 }
 
-TEST(GapPassing, WhatStandsInTheWayOfItIsHit)
+TEST(GapForesight, WhatStandsInTheWayOfItIsHit)
 {
     for (const double clearance : {-0.02, -0.1, -0.3}) {
         World world = overAnEdge(boxShape(Vec3::Constant(0.5), 1), -0.25, clearance);
@@ -70,7 +70,7 @@ TEST(GapPassing, WhatStandsInTheWayOfItIsHit)
     }
 }
 
-TEST(GapPassing, TwoThatFlyPastEachOtherDoNotMeet)
+TEST(GapForesight, TwoThatFlyPastEachOtherDoNotMeet)
 {
     for (const bool isBall : {false, true}) {
         World world;
@@ -82,6 +82,35 @@ TEST(GapPassing, TwoThatFlyPastEachOtherDoNotMeet)
         run(world, 0.0, 1.0);
         EXPECT_LE((world.motion[0].velocity - Vec3(5.0, 0.0, 0.0)).norm(), 1e-3) << isBall;
         EXPECT_LE(world.motion[1].velocity.norm(), 1e-3) << isBall;
+    }
+}
+
+TEST(GapForesight, BallsHitEachOtherAlongTheLineTheyHaveThen)
+{
+    constexpr double kRadius = 0.02857, kSpeed = 2.0;
+    for (const bool isMesh : {false, true}) {
+        const auto ball =
+            isMesh ? buildMeshShape("ball", makeSphere(kRadius, 3)) : exactSphere(kRadius);
+        for (const double degrees : {15.0, 30.0, 45.0, 60.0, 75.0}) {
+            for (const double start : {-0.3, -0.317, -0.33}) {
+                const double cut = degrees * kPi / 180.0;
+                World world;
+                const MaterialId material = addMaterial(world, 0.0, 1.0);
+                addBody(world, ball, material,
+                        {{start, 0.0, 2.0 * kRadius * std::sin(cut)}, Quat::Identity()}, 0.17,
+                        {kSpeed, 0.0, 0.0});
+                addBody(world, ball, material, {}, 0.17);
+                run(world, 0.0, 0.5);
+                const Vec3 along(std::cos(cut), 0.0, -std::sin(cut));
+                const Vec3 object = kSpeed * std::cos(cut) * along;
+                const Vec3 cue = Vec3(kSpeed, 0.0, 0.0) - object;
+                EXPECT_LE((world.motion[1].velocity - object).norm(), 1e-4 * kSpeed)
+                    << degrees << " " << start << (isMesh ? " mesh" : "");
+                EXPECT_LE((world.motion[0].velocity - cue).norm(), 1e-4 * kSpeed)
+                    << degrees << " " << start << (isMesh ? " mesh" : "");
+                EXPECT_LE(kRadius * angularVelocityOf(world, 1).norm(), 1e-4 * kSpeed) << degrees;
+            }
+        }
     }
 }
 
@@ -98,7 +127,7 @@ World overSeams(std::shared_ptr<const Shape> shape, const Quat& orientation, dou
     return world;
 }
 
-TEST(GapPassing, SeamsBetweenFlushBlocksStopNothing)
+TEST(GapForesight, SeamsBetweenFlushBlocksStopNothing)
 {
     const Quat yawed = fromEulerXyz({0.0, 10.0 * kPi / 180.0, 0.0});
     for (const double frame : {kFrame, 1.0 / 240.0}) {
@@ -119,7 +148,7 @@ TEST(GapPassing, SeamsBetweenFlushBlocksStopNothing)
     }
 }
 
-TEST(GapPassing, ABallRollsOverASeamWithoutAHop)
+TEST(GapForesight, ABallRollsOverASeamWithoutAHop)
 {
     World world = overSeams(exactSphere(0.25), Quat::Identity(), 0.0, 5.0);
     double highest = 0.0;
@@ -132,14 +161,14 @@ TEST(GapPassing, ABallRollsOverASeamWithoutAHop)
     EXPECT_LE(highest, 0.251);
 }
 
-TEST(GapPassing, AStepAtASeamIsHit)
+TEST(GapForesight, AStepAtASeamIsHit)
 {
     World world = overSeams(boxShape(Vec3::Constant(0.5), 1), Quat::Identity(), -0.05, 5.0);
     run(world, 9.81, 1.0);
     EXPECT_LE(world.motion[4].velocity.x(), 4.0);
 }
 
-TEST(GapPassing, NothingIsShotThroughAThinWall)
+TEST(GapForesight, NothingIsShotThroughAThinWall)
 {
     for (const double speed : {20.0, 60.0, 200.0}) {
         World world;
