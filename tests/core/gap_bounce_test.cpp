@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/base/random.h"
 #include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -130,6 +132,34 @@ TEST(GapBounce, ABlowIsPassedOnWhereThreadsShareTheWork)
     const std::array<Vec3, 5> handed = {still, still, -away, still, fast};
     for (std::size_t k = 0; k < 5; ++k)
         EXPECT_NEAR((across[k] - handed[k]).norm(), 0.0, 1e-3) << across[k].transpose();
+}
+
+/// The most energy that a body has that tumbles over the ground, elastic and without friction, as a
+/// share of what it had at first.
+double mostEnergyOfTumbling(const std::shared_ptr<const Shape>& shape, double spin)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 1.0);
+    addPlane(world, material);
+    addBody(world, shape, material, {{0.0, 2.0, 0.0}, fromEulerXyz({0.35, 0.52, 0.7})}, 1.0,
+            {1.0, 0.0, 0.3}, spin * Vec3(1.0, 0.3, -0.5));
+    const StepSettings settings = screeSettings();
+    Stepper stepper(settings);
+    const auto energyOf = [](const FrameReport& report) {
+        return report.kineticEnergy + report.potentialEnergy;
+    };
+    const double before = energyOf(reportStart(world, settings.gravity));
+    double most = 0.0;
+    for (int frame = 0; frame < 240; ++frame)
+        most = std::max(most, energyOf(stepper.advanceFrame(world, 1.0 / 24.0)) / before);
+    return most;
+}
+
+TEST(GapBounce, WhatLandsOnPlacesBesideEachOtherGainsNoEnergyToSpeakOf)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(0.25, 0.08, {24, 12}));
+    for (const double spin : {0.0, 0.75, 3.75, 8.25, 9.75})
+        EXPECT_LE(mostEnergyOfTumbling(ring, spin), 1.002) << spin;
 }
 
 TEST(GapBounce, ABodyThatIsStruckLateInAStepDoesNotRunThroughWhatItMeetsBefore)
