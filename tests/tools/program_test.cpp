@@ -17,9 +17,9 @@
 
 #include "io/file_bytes.h"
 #include "io/take.h"
-#include "render/png_writer.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
+#include "tools/picture_file.h"
 
 namespace scree {
 namespace test {
