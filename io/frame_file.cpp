@@ -17,12 +17,11 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "io/byte_order.h"
 #include "io/file_bytes.h"
 
 namespace scree {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "frame files are written as memory is");
 
 constexpr std::array<char, 8> kMagic = {'S', 'C', 'R', 'E', 'E', 'F', 'R', 'M'};
 
@@ -76,8 +75,7 @@ public:
         entry.rows = values.size() / columns;
         entry.columns = columns;
         entries_.push_back(entry);
-        contents_.emplace_back(reinterpret_cast<const char*>(values.data()),
-                               values.size() * sizeof(T));
+        contents_.emplace_back(bytesOf(values));
         contents_.back().resize((contents_.back().size() + 7) / 8 * 8, '\0');
     }
 
@@ -96,11 +94,9 @@ public:
         std::string bytes;
         bytes.reserve(header.byteCount);
         bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
-        bytes.append(reinterpret_cast<const char*>(entries_.data()),
-                     entries_.size() * sizeof(BlockEntry));
+        bytes += bytesOf(entries_);
         for (const std::string& content : contents_) bytes += content;
-        const std::uint64_t checksum = hashBytes(bytes.data(), bytes.size());
-        bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+        appendBytes(bytes, hashBytes(bytes.data(), bytes.size()));
         return bytes;
     }
 
@@ -166,9 +162,7 @@ private:
             fail("cut short or grown: " + std::to_string(bytes_.size()) + " bytes, written with " +
                  std::to_string(header_.byteCount));
         const std::size_t contentSize = bytes_.size() - sizeof(std::uint64_t);
-        std::uint64_t checksum = 0;
-        std::memcpy(&checksum, bytes_.data() + contentSize, sizeof checksum);
-        if (checksum != hashBytes(bytes_.data(), contentSize))
+        if (readBytes<std::uint64_t>(bytes_, contentSize) != hashBytes(bytes_.data(), contentSize))
             fail("damaged: the checksum does not fit the contents");
     }
 
