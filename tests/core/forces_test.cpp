@@ -143,6 +143,7 @@ TEST(Forces, FieldsPointAndFadeAsTheySay)
     EXPECT_NEAR(at({4.0, 4.0, 0.0}).norm(), 12.0 * 0.5625, 1e-13);
     field.falloff = Falloff::inverseSquare;
     EXPECT_NEAR(at({11.0, 0.0, 0.0}).norm(), 6.0, 1e-14);
+    EXPECT_NEAR(at({21.0, 0.0, 0.0}).norm(), 12.0 / (1.0 + 4.0), 1e-14);
     field.falloff = Falloff::none;
     field.kind = ForceField::Kind::vortex;
     field.direction = Vec3::UnitY();
