@@ -205,6 +205,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
            (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
         solveGaps(world, dt, SolvedIslands(scratch), report);
     }
+    report.loopsAtTheirCap += looks > kMostLooks;
     {
         const PhaseTimer timer(report.seconds, Phase::contact);
         report.contactImpulses = countImpulses(scratch);
