@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/byte_order.h"
+#include "io/byte_cursor.h"
 
 namespace scree {
 
@@ -12,43 +12,21 @@ namespace {
 constexpr std::size_t kDigestBytes = 16;
 constexpr unsigned kInlineMetadata = 255;
 
-/// Reads a block of headers from front to back.
-class HeaderCursor {
-public:
-    HeaderCursor(const OgawaReader& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+/// For a block of headers.
+ByteCursor cursorOver(std::string_view headers, const OgawaReader& file)
+{
+    return {headers, [&file] { file.refuse("is damaged: a header is cut short"); }};
+}
 
-    bool isAtEnd() const { return bytes_.empty(); }
-
-    template <class Value>
-    Value take()
-    {
-        Value value;
-        std::memcpy(&value, takeText(sizeof value).data(), sizeof value);
-        return value;
-    }
-
-    /// A number of 1, 2 or 4 bytes.
-    std::uint32_t takeSized(unsigned hint)
-    {
-        if (hint == 0) return take<std::uint8_t>();
-        return hint == 1 ? take<std::uint16_t>() : take<std::uint32_t>();
-    }
-
-    std::string_view takeText(std::size_t length)
-    {
-        if (length > bytes_.size()) file_.refuse("is damaged: a header is cut short");
-        const std::string_view text = bytes_.substr(0, length);
-        bytes_.remove_prefix(length);
-        return text;
-    }
-
-private:
-    const OgawaReader& file_;
-    std::string_view bytes_;
-};
+/// A number of 1, 2 or 4 bytes.
+std::uint32_t takeSized(ByteCursor& cursor, unsigned hint)
+{
+    if (hint == 0) return cursor.take<std::uint8_t>();
+    return hint == 1 ? cursor.take<std::uint16_t>() : cursor.take<std::uint32_t>();
+}
 
 /// A property's header; the metadata index stands for a text that the caller knows.
-StoredProperty takeHeader(HeaderCursor& cursor, const std::vector<std::string>& metadata,
+StoredProperty takeHeader(ByteCursor& cursor, const std::vector<std::string>& metadata,
                           const OgawaReader& file)
 {
     const auto info = cursor.take<std::uint32_t>();
@@ -59,10 +37,10 @@ StoredProperty takeHeader(HeaderCursor& cursor, const std::vector<std::string>& 
     layout.type = static_cast<AlembicType>(info >> 4 & 15u);
     layout.extent = static_cast<int>(info >> 12 & 255u);
     if (layout.kind != AlembicKind::compound) {
-        property.sampleCount = cursor.takeSized(hint);
+        property.sampleCount = takeSized(cursor, hint);
         const bool isConstant = info >> 11 & 1u, isStored = info >> 9 & 1u;
-        property.firstChange = isStored ? cursor.takeSized(hint) : 1;
-        property.lastChange = isStored               ? cursor.takeSized(hint)
+        property.firstChange = isStored ? takeSized(cursor, hint) : 1;
+        property.lastChange = isStored               ? takeSized(cursor, hint)
                               : property.sampleCount ? property.sampleCount - 1
                                                      : 0;
         if (isConstant || property.sampleCount < 2) property.firstChange = property.lastChange = 0;
@@ -70,12 +48,12 @@ StoredProperty takeHeader(HeaderCursor& cursor, const std::vector<std::string>& 
             property.lastChange >= std::max(property.sampleCount, 1u)) {
             file.refuse("is damaged: a property changes when it has no samples");
         }
-        if (info >> 8 & 1u) layout.sampling = static_cast<int>(cursor.takeSized(hint));
+        if (info >> 8 & 1u) layout.sampling = static_cast<int>(takeSized(cursor, hint));
     }
-    layout.name = cursor.takeText(cursor.takeSized(hint));
+    layout.name = cursor.takeText(takeSized(cursor, hint));
     const unsigned index = info >> 20 & 255u;
     if (index == kInlineMetadata) {
-        layout.metadata = cursor.takeText(cursor.takeSized(hint));
+        layout.metadata = cursor.takeText(takeSized(cursor, hint));
     } else if (index < metadata.size()) {
         layout.metadata = metadata[index];
     }
@@ -107,7 +85,7 @@ AlembicReader::AlembicReader(const std::string& path) : file_(path)
 
 void AlembicReader::readSamplings(std::string_view bytes)
 {
-    HeaderCursor cursor(file_, bytes);
+    ByteCursor cursor = cursorOver(bytes, file_);
     while (!cursor.isAtEnd()) {
         cursor.take<std::uint32_t>();  // the most samples of any property
         Sampling sampling;
@@ -125,7 +103,7 @@ void AlembicReader::readSamplings(std::string_view bytes)
 void AlembicReader::readMetadataTable(std::string_view bytes)
 {
     metadata_.emplace_back();
-    HeaderCursor cursor(file_, bytes);
+    ByteCursor cursor = cursorOver(bytes, file_);
     while (!cursor.isAtEnd()) metadata_.emplace_back(cursor.takeText(cursor.take<std::uint8_t>()));
 }
 
@@ -141,7 +119,7 @@ std::vector<StoredObject> AlembicReader::children(const StoredObject& parent) co
     std::string_view headers = file_.data(file_.child(parent.group, count - 1));
     headers.remove_suffix(std::min(headers.size(), 2 * kDigestBytes));
     std::vector<StoredObject> result;
-    HeaderCursor cursor(file_, headers);
+    ByteCursor cursor = cursorOver(headers, file_);
     while (!cursor.isAtEnd()) {
         StoredObject object;
         object.name = cursor.takeText(cursor.take<std::uint32_t>());
@@ -173,7 +151,7 @@ std::vector<StoredProperty> AlembicReader::readProperties(OgawaWord compound) co
     const std::uint64_t count = file_.childCount(compound);
     if (count == 0) return {};
     std::vector<StoredProperty> result;
-    HeaderCursor cursor(file_, file_.data(file_.child(compound, count - 1)));
+    ByteCursor cursor = cursorOver(file_.data(file_.child(compound, count - 1)), file_);
     while (!cursor.isAtEnd()) {
         result.push_back(takeHeader(cursor, metadata_, file_));
         result.back().group = file_.child(compound, result.size() - 1);

@@ -118,6 +118,10 @@ private:
         definition.groups = body.groups;
         if (body.kind == BodyKind::keyed) {
             definition.script = std::make_shared<MotionScript>(body.keys, body.interpolation);
+            if (body.keyedFromFrame) {
+                definition.kind = BodyKind::dynamic;  // until then
+                definition.keyedFrom = *body.keyedFromFrame - shot_.firstFrame;
+            }
             if (body.releaseFrame) definition.keyedUntil = *body.releaseFrame - shot_.firstFrame;
         }
         if (body.birth) {

@@ -4,13 +4,13 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "io/byte_order.h"
+#include "io/byte_cursor.h"
 #include "io/file_bytes.h"
 #include "io/take_info.h"
 
@@ -28,40 +28,17 @@ void appendArray(std::string& bytes, const std::vector<Element>& elements)
     bytes.append(reinterpret_cast<const char*>(elements.data()), sizeof(Element) * elements.size());
 }
 
-/// Takes values off the front; once something is missing all further values are zero.
-class Reader {
-public:
-    explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+struct CutShort {};
 
-    template <class Value>
-    Value take()
-    {
-        if (bytes_.size() < sizeof(Value)) isWhole_ = false;
-        if (!isWhole_) return Value{};
-        const auto value = readBytes<Value>(bytes_, 0);
-        bytes_.remove_prefix(sizeof(Value));
-        return value;
-    }
-
-    template <class Element>
-    std::vector<Element> takeArray()
-    {
-        const auto count = take<std::uint64_t>();
-        if (count > bytes_.size() / sizeof(Element)) isWhole_ = false;
-        if (!isWhole_) return {};
-        std::vector<Element> elements(count);
-        // Neither side need have an address where there is nothing.
-        if (count > 0) std::memcpy(elements.data(), bytes_.data(), sizeof(Element) * count);
-        bytes_.remove_prefix(sizeof(Element) * count);
-        return elements;
-    }
-
-    bool isUsedUp() const { return isWhole_ && bytes_.empty(); }
-
-private:
-    std::string_view bytes_;
-    bool isWhole_ = true;
-};
+template <class Element>
+std::vector<Element> takeArray(ByteCursor& cursor)
+{
+    const auto count = cursor.take<std::uint64_t>();
+    cursor.require(count, sizeof(Element));
+    std::vector<Element> elements(count);
+    cursor.takeInto(std::span(elements));
+    return elements;
+}
 
 /// Whether points have places in the lattice: divisions by the spacing stay finite, too.
 bool isLattice(const NodeLayout& layout)
@@ -112,6 +89,28 @@ bool isConsistent(const DistanceField& field)
     return true;
 }
 
+/// What stands between the mark and the hash. Throws CutShort.
+std::optional<DistanceField> takeField(std::uint64_t key, std::string_view bytes)
+{
+    ByteCursor cursor(bytes, [] { throw CutShort(); });
+    if (cursor.take<std::uint32_t>() != kFormat) return std::nullopt;
+    if (cursor.take<std::uint64_t>() != key) return std::nullopt;
+    NodeLayout layout;
+    for (int axis = 0; axis < 3; ++axis) layout.origin[axis] = cursor.take<double>();
+    layout.spacing = cursor.take<double>();
+    for (int& count : layout.count) count = cursor.take<int>();
+    DistanceField field;
+    field.nodes.layout = layout;
+    field.nodes.storage = static_cast<FieldStorage>(cursor.take<std::int32_t>());
+    field.nodes.blocks = takeArray<FieldBlock>(cursor);
+    field.nodes.values = takeArray<float>(cursor);
+    field.nearest.start = takeArray<std::uint32_t>(cursor);
+    field.nearest.faces = takeArray<std::uint32_t>(cursor);
+    if (!cursor.isAtEnd() || !isConsistent(field)) return std::nullopt;
+    field.nodes.blockCount = blocksAlong(layout);
+    return field;
+}
+
 }  // namespace
 
 std::string bytesOfField(std::uint64_t key, const DistanceField& field)
@@ -140,23 +139,11 @@ std::optional<DistanceField> fieldOfBytes(std::uint64_t key, std::string_view by
     const std::string_view hashed = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
     if (readBytes<std::uint64_t>(bytes, hashed.size()) != hashText(hashed)) return std::nullopt;
 
-    Reader reader(hashed.substr(kMark.size()));
-    if (reader.take<std::uint32_t>() != kFormat) return std::nullopt;
-    if (reader.take<std::uint64_t>() != key) return std::nullopt;
-    NodeLayout layout;
-    for (int axis = 0; axis < 3; ++axis) layout.origin[axis] = reader.take<double>();
-    layout.spacing = reader.take<double>();
-    for (int& count : layout.count) count = reader.take<int>();
-    DistanceField field;
-    field.nodes.layout = layout;
-    field.nodes.storage = static_cast<FieldStorage>(reader.take<std::int32_t>());
-    field.nodes.blocks = reader.takeArray<FieldBlock>();
-    field.nodes.values = reader.takeArray<float>();
-    field.nearest.start = reader.takeArray<std::uint32_t>();
-    field.nearest.faces = reader.takeArray<std::uint32_t>();
-    if (!reader.isUsedUp() || !isConsistent(field)) return std::nullopt;
-    field.nodes.blockCount = blocksAlong(layout);
-    return field;
+    try {
+        return takeField(key, hashed.substr(kMark.size()));
+    } catch (const CutShort&) {
+        return std::nullopt;
+    }
 }
 
 DistanceCache::DistanceCache(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -16,8 +16,6 @@
 
 namespace scree {
 
-constexpr std::uint32_t kFrameFileVersion = 1;
-
 /// What a frame file holds. `motion`, `order`, `bornAt`, `clock` and `contactMemory` are the state
 /// (SI); `scene` is what follows from it in the shot's unit, kept because readers outside this
 /// program want only that.

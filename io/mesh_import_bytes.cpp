@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+#include <span>
 
 #include "core/base/error.h"
-#include "io/byte_order.h"
+#include "io/byte_cursor.h"
 
 namespace scree {
 namespace {
@@ -50,17 +50,21 @@ void appendColumns(std::string& bytes, const Matrix& matrix)
 class Decoder {
 public:
     Decoder(const std::string& bytes, const std::string& path, const ImportLimits& limits)
-        : bytes_(bytes), path_(path), limits_(limits)
+        : cursor_(bytes, [this] { refuse("cannot be read: its reader's answer is cut"); }),
+          path_(path),
+          limits_(limits)
     {
     }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
 
     ImportedFile decode()
     {
         ImportedFile file;
-        const auto metres = take<double>();
+        const auto metres = cursor_.take<double>();
         if (std::isfinite(metres) && metres > 0.0) file.metresPerUnit = metres;
-        file.isYUp = take<std::uint8_t>() != 0;
-        file.countsFramesFromZero = take<std::uint8_t>() != 0;
+        file.isYUp = cursor_.take<std::uint8_t>() != 0;
+        file.countsFramesFromZero = cursor_.take<std::uint8_t>() != 0;
         const std::uint32_t count = takeCount(limits_.nodes, "nodes (--import-nodes)");
         for (std::uint32_t i = 0; i < count; ++i) file.nodes.push_back(takeNode());
         const std::uint32_t cameras = takeCount(limits_.nodes, "cameras (--import-nodes)");
@@ -70,24 +74,9 @@ public:
     }
 
 private:
-    template <class T>
-    T take()
-    {
-        T value;
-        takeBytes(&value, sizeof value);
-        return value;
-    }
-
-    void takeBytes(void* target, std::size_t count)
-    {
-        if (count > bytes_.size() - next_) refuse("cannot be read: its reader's answer is cut");
-        if (count > 0) std::memcpy(target, bytes_.data() + next_, count);
-        next_ += count;
-    }
-
     std::uint32_t takeCount(std::uint32_t most, const char* what)
     {
-        const auto count = take<std::uint32_t>();
+        const auto count = cursor_.take<std::uint32_t>();
         if (count > most) {
             refuse("has more than " + std::to_string(most) + " " + what);
         }
@@ -96,16 +85,14 @@ private:
 
     std::string takeText(std::uint32_t most, const char* what)
     {
-        std::string text(takeCount(most, what), ' ');
-        takeBytes(text.data(), text.size());
-        return text;
+        return std::string(cursor_.takeText(takeCount(most, what)));
     }
 
     Pose takePose()
     {
         Pose pose;
-        takeBytes(pose.position.data(), 3 * sizeof(double));
-        takeBytes(pose.orientation.coeffs().data(), 4 * sizeof(double));
+        cursor_.takeInto(std::span(pose.position.data(), 3));
+        cursor_.takeInto(std::span(pose.orientation.coeffs().data(), 4));
         pose.orientation.normalize();
         if (!pose.position.allFinite() || !pose.orientation.coeffs().allFinite()) {
             refuse("has coordinates that are not finite");
@@ -117,12 +104,10 @@ private:
     void takeColumns(Matrix& matrix, std::uint32_t most, const char* what)
     {
         const std::uint32_t count = takeCount(most, what);
-        const std::uint64_t bytes =
-            std::uint64_t{count} * Matrix::RowsAtCompileTime * sizeof(typename Matrix::Scalar);
-        // Before memory is taken for them.
-        if (bytes > bytes_.size() - next_) refuse("cannot be read: its reader's answer is cut");
+        const std::size_t size = std::size_t{count} * Matrix::RowsAtCompileTime;
+        cursor_.require(size, sizeof(typename Matrix::Scalar));
         matrix.resize(Matrix::RowsAtCompileTime, count);
-        takeBytes(matrix.data(), bytes);
+        cursor_.takeInto(std::span(matrix.data(), size));
     }
 
     ImportedNode takeNode()
@@ -164,13 +149,13 @@ private:
             const auto seconds = takeMoment(camera.zoom);
             camera.zoom.push_back({seconds, takeFov(camera)});
         }
-        camera.isZoomLost = take<std::uint8_t>() != 0;
+        camera.isZoomLost = cursor_.take<std::uint8_t>() != 0;
         return camera;
     }
 
     double takeFov(const ImportedCamera& camera)
     {
-        const auto degrees = take<double>();
+        const auto degrees = cursor_.take<double>();
         if (degrees > 0.0 && degrees < 180.0) return degrees;
         refuse("has a camera '" + camera.name + "' without an angle of view");
     }
@@ -179,7 +164,7 @@ private:
     template <class Key>
     double takeMoment(const std::vector<Key>& keys)
     {
-        const auto seconds = take<double>();
+        const auto seconds = cursor_.take<double>();
         const bool isLater = keys.empty() || seconds > keys.back().seconds;
         if (!std::isfinite(seconds) || !isLater) refuse("has keys that are not in order");
         return seconds;
@@ -199,10 +184,9 @@ private:
         throw Error(ErrorKind::badInput, "mesh file '" + path_ + "' " + why);
     }
 
-    const std::string& bytes_;
+    ByteCursor cursor_;
     const std::string& path_;
     const ImportLimits& limits_;
-    std::size_t next_ = 0;
 };
 
 }  // namespace

@@ -105,9 +105,17 @@ struct ShotBody {
     bool startsAsleep = false;    ///< rests until something touches it
     std::vector<MotionKey> keys;  ///< of a keyed body; times since the first frame [s], poses [m]
     KeyInterpolation interpolation = KeyInterpolation::smooth;
-    std::optional<int> releaseFrame;  ///< at which a keyed body becomes dynamic
-    std::optional<ShotBirth> birth;   ///< without: there from the start
+    std::optional<int> keyedFromFrame;  ///< until which a keyed body is dynamic
+    std::optional<int> releaseFrame;    ///< at which a keyed body becomes dynamic
+    std::optional<ShotBirth> birth;     ///< without: there from the start
     SourceLocation location;
+
+    /// Whether forces and impulses never move it.
+    bool isNeverFree() const
+    {
+        return kind == BodyKind::fixed ||
+               (kind == BodyKind::keyed && !keyedFromFrame && !releaseFrame);
+    }
 };
 
 /// Two materials against each other, a ≤ b.

@@ -338,7 +338,7 @@ private:
         if (const ShotNode* mass = node.find("mass")) {
             body.mass = mass->number;
             if (isStatic) report(*mass, "a static body has no 'mass': nothing moves it");
-            if (body.kind == BodyKind::keyed && !body.releaseFrame) {
+            if (body.kind == BodyKind::keyed && body.isNeverFree()) {
                 report(*mass, "a keyed body that is never released has no 'mass'");
             }
         }

@@ -45,8 +45,24 @@ MotionKey readMotionKey(const ShotNode& node, const Shot& shot, ProblemList& pro
     return key;
 }
 
+void readTakeOver(const ShotNode& start, const Shot& shot, ShotBody& body, ProblemList& problems)
+{
+    if (start.integer <= shot.firstFrame) {
+        problems.add(start.where, "'keyed_from' must be a frame after the first, " +
+                                      std::to_string(shot.firstFrame) +
+                                      "; without it a body is keyed from the beginning");
+        return;
+    }
+    body.keyedFromFrame = static_cast<int>(start.integer);
+}
+
 void readRelease(const ShotNode& release, const Shot& shot, ShotBody& body, ProblemList& problems)
 {
+    if (body.keyedFromFrame && release.integer <= *body.keyedFromFrame) {
+        problems.add(release.where, "'release' must be a frame after 'keyed_from', " +
+                                        std::to_string(*body.keyedFromFrame));
+        return;
+    }
     if (release.integer <= shot.firstFrame) {
         problems.add(release.where,
                      "'release' must be a frame after the first, " +
@@ -166,7 +182,7 @@ private:
 void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, ProblemList& problems)
 {
     if (body.kind != BodyKind::keyed) {
-        for (const char* key : {"keys", "interpolate", "release"}) {
+        for (const char* key : {"keys", "interpolate", "keyed_from", "release"}) {
             if (const ShotNode* stray = node.find(key)) {
                 problems.add(stray->where,
                              "'" + std::string(key) + "' is for bodies with motion = \"keyed\"");
@@ -177,6 +193,9 @@ void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, Pro
     if (const ShotNode* word = node.find("interpolate")) {
         body.interpolation =
             word->text == "linear" ? KeyInterpolation::linear : KeyInterpolation::smooth;
+    }
+    if (const ShotNode* start = node.find("keyed_from")) {
+        readTakeOver(*start, shot, body, problems);
     }
     if (const ShotNode* release = node.find("release")) {
         readRelease(*release, shot, body, problems);
@@ -203,12 +222,10 @@ void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, Pro
 
 void readBodyForces(const ShotNode& node, ShotBody& body, ProblemList& problems)
 {
-    const bool isNeverFree =
-        body.kind == BodyKind::fixed || (body.kind == BodyKind::keyed && !body.releaseFrame);
     for (const char* key : {"force", "torque"}) {
         const ShotNode* value = node.find(key);
         if (!value) continue;
-        if (isNeverFree) {
+        if (body.isNeverFree()) {
             problems.add(value->where,
                          "nothing moves this body, so it has no '" + std::string(key) + "'");
         }

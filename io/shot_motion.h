@@ -11,8 +11,8 @@
 
 namespace scree {
 
-/// Reads `keys`, `interpolate` and `release` of a [[body]]; reports what fits badly. The shot's
-/// frames and units must be known.
+/// Reads `keys`, `interpolate`, `keyed_from` and `release` of a [[body]]; reports what fits badly.
+/// The shot's frames and units must be known.
 void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, ProblemList& problems);
 
 /// Reads `force` and `torque` of a [[body]].

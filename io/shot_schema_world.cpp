@@ -183,6 +183,14 @@ const std::vector<ShotKey> kBodyKeys = {
      .min = -1000000000,
      .max = 1000000000,
      .help = "Frame at which a keyed body becomes dynamic, with the velocity it has just then."},
+    {.path = "body.keyed_from",
+     .type = integer,
+     .unit = "frame",
+     .min = -1000000000,
+     .max = 1000000000,
+     .help = "Frame at which the keys take a body over. Until then it is dynamic and starts, at "
+             "rest, at the first of its keys; at this frame it stands on them at once, wherever it "
+             "has got to by then."},
 };
 
 const std::vector<ShotKey> kForceKeys = {

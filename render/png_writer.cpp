@@ -2,17 +2,12 @@
 // therefore owns nothing: all that has a destructor belongs to its caller.
 #include "render/png_writer.h"
 
-#include <fcntl.h>
 #include <libdeflate.h>
 #include <png.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <span>
@@ -148,83 +143,6 @@ std::vector<std::uint8_t*> rowPointers(std::vector<std::uint8_t>& pixels, std::s
     return rows;
 }
 
-// ------------------------------------------------------------------------------------------- files
-
-/// A file that appears under its name only when it is complete and on disk.
-class AtomicFile {
-public:
-    explicit AtomicFile(const std::filesystem::path& path)
-        : path_(path), temporary_(path.string() + ".tmp-" + std::to_string(getpid()))
-    {
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) fail(ErrorKind::cannotCreate, "cannot create");
-    }
-    AtomicFile(const AtomicFile&) = delete;
-    AtomicFile& operator=(const AtomicFile&) = delete;
-    ~AtomicFile()
-    {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!committed_) ::unlink(temporary_.c_str());
-    }
-
-    void write(std::span<const std::uint8_t> bytes)
-    {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) fail(ErrorKind::inputOutput, "cannot write");
-            bytes = bytes.subspan(static_cast<std::size_t>(written));
-        }
-    }
-
-    void commit()
-    {
-        const bool synced = ::fsync(descriptor_) == 0;
-        const bool closed = ::close(descriptor_) == 0;
-        descriptor_ = -1;
-        if (!synced || !closed) fail(ErrorKind::inputOutput, "cannot write");
-        if (::rename(temporary_.c_str(), path_.c_str()) != 0)
-            fail(ErrorKind::cannotCreate, "cannot create");
-        committed_ = true;
-        syncFolder();
-    }
-
-private:
-    [[noreturn]] void fail(ErrorKind kind, const std::string& what) const
-    {
-        const std::string reason = std::strerror(errno);
-        if (!committed_) ::unlink(temporary_.c_str());
-        throw Error(kind, what + " " + path_.string() + ": " + reason);
-    }
-
-    /// The new name is on disk once its folder is. Some file systems refuse to sync a folder; the
-    /// file itself is safe then, so that is no error.
-    void syncFolder() const
-    {
-        const std::filesystem::path folder = path_.has_parent_path() ? path_.parent_path() : ".";
-        const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (descriptor < 0) return;
-        ::fsync(descriptor);
-        ::close(descriptor);
-    }
-
-    std::filesystem::path path_;
-    std::string temporary_;
-    int descriptor_ = -1;
-    bool committed_ = false;
-};
-
-std::vector<std::uint8_t> readBytes(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        const bool exists = std::filesystem::exists(path);
-        throw Error(exists ? ErrorKind::inputOutput : ErrorKind::missingInput,
-                    (exists ? "cannot read picture " : "no such picture: ") + path.string());
-    }
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 // ---------------------------------------------------------------------------------------- decoding
 
 struct PngDecoder {
@@ -273,11 +191,11 @@ bool decodePixels(PngDecoder& decoder, std::span<std::uint8_t*> rows)
 }
 
 /// The pixels, three bytes each; the header stays with the decoder.
-std::vector<std::uint8_t> decode(PngDecoder& decoder, const std::filesystem::path& path)
+std::vector<std::uint8_t> decode(PngDecoder& decoder, const std::string& name)
 {
     const auto failure = [&] {
         return Error(ErrorKind::inputOutput,
-                     path.string() + " is not a readable PNG file: " + decoder.error);
+                     name + " is not a readable PNG file: " + decoder.error);
     };
     if (!decodeHeader(decoder)) throw failure();
     const std::size_t rowBytes = png_get_rowbytes(decoder.png, decoder.info);
@@ -313,29 +231,19 @@ std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text)
     return bytes;
 }
 
-void writePng(const std::filesystem::path& path, const Image& image, const PngText& text)
+PngContents decodePng(std::span<const std::uint8_t> bytes, const std::string& name)
 {
-    const std::vector<std::uint8_t> bytes = encodePng(image, text);
-    AtomicFile file(path);
-    file.write(bytes);
-    file.commit();
-}
-
-PngContents readPng(const std::filesystem::path& path)
-{
-    const std::vector<std::uint8_t> bytes = readBytes(path);
     PngDecoder decoder(bytes);
-    const std::vector<std::uint8_t> pixels = decode(decoder, path);
+    const std::vector<std::uint8_t> pixels = decode(decoder, name);
     const int width = static_cast<int>(png_get_image_width(decoder.png, decoder.info));
     const int height = static_cast<int>(png_get_image_height(decoder.png, decoder.info));
     return {fromSrgbBytes(width, height, pixels), textsOf(decoder)};
 }
 
-void requireWholePng(const std::filesystem::path& path)
+void requireWholePng(std::span<const std::uint8_t> bytes, const std::string& name)
 {
-    const std::vector<std::uint8_t> bytes = readBytes(path);
     PngDecoder decoder(bytes);
-    decode(decoder, path);
+    decode(decoder, name);
 }
 
 }  // namespace scree

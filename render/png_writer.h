@@ -1,8 +1,9 @@
-// Image ⇄ PNG files: 8 bits a channel, marked as sRGB.
+// Image ⇄ the bytes of a PNG file: 8 bits a channel, marked as sRGB. This room opens no file; who
+// has one hands its bytes over.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,16 +25,11 @@ struct PngContents {
 /// The bytes of a PNG file. Equal pictures and texts give equal bytes.
 std::vector<std::uint8_t> encodePng(const Image& image, const PngText& text = {});
 
-/// Writes the picture so that `path` is at every instant either what it was before or complete: to
-/// a temporary name in the same folder, synced, renamed. Throws Error{cannotCreate} when the
-/// temporary file or the renaming is refused, Error{inputOutput} when writing fails half way.
-void writePng(const std::filesystem::path& path, const Image& image, const PngText& text = {});
+/// Reads any PNG; alpha is ignored, 16 bits are cut to 8. Throws Error{inputOutput}, which calls
+/// the file by `name`, when the bytes are no readable PNG.
+PngContents decodePng(std::span<const std::uint8_t> bytes, const std::string& name);
 
-/// Reads any PNG; alpha is ignored, 16 bits are cut to 8. Throws Error{missingInput} when there is
-/// no such file and Error{inputOutput} when it is no readable PNG.
-PngContents readPng(const std::filesystem::path& path);
-
-/// Reads all of the file and keeps nothing: throws as readPng does.
-void requireWholePng(const std::filesystem::path& path);
+/// Reads all of it and keeps nothing: throws as decodePng does.
+void requireWholePng(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace scree

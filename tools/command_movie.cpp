@@ -17,10 +17,10 @@
 #include "io/file_bytes.h"
 #include "io/frame_pattern.h"
 #include "io/take_reader.h"
-#include "render/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/picture_file.h"
 #include "tools/shell_line.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
@@ -141,7 +141,7 @@ void requireWholePictures(const PictureSequence& sequence)
     setThreadCount(threadsToUse(std::nullopt));
     parallelFor(sequence.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && !stopRequested(); ++i)
-            requireWholePng(expandFramePattern(sequence.pattern.string(), sequence.frames[i]));
+            requireWholePngFile(expandFramePattern(sequence.pattern.string(), sequence.frames[i]));
     });
 }
 

@@ -4,10 +4,10 @@
 
 #include "core/base/parallel.h"
 #include "render/contact_sheet.h"
-#include "render/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/picture_file.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
 #include "tools/take_frames.h"

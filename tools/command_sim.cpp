@@ -10,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/start_check.h"
+#include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
 #include "io/distance_cache.h"

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/check.h"
 #include "core/base/parallel.h"
 
 namespace scree {
@@ -158,6 +159,34 @@ std::vector<ContactLevel> pairsByLevel(const World& world, const StepScratch& sc
     return levels;
 }
 
+/// Whether no edge leads down and those inside a level only join what is one component.
+bool riseAlongEdges(const GraphLevels& levels, std::span<const SupportEdge> edges)
+{
+    return std::ranges::all_of(edges, [&](const SupportEdge& edge) {
+        const bool isInside = levels.component[edge.from] == levels.component[edge.to];
+        return isInside ? levels.level[edge.from] == levels.level[edge.to]
+                        : levels.level[edge.from] < levels.level[edge.to];
+    });
+}
+
+/// Whether every movable body is in one level and every resting pair is worked on in one.
+bool arePartition(const std::vector<ContactLevel>& levels, const World& world,
+                  const StepScratch& scratch)
+{
+    std::ptrdiff_t bodies = std::ranges::count_if(world.mass, &BodyMass::isMovable);
+    std::vector<int> visits(scratch.pairCount, 0);
+    for (const ContactLevel& level : levels) {
+        bodies -= level.bodies;
+        for (const std::size_t pair : level.pairs) ++visits[pair];
+    }
+    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
+        const PairRecord& pair = scratch.pairs[i];
+        const bool rests = pair.isTouched && (pair.aFallsOnB || pair.bFallsOnA);
+        if (visits[i] != rests) return false;
+    }
+    return bodies == 0;
+}
+
 }  // namespace
 
 GraphLevels computeLevels(std::size_t nodeCount, std::span<const SupportEdge> edges,
@@ -208,6 +237,7 @@ GraphLevels computeLevels(std::size_t nodeCount, std::span<const SupportEdge> ed
         result.level[n] = levelOf[result.component[n]];
         result.isSupported[n] = supported[result.component[n]];
     }
+    SCREE_VALIDATE(riseAlongEdges(result, edges), "a body is no higher than what it rests on");
     return result;
 }
 
@@ -258,6 +288,7 @@ ContactGraph buildContactGraph(const World& world, const StepSettings& settings,
     graph.contact =
         pairsByLevel(world, scratch, graph.levels, freezeUnsupported,
                      [](const PairRecord& pair) { return pair.aFallsOnB || pair.bFallsOnA; });
+    SCREE_VALIDATE(arePartition(graph.contact, world, scratch), "levels of contact");
     graph.overlap = pairsByLevel(world, scratch, levelsOf(world, scratch, false), freezeUnsupported,
                                  [](const PairRecord&) { return true; });
     for (const ContactLevel& level : graph.contact) {

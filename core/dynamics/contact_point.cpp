@@ -1,5 +1,6 @@
 #include "core/dynamics/contact_point.h"
 
+#include "core/base/check.h"
 #include "core/collision/moving_samples.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/rolling_friction.h"
@@ -113,6 +114,34 @@ ContactSeen seenAt(const PairRecord& pair, const ContactPoint& contact, const Co
             sign * impulse};
 }
 
+/// What an impulse between two movable bodies keeps, and the sizes of what was summed for it.
+struct PairMomentum {
+    Vec3 linear;   ///< [N s]
+    Vec3 angular;  ///< about S's centre of mass [N m s]
+    double linearTerms = 0.0, angularTerms = 0.0;
+};
+
+PairMomentum momentumOf(const BodyMotion& s, const BodyMotion& f, const Vec3& fFromS,
+                        const PassInertia& ofS, const PassInertia& ofF)
+{
+    const Vec3 linearS = s.velocity / ofS.inverseMass, linearF = f.velocity / ofF.inverseMass;
+    const Vec3 orbital = fFromS.cross(linearF);
+    return {linearS + linearF, orbital + s.angularMomentum + f.angularMomentum,
+            linearS.norm() + linearF.norm(),
+            orbital.norm() + s.angularMomentum.norm() + f.angularMomentum.norm()};
+}
+
+/// The same but for rounding, which is largest where the two are far from the world's origin.
+bool isKept(const PairMomentum& before, const PairMomentum& after)
+{
+    constexpr double kRounding = 1e-9;
+    const double linear = kRounding * (before.linearTerms + after.linearTerms);
+    const double angular = kRounding * (before.angularTerms + after.angularTerms);
+    // What is no number is the step's business.
+    return !((after.linear - before.linear).norm() > linear) &&
+           !((after.angular - before.angular).norm() > angular);
+}
+
 }  // namespace
 
 ContactPoint placeContact(const World& world, const PairRecord& pair, const Touch& touch,
@@ -158,10 +187,19 @@ void applyContact(World& world, const StepSettings& settings, PairRecord& pair,
         applied = rollingAt(world, settings, pair, contact, frames, inertia, j.impulse);
         ++(applied.isDropped ? counts.rollingDropped : counts.rolling);
     }
-    applyImpulse(world.motion[contact.sampleBody], ofS, contact.rS, applied.impulse);
-    applyImpulse(world.motion[contact.fieldBody], ofF, contact.rF, -applied.impulse);
-    applyCouple(world.motion[contact.sampleBody], ofS, applied.couple);
-    applyCouple(world.motion[contact.fieldBody], ofF, -applied.couple);
+    BodyMotion &s = world.motion[contact.sampleBody], &f = world.motion[contact.fieldBody];
+    const BodyMotion sBefore = s, fBefore = f;
+    applyImpulse(s, ofS, contact.rS, applied.impulse);
+    applyImpulse(f, ofF, contact.rF, -applied.impulse);
+    applyCouple(s, ofS, applied.couple);
+    applyCouple(f, ofF, -applied.couple);
+    const Vec3 apart = frames.geometry.worldFromB.position - frames.geometry.worldFromA.position;
+    const Vec3 fFromS = ownedByA ? apart : Vec3(-apart);
+    SCREE_VALIDATE(!ofS.isMovable() || !ofF.isMovable() ||
+                       isKept(momentumOf(sBefore, fBefore, fFromS, ofS, ofF),
+                              momentumOf(s, f, fFromS, ofS, ofF)),
+                   world.info[contact.sampleBody].name + " and " +
+                       world.info[contact.fieldBody].name + ": an impulse changed their momentum");
     countImpulse(counts, j.kind);
     if (pair.isWatched)
         noteImpulse(pair, contact.sample, ownedByA, seenAt(pair, contact, frames, applied.impulse));

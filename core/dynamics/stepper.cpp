@@ -1,12 +1,10 @@
 #include "core/dynamics/stepper.h"
 
 #include <algorithm>
-#include <chrono>
-#include <numeric>
 #include <utility>
 
 #include "core/base/random.h"
-#include "core/diagnostics/state_hash.h"
+#include "core/diagnostics/phase_timer.h"
 #include "core/dynamics/births.h"
 #include "core/dynamics/collision_pass.h"
 #include "core/dynamics/contact_graph.h"
@@ -27,6 +25,7 @@
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
 #include "core/dynamics/sleep.h"
+#include "core/dynamics/step_figures.h"
 #include "core/dynamics/step_limit.h"
 #include "core/dynamics/step_view.h"
 
@@ -36,41 +35,6 @@ namespace {
 /// How often a step of method `scree` is solved again because something was struck so that it ran
 /// into what nobody had looked at.
 constexpr int kMostLooks = 64;
-
-using WallClock = std::chrono::steady_clock;
-
-double secondsSince(WallClock::time_point start)
-{
-    return std::chrono::duration<double>(WallClock::now() - start).count();
-}
-
-/// Adds the wall time of a scope to one phase.
-class PhaseTimer {
-public:
-    PhaseTimer(PhaseSeconds& seconds, Phase phase)
-        : seconds_(seconds[static_cast<int>(phase)]), start_(WallClock::now())
-    {
-    }
-    ~PhaseTimer() { seconds_ += secondsSince(start_); }
-    PhaseTimer(const PhaseTimer&) = delete;
-    PhaseTimer& operator=(const PhaseTimer&) = delete;
-
-private:
-    double& seconds_;
-    WallClock::time_point start_;
-};
-
-/// Adds to the phases what they had of a wall time in which blocks were solved, several at once.
-void addShares(double wall, const std::vector<PhaseSeconds>& ofBlocks, PhaseSeconds& seconds)
-{
-    PhaseSeconds sums{};
-    for (const PhaseSeconds& block : ofBlocks) {
-        for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += block[p];
-    }
-    const double all = std::accumulate(sums.begin(), sums.end(), 0.0);
-    if (all == 0.0) return;
-    for (std::size_t p = 0; p < sums.size(); ++p) seconds[p] += wall * sums[p] / all;
-}
 
 /// As many swaps as there are bodies, each drawn for this very step: no draw depends on those
 /// before it, so a resumed run draws the same.  [A21]
@@ -84,116 +48,6 @@ void shuffleOrder(World& world, std::uint64_t seed)
         const std::uint64_t q = randomIndex(count, seed, frame, subStep, 2 * i + 1);
         std::swap(world.order[p], world.order[q]);
     }
-}
-
-double potentialEnergy(const World& world, const Vec3& gravity)
-{
-    double energy = 0.0;
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (!world.mass[b].isMovable()) continue;
-        energy -= gravity.dot(world.motion[b].position) / world.mass[b].inverseMass;
-    }
-    return energy;
-}
-
-void findNonFinite(const World& world, Phase phase, StepReport& report)
-{
-    if (!report.nonFinite.empty()) return;
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        const BodyMotion& m = world.motion[b];
-        const bool isFinite = m.position.allFinite() && m.orientation.coeffs().allFinite() &&
-                              m.velocity.allFinite() && m.angularMomentum.allFinite();
-        if (!isFinite) report.nonFinite.push_back(static_cast<BodyId>(b));
-    }
-    report.nonFinitePhase = phase;
-}
-
-void describeGraph(const ContactGraph& graph, const StepScratch& scratch, StepReport& report)
-{
-    report.broadPairs = static_cast<std::int64_t>(scratch.pairCount);
-    report.contactPairs = graph.contactPairs;
-    report.levels = static_cast<int>(graph.contact.size());
-    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
-        report.touchingPairs += scratch.pairs[i].isTouched;
-    }
-    for (std::size_t l = 1; l < graph.contact.size(); ++l) {
-        report.largestLevel = std::max(report.largestLevel, graph.contact[l].bodies);
-    }
-}
-
-void describeOverlap(const WorstOverlap& worst, StepReport& report)
-{
-    report.deepestAfterPushOut = worst.depth;
-    report.worstOverlapRatio = worst.ratio;
-    report.worstA = worst.a;
-    report.worstB = worst.b;
-}
-
-void describeGaps(const GapScratch& scratch, StepReport& report)
-{
-    report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
-    report.touchingPairs = static_cast<std::int64_t>(scratch.pairs.size());
-    report.contacts = static_cast<std::int64_t>(scratch.rowCount);
-    for (const GapPair& pair : scratch.pairs) {
-        report.contactPairs += pair.bearing > 0;
-        report.levels = std::max(report.levels, levelOf(scratch.levels, pair.bodies) + 1);
-    }
-    std::vector<int> bodies(static_cast<std::size_t>(report.levels), 0);
-    for (std::size_t b = 0; b < scratch.bodies.size(); ++b) {
-        const int level = scratch.levels.level[b];
-        if (level > 0 && scratch.bodies[b].inverseMass > 0.0)
-            report.largestLevel = std::max(report.largestLevel, ++bodies[level]);
-    }
-}
-
-void addStep(const StepReport& step, FrameReport& frame)
-{
-    StepReport& sum = frame.sum;
-    if (frame.steps == 0 || step.dt < frame.shortestStep) {
-        frame.shortestStep = step.dt;
-        sum.limitedBy = step.limitedBy;
-    }
-    frame.longestStep = std::max(frame.longestStep, step.dt);
-    ++frame.steps;
-    sum.dt += step.dt;
-    sum.broadPairs = std::max(sum.broadPairs, step.broadPairs);
-    sum.touchingPairs = std::max(sum.touchingPairs, step.touchingPairs);
-    sum.contactPairs = std::max(sum.contactPairs, step.contactPairs);
-    sum.contacts = std::max(sum.contacts, step.contacts);
-    sum.levels = std::max(sum.levels, step.levels);
-    sum.largestLevel = std::max(sum.largestLevel, step.largestLevel);
-    sum.collisionImpulses += step.collisionImpulses;
-    sum.contactImpulses += step.contactImpulses;
-    sum.shockImpulses += step.shockImpulses;
-    sum.pushes += step.pushes;
-    sum.loopsAtTheirCap += step.loopsAtTheirCap;
-    sum.pushesCut += step.pushesCut;
-    sum.pushOutWork += step.pushOutWork;
-    sum.deepestBeforePushOut = std::max(sum.deepestBeforePushOut, step.deepestBeforePushOut);
-    sum.deepestAfterPushOut = std::max(sum.deepestAfterPushOut, step.deepestAfterPushOut);
-    if (step.worstOverlapRatio > sum.worstOverlapRatio) {
-        sum.worstOverlapRatio = step.worstOverlapRatio;
-        sum.worstA = step.worstA;
-        sum.worstB = step.worstB;
-    }
-    sum.nonFinite = step.nonFinite;
-    sum.nonFinitePhase = step.nonFinitePhase;
-    for (std::size_t p = 0; p < sum.seconds.size(); ++p) sum.seconds[p] += step.seconds[p];
-}
-
-void describeState(const World& world, const Vec3& gravity, FrameReport& report)
-{
-    report.potentialEnergy = potentialEnergy(world, gravity);
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (!world.mass[b].isMovable()) continue;
-        if (!world.contactMemory.isAsleep(static_cast<BodyId>(b))) ++report.bodiesAwake;
-        report.kineticEnergy += kineticEnergy(world.motion[b], world.mass[b]);
-        const BodyMotion& motion = world.motion[b];
-        const Vec3 momentum = motion.velocity / world.mass[b].inverseMass;
-        report.momentum += momentum;
-        report.angularMomentum += motion.position.cross(momentum) + motion.angularMomentum;
-    }
-    report.stateHash = stateHash(world);
 }
 
 }  // namespace
@@ -220,10 +74,10 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
     StepReport report;
     report.dt = dt;
     StepScratch& scratch = *scratch_;
-    aimKeyedBodies(world, dt);
-    scratch.isWatched = observer_ != nullptr;
-    shuffleOrder(world, settings_.seed);
-    beginStep(world, settings_, dt, scratch);
+    const auto timed = [&report](Phase phase, const auto& work) {
+        const PhaseTimer timer(report.seconds, phase);
+        return work();
+    };
     const auto note = [&report](const PassTally& tally, ImpulseCounts& impulses) {
         impulses = tally.impulses;
         report.loopsAtTheirCap += tally.loopsAtTheirCap;
@@ -233,54 +87,53 @@ StepReport Stepper::stepFoundPairs(World& world, double dt)
         findNonFinite(world, phase, report);
         return !report.nonFinite.empty();
     };
+    aimKeyedBodies(world, dt);
+    scratch.isWatched = observer_ != nullptr;
+    shuffleOrder(world, settings_.seed);
+    beginStep(world, settings_, dt, scratch);
 
     // Collisions are found at predicted positions but change velocities that have not yet felt
     // gravity. A block at rest is therefore never mistaken for one that just landed.
-    {
-        const PhaseTimer timer(report.seconds, Phase::collision);
-        note(resolveCollisions(world, settings_, dt, scratch), report.collisionImpulses);
-    }
+    note(timed(Phase::collision, [&] { return resolveCollisions(world, settings_, dt, scratch); }),
+         report.collisionImpulses);
     if (isBroken(Phase::collision)) return report;
-
-    ContactGraph graph;
-    {
-        const PhaseTimer timer(report.seconds, Phase::contactGraph);
-        graph = buildContactGraph(world, settings_, dt, scratch);
-    }
+    const ContactGraph graph = timed(
+        Phase::contactGraph, [&] { return buildContactGraph(world, settings_, dt, scratch); });
     addForces(world, scratch.forces, dt);
-    {
-        const PhaseTimer timer(report.seconds, Phase::contact);
-        note(resolveContacts(world, graph, settings_, dt, scratch), report.contactImpulses);
-    }
+    note(timed(Phase::contact,
+               [&] { return resolveContacts(world, graph, settings_, dt, scratch); }),
+         report.contactImpulses);
     if (isBroken(Phase::contact)) return report;
     if (settings_.shockPropagation) {
-        const PhaseTimer timer(report.seconds, Phase::shock);
-        note(propagateShock(world, graph, settings_, dt, scratch), report.shockImpulses);
+        note(timed(Phase::shock,
+                   [&] { return propagateShock(world, graph, settings_, dt, scratch); }),
+             report.shockImpulses);
     }
     if (isBroken(Phase::shock)) return report;
-    {
-        const PhaseTimer timer(report.seconds, Phase::position);
-        advancePositions(world, settings_, dt);
-    }
+    timed(Phase::position, [&] { advancePositions(world, settings_, dt); });
     if (isBroken(Phase::position)) return report;
-    {
-        const PhaseTimer timer(report.seconds, Phase::pushOut);
-        report.deepestBeforePushOut = findWorstOverlap(world, scratch).depth;
-        const double before = potentialEnergy(world, settings_.gravity);
-        if (settings_.pushOut) {
-            const PushOutTally tally = separateOverlaps(world, graph, settings_, scratch);
-            report.pushes = tally.pushes;
-            report.pushesCut = tally.cut;
-        }
-        report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
-        describeOverlap(findWorstOverlap(world, scratch), report);
-    }
+    timed(Phase::pushOut, [&] { separateFoundPairs(world, graph, report); });
     findNonFinite(world, Phase::pushOut, report);
 
     describeGraph(graph, scratch, report);
     if (observer_) observer_->stepDone(seePairs(scratch, graph.levels, dt));
     ++world.clock.subStep;
     return report;
+}
+
+/// Push-out, and what it found and left.
+void Stepper::separateFoundPairs(World& world, const ContactGraph& graph, StepReport& report)
+{
+    StepScratch& scratch = *scratch_;
+    report.deepestBeforePushOut = findWorstOverlap(world, scratch).depth;
+    const double before = potentialEnergy(world, settings_.gravity);
+    if (settings_.pushOut) {
+        const PushOutTally tally = separateOverlaps(world, graph, settings_, scratch);
+        report.pushes = tally.pushes;
+        report.pushesCut = tally.cut;
+    }
+    report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
+    describeOverlap(findWorstOverlap(world, scratch), report);
 }
 
 /// New velocities for the bodies of a block, in the scratch alone. Answers the time each phase took
@@ -329,11 +182,11 @@ void Stepper::solveGaps(World& world, double dt, const SolvedIslands& solved, St
         addForcesToOthers(dt, scratch);
     }
     std::vector<PhaseSeconds> ofBlocks(scratch.blocks.size());
-    const auto start = WallClock::now();
+    const Stopwatch watch;
     forBlocks(scratch, [&](GapBlock& block) {
         ofBlocks[&block - scratch.blocks.data()] = solveBlock(world, dt, block);
     });
-    addShares(secondsSince(start), ofBlocks, report.seconds);
+    addShares(watch.seconds(), ofBlocks, report.seconds);
     for (const GapBlock& block : scratch.blocks) {
         scratch.impacts.insert(scratch.impacts.end(), block.impacts.begin(), block.impacts.end());
     }
@@ -352,6 +205,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
            (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
         solveGaps(world, dt, SolvedIslands(scratch), report);
     }
+    report.loopsAtTheirCap += looks > kMostLooks;
     {
         const PhaseTimer timer(report.seconds, Phase::contact);
         report.contactImpulses = countImpulses(scratch);
@@ -431,19 +285,6 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
     }
     describeState(world, settings_.gravity, frame);
     return frame;
-}
-
-FrameReport reportStart(const World& world, const Vec3& gravity)
-{
-    FrameReport report;
-    describeState(world, gravity, report);
-    for (const PlannedBirth& birth : world.births) {
-        report.births.born += world.isBorn(birth.body);
-        report.births.skipped += world.bornAt[birth.body] == kSkipped;
-        report.births.waiting += birth.frame <= world.clock.frame && !world.isBorn(birth.body) &&
-                                 world.bornAt[birth.body] != kSkipped;
-    }
-    return report;
 }
 
 }  // namespace scree

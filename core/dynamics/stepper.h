@@ -11,6 +11,7 @@
 
 namespace scree {
 
+struct ContactGraph;
 struct GapBlock;
 struct StepScratch;
 struct GapScratch;
@@ -44,6 +45,7 @@ public:
 private:
     /// The step proper, with the pairs that may meet already in scratch.
     StepReport stepFoundPairs(World& world, double dt);
+    void separateFoundPairs(World& world, const ContactGraph& graph, StepReport& report);
     StepReport stepGaps(World& world, double dt);
     bool mayStopAt(const Clock& clock) const;
     PhaseSeconds solveBlock(const World& world, double dt, GapBlock& block);
@@ -54,9 +56,5 @@ private:
     std::unique_ptr<StepScratch> scratch_;
     std::unique_ptr<GapScratch> gaps_;
 };
-
-/// The figures of a world that no step has moved yet: energies, momenta, who is awake, who was born
-/// where it begins, and the hash. `gravity` in [m/s²].
-FrameReport reportStart(const World& world, const Vec3& gravity);
 
 }  // namespace scree

@@ -1,9 +1,12 @@
 // Levels of graphs given as edges. Who rests on whom: scree verify E6.  [GBF03 “Contact Graph”]
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
+#include "core/dynamics/collision_pass.h"
 #include "core/dynamics/contact_graph.h"
+#include "tests/support/scenes.h"
 
 namespace scree {
 namespace {
@@ -31,6 +34,34 @@ TEST(ContactGraph, ACycleIsOneComponentOneAboveWhatCarriesIt)  // [A37, A38]
     EXPECT_EQ(levels.componentCount, 4);
     EXPECT_EQ(std::vector<int>(levels.isSupported.begin(), levels.isSupported.end()),
               (std::vector{1, 1, 1, 1, 1, 0, 0}));
+}
+
+TEST(ContactGraph, APairIsWorkedOnWithTheHigherOfItsBodies)  // [A38]
+{
+    World world;
+    const MaterialId material = test::addMaterial(world, 0.5, 0.0);
+    test::addPlane(world, material);
+    for (int i = 0; i < 3; ++i) {
+        test::addBody(world, test::boxShape(Vec3::Ones(), 2), material,
+                      {{0.0, 0.5 + i, 0.0}, Quat::Identity()});
+    }
+    const StepSettings settings = test::experimentSettings();
+    const double dt = 1.0 / 240.0;
+    StepScratch scratch;
+    findPairs(world, settings, dt, scratch);
+    beginStep(world, settings, dt, scratch);
+    resolveCollisions(world, settings, dt, scratch);
+    const ContactGraph graph = buildContactGraph(world, settings, dt, scratch);
+    ASSERT_EQ(graph.contact.size(), 4u);
+    EXPECT_TRUE(graph.contact[0].pairs.empty());
+    for (std::size_t level = 1; level < 4; ++level) {
+        ASSERT_EQ(graph.contact[level].pairs.size(), 1u) << level;
+        const BodyPair bodies = scratch.pairs[graph.contact[level].pairs[0]].bodies;
+        EXPECT_EQ(std::max(bodies.a, bodies.b), static_cast<BodyId>(level));
+        EXPECT_EQ(graph.contact[level].supportedBodies,
+                  std::vector<BodyId>{static_cast<BodyId>(level)});
+    }
+    EXPECT_EQ(graph.contactPairs, 3);
 }
 
 }  // namespace

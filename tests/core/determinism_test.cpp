@@ -135,6 +135,31 @@ TEST(Determinism, StoppingBetweenSubStepsAndGoingOnElsewhereChangesNothing)
     EXPECT_EQ(stateHash(broken), stateHash(unbroken));
 }
 
+TEST(StateHash, TellsApartWhateverMoves)  // [A21]
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    for (int i = 0; i < 2; ++i) addBody(world, boxShape(Vec3::Ones(), 1), material, {});
+    world.births.resize(1);
+    std::set<std::uint64_t> hashes = {stateHash(world)};
+    const auto expectNew = [&](const char* what, const auto& change) {
+        World other = world;
+        change(other, other.motion[1]);
+        EXPECT_TRUE(hashes.insert(stateHash(other)).second) << what;
+    };
+    expectNew("position", [](World&, BodyMotion& motion) { motion.position.z() = 1.0; });
+    expectNew("orientation", [](World&, BodyMotion& motion) { motion.orientation.z() = 1.0; });
+    expectNew("velocity", [](World&, BodyMotion& motion) { motion.velocity.z() = 1.0; });
+    expectNew("spin", [](World&, BodyMotion& motion) { motion.angularMomentum.z() = 1.0; });
+    expectNew("sign of zero", [](World&, BodyMotion& motion) { motion.velocity.x() = -0.0; });
+    expectNew("order",
+              [](World& other, BodyMotion&) { std::swap(other.order[0], other.order[1]); });
+    expectNew("births", [](World& other, BodyMotion&) { other.bornAt[1] = 3; });
+    expectNew("frame", [](World& other, BodyMotion&) { other.clock.frame = 1; });
+    expectNew("sub-step", [](World& other, BodyMotion&) { other.clock.subStep = 1; });
+    expectNew("time", [](World& other, BodyMotion&) { other.clock.frameTimeDone = 0.01; });
+}
+
 TEST(StateHash, TellsApartWhateverAStepReadsOfItsMemory)  // [A21]
 {
     World world;

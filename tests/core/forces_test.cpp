@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/dynamics/body_pairs.h"
 #include "core/dynamics/forces.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
@@ -143,6 +144,7 @@ TEST(Forces, FieldsPointAndFadeAsTheySay)
     EXPECT_NEAR(at({4.0, 4.0, 0.0}).norm(), 12.0 * 0.5625, 1e-13);
     field.falloff = Falloff::inverseSquare;
     EXPECT_NEAR(at({11.0, 0.0, 0.0}).norm(), 6.0, 1e-14);
+    EXPECT_NEAR(at({21.0, 0.0, 0.0}).norm(), 12.0 / (1.0 + 4.0), 1e-14);
     field.falloff = Falloff::none;
     field.kind = ForceField::Kind::vortex;
     field.direction = Vec3::UnitY();
@@ -224,6 +226,23 @@ TEST(CombineRules, DecideWhetherASlipperyBodySlidesOnARoughSlope)  // [A27]
     EXPECT_NEAR(speedOnSlope(CombineRule::mean), 0.5 * 9.8 * (0.5 - 0.4 * std::sqrt(0.75)), 1e-4);
     EXPECT_NEAR(speedOnSlope(CombineRule::maximum, 0.0), free, 1e-4);
     EXPECT_NEAR(speedOnSlope(CombineRule::minimum, 0.7), 0.0, 1e-9);
+}
+
+TEST(CombineRules, AnExceptionForTwoMaterialsReplacesWhatItSaysAndNoMore)  // [A27]
+{
+    World world;
+    const MaterialId first = addMaterial(world, 0.2, 0.1), second = addMaterial(world, 0.4, 0.3);
+    for (const MaterialId material : {first, second})
+        addBody(world, boxShape(Vec3::Ones(), 1), material, {});
+    const StepSettings settings;  // the larger friction, the smaller restitution
+    EXPECT_EQ(surfaceOf(world, settings, {0, 1}).friction, 0.4);
+    EXPECT_EQ(surfaceOf(world, settings, {0, 1}).restitution, 0.1);
+    world.materialPairs = {{second, first, {}, 0.9}};
+    EXPECT_EQ(surfaceOf(world, settings, {0, 1}).friction, 0.4);
+    EXPECT_EQ(surfaceOf(world, settings, {0, 1}).restitution, 0.9);
+    world.materialPairs = {{first, second, 0.7, {}}};
+    EXPECT_EQ(surfaceOf(world, settings, {0, 1}).friction, 0.7);
+    EXPECT_EQ(surfaceOf(world, settings, {0, 1}).restitution, 0.1);
 }
 
 TEST(Forces, WhatSwingsThroughAPointOfAttractionSwingsNoFarther)  // [A56]

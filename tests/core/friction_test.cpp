@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/random.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/impulse.h"
 #include "core/math/rotation.h"
@@ -41,6 +42,35 @@ TEST(Impulses, AJammedRodIsNeitherPulledNorGivenEnergy)  // [A32, A33]
     EXPECT_GE(j.impulse.dot(n), 0.0);
     EXPECT_LE(workOf(j.impulse, k, u), 1e-15);
     EXPECT_NEAR((u + k * j.impulse).dot(n), 0.0, 1e-12);
+}
+
+TEST(Impulses, WhereNeitherStickingNorSlidingWillDoTheImpulseStaysInTheCone)  // [A33]
+{
+    // Slender bodies struck anywhere: as much of sticking is taken as the cone and the energy
+    // allow.
+    int blended = 0, atTheCone = 0;
+    for (std::uint64_t i = 0; i < 20000; ++i) {
+        const auto draw = [&](std::uint64_t what) { return randomUnit(3, i, what); };
+        const Vec3 r(draw(0) - 0.5, draw(1) - 0.5, draw(2) - 0.5);
+        const Mat3 axes = exponentialMap(3.0 * Vec3(draw(3), draw(4), draw(5))).toRotationMatrix();
+        const Vec3 inverseMoments(4.0, 4.0 + 120.0 * draw(6), 4.0 + 120.0 * draw(7));
+        const Mat3 k = collisionMatrix({1.0, inverseInertiaWorld(axes, inverseMoments)}, r);
+        const Vec3 n = Vec3::UnitY(), u(2.0 * draw(8) - 1.0, -0.5 * draw(9) - 0.01, draw(10) - 0.5);
+        const double mu = 0.1 + 1.9 * draw(11), e = draw(12);
+
+        const ContactImpulse j = contactImpulse(k, u, n, e, mu);
+        const double normal = j.impulse.dot(n);
+        const double tangential = (j.impulse - normal * n).norm();
+        // Rounding of sums whose terms cancel to a hundredth.
+        ASSERT_LE(tangential, mu * normal * (1.0 + 1e-12)) << i;
+        ASSERT_LE(workOf(j.impulse, k, u), 1e-13) << i;
+        ASSERT_NEAR((u + k * j.impulse).dot(n), -e * u.dot(n), 1e-12) << i;
+        if (j.kind != FrictionCase::fallback) continue;
+        ++blended;
+        atTheCone += tangential > mu * normal * (1.0 - 1e-9);
+    }
+    EXPECT_GT(blended, 500);
+    EXPECT_GT(atTheCone, 400);
 }
 
 TEST(Impulses, WithoutSlipAndFrictionEnoughTheContactSticks)  // [A31, A32]

@@ -295,5 +295,26 @@ TEST_P(SleepersOnKeyed, FallWhenTheirSupportIsLetGo)  // [A54]
     EXPECT_NEAR(world.motion[top].position.y(), 0.45, 1e-3);
 }
 
+TEST(GapDriven, ABodyFallsWhenAScriptTakesItsSupportAway)  // [A55]
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const Pose place{{0.0, 0.1, 0.0}, Quat::Identity()};
+    const BodyId slab = addBody(world, boxShape({2.0, 0.2, 2.0}, 1), material, place);
+    world.info[slab].script = std::make_shared<MotionScript>(
+        std::vector<MotionKey>{{2.0, place}, {2.2, {{8.0, 0.1, 0.0}, Quat::Identity()}}},
+        KeyInterpolation::linear);
+    world.info[slab].keyedFrom = 48;
+    const BodyId top = addBody(world, boxShape(Vec3::Constant(0.5), 1), material,
+                               {{0.0, 0.45, 0.0}, Quat::Identity()});
+    runFrames(world, screeSettings(), 2.0);
+    EXPECT_NEAR(world.motion[top].position.y(), 0.45, 1e-3);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 48; ++f) stepper.advanceFrame(world, kDt);
+    EXPECT_NEAR(world.motion[slab].position.x(), 8.0, 1e-9);
+    EXPECT_NEAR(world.motion[top].position.y(), 0.25, 1e-3);
+}
+
 }  // namespace
 }  // namespace scree::test

@@ -71,6 +71,23 @@ TEST(MotionScript, SmoothMotionRestsAtTheEndsPassesKeysWithoutAKinkAndNeverOvers
     }
 }
 
+TEST(MotionScript, ASlowStretchBeforeAFastOneTurnsBackNowhere)
+{
+    // The mean of both speeds is more than three times the slower one.
+    const MotionScript script({{0.0, {Vec3::Zero(), aboutY(0.0)}},
+                               {1.0, {{1.0, 0.0, 0.0}, aboutY(0.1)}},
+                               {2.0, {{12.0, 0.0, 0.0}, aboutY(1.2)}}},
+                              KeyInterpolation::smooth);
+    Pose before = script.at(0.0);
+    for (double t = 0.01; t <= 1.0; t += 0.01) {
+        const Pose pose = script.at(t);
+        EXPECT_GE(pose.position.x(), before.position.x() - 1e-12) << t;
+        EXPECT_LE(pose.position.x(), 1.0 + 1e-12) << t;
+        EXPECT_GE(pose.orientation.y(), before.orientation.y() - 1e-12) << t;
+        before = pose;
+    }
+}
+
 TEST(MotionScript, BoundsHoldWhateverSpanIsAsked)
 {
     const MotionScript script({{0.0, {Vec3::Zero(), aboutY(0.0)}},
@@ -171,6 +188,7 @@ TEST(KeyedMotion, StoppingBetweenSubStepsAcrossReleaseAndTakeOverChangesNothing)
     }
     EXPECT_EQ(unbroken.info[1].kind, BodyKind::dynamic);
     EXPECT_EQ(unbroken.info[4].kind, BodyKind::dynamic);
+    int stops = 0;
     while (broken.clock.frame < 14) {
         World fresh = makeHandOver();
         fresh.motion = broken.motion;
@@ -178,8 +196,9 @@ TEST(KeyedMotion, StoppingBetweenSubStepsAcrossReleaseAndTakeOverChangesNothing)
         fresh.clock = broken.clock;
         broken = fresh;
         Stepper another(experimentSettings());
-        another.advanceFrame(broken, 1.0 / 24.0, [] { return true; });
+        stops += !another.advanceFrame(broken, 1.0 / 24.0, [] { return true; }).finished;
     }
+    EXPECT_GT(stops, 14);
     EXPECT_EQ(stateHash(broken), stateHash(unbroken));
 }
 

@@ -61,6 +61,22 @@ TEST(StepLimit, WhatSpinsBesideAnotherTurnsLittleInAStep)
     EXPECT_LE(stepsOfSpinning(60.0, 22.0), 4);  // where it meets nothing
 }
 
+TEST(StepLimit, WhatRestsOnAFixedBodyFallsInAStepByNoMoreThanTheHoverLimit)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const BodyId block =
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material, {Vec3(0, 0.5, 0), Quat::Identity()});
+    StepSettings settings = experimentSettings();
+    settings.method = Method::paper;
+    const FrameReport report = Stepper(settings).advanceFrame(world, 1.0 / 24.0);
+    const double fall = settings.hoverLimit * world.shapeOf(block).thickness();
+    const double longest = std::sqrt(fall / settings.gravity.norm());  // g dt² = fall
+    EXPECT_EQ(report.sum.limitedBy, StepLimit::hover);
+    EXPECT_EQ(report.steps, std::ceil(1.0 / 24.0 / longest));
+}
+
 TEST(StepLimit, WhatFliesHighAboveTheGroundDoesNotShortenTheStepsOfAll)
 {
     const auto stepsAt = [](double height) {

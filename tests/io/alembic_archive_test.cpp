@@ -53,7 +53,7 @@ void finishWith(AlembicArchive& archive, const std::vector<AlembicProperty>& pro
 
 void expectStrictlyValid(const std::filesystem::path& file)
 {
-    const test::CheckResult result = test::runAbcCheck(file, "--strict --quiet");
+    const test::CommandResult result = test::runAbcCheck(file, "--strict --quiet");
     EXPECT_EQ(result.exitCode, 0) << result.output;
 }
 
@@ -138,7 +138,7 @@ TEST(AlembicArchive, CountsSamplesAcrossTheWidthsOfItsIntegers)
             archive.writeProperty(layoutOf(name, everyFrame), trackOf(archive, values)));
     }
     finishWith(archive, properties);
-    const test::CheckResult result = test::runAbcCheck(folder / "a.abc", "--strict");
+    const test::CommandResult result = test::runAbcCheck(folder / "a.abc", "--strict");
     EXPECT_EQ(result.exitCode, 0) << result.output;
     EXPECT_NE(result.output.find("n65536 scalar float64_t samples=65536 stored=2"),
               std::string::npos)
@@ -162,7 +162,7 @@ TEST(AlembicArchive, KeepsMetadataThatDoesNotFitItsTable)
     properties.push_back(archive.writeCompound("empty_compound", longText, {}));
     finishWith(archive, properties);
 
-    const test::CheckResult result = test::runAbcCheck(folder / "a.abc", "--strict");
+    const test::CommandResult result = test::runAbcCheck(folder / "a.abc", "--strict");
     EXPECT_EQ(result.exitCode, 0) << result.output;
     EXPECT_NE(result.output.find(" k=259\n"), std::string::npos);
     EXPECT_NE(result.output.find(" " + longText + "\n"), std::string::npos);

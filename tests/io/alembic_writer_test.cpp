@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -47,16 +45,12 @@ std::vector<SceneFrame> tumblingFrames(const SceneDescription& scene, int count)
     return frames;
 }
 
-std::string contentOf(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 /// Tree of the file as text, after a strict check.
 std::string strictTree(const fs::path& file)
 {
-    const test::CheckResult result = test::runAbcCheck(file, "--strict");
+    const test::CommandResult result = test::runAbcCheck(file, "--strict");
     EXPECT_EQ(result.exitCode, 0) << result.output;
     return result.output;
 }
@@ -82,7 +76,7 @@ Eigen::Matrix4d matrixFrom(const nlohmann::json& rows)
 /// All transform samples by object path.
 std::map<std::string, std::vector<ReadSample>> readTransforms(const fs::path& file)
 {
-    const test::CheckResult result = test::runAbcCheck(file, "--strict --dump-xforms --world");
+    const test::CommandResult result = test::runAbcCheck(file, "--strict --dump-xforms --world");
     EXPECT_EQ(result.exitCode, 0) << result.output;
     std::map<std::string, std::vector<ReadSample>> samples;
     std::istringstream lines(result.output);

@@ -5,7 +5,6 @@
 
 #include <csignal>
 #include <fstream>
-#include <iterator>
 
 #include "core/base/error.h"
 #include "tests/support/support.h"
@@ -15,11 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contentOf(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 std::size_t fileCount(const fs::path& folder)
 {

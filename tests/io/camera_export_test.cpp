@@ -1,11 +1,13 @@
 // Cameras that move, in the caches: each format must say where the camera is at every sample.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/math/rotation.h"
 #include "core/scene/camera_motion.h"
 #include "io/alembic_writer.h"
 #include "io/camera_pose.h"
@@ -14,6 +16,7 @@
 #include "io/take_info.h"
 #include "io/usd_writer.h"
 #include "tests/support/cast.h"
+#include "tests/support/export_scene.h"
 #include "tests/support/readers.h"
 
 namespace scree {
@@ -35,11 +38,26 @@ SceneDescription filmedCast()
     return scene;
 }
 
-std::string contentOf(const std::filesystem::path& path)
+using test::contentOf;
+
+TEST(CameraOfAll, SeesWhatMovesInPicturesOfAnyShape)
 {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
+    SceneDescription scene = test::sceneOf({test::bodyNamed("near"), test::bodyNamed("far")});
+    const SceneFrame frame = test::frameWith(
+        1001, {{Vec3::Zero(), Quat::Identity()}, {{6.0, 1.0, -3.0}, Quat::Identity()}});
+    for (const double aspect : {0.4, 1.0, 2.5}) {
+        scene.aspect = aspect;
+        const SceneCamera camera = cameraOfAll(scene, frame);
+        const Pose viewFromWorld = inverse(worldFromCamera(camera, scene.zUp));
+        const double tanY = std::tan(camera.fovDegrees * kPi / 360.0);
+        for (const Pose& pose : frame.worldFromAsset) {
+            for (const Vec3 point : scene.meshes[0].points.colwise()) {
+                const Vec3 seen = viewFromWorld * (pose * point);
+                EXPECT_LT(std::abs(seen.y()), -seen.z() * tanY) << aspect;
+                EXPECT_LT(std::abs(seen.x()), -seen.z() * tanY * aspect) << aspect;
+            }
+        }
+    }
 }
 
 TEST(CameraExport, OpenUsdFindsPanZoomAndOrbitAtEverySample)

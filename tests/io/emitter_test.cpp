@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -144,11 +143,7 @@ void simulate(TakeWriter& take, const Shot& shot, World& world, int lastFrame, b
     }
 }
 
-std::string bytesOf(const std::filesystem::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 TEST(Emitter, ARunStoppedWhileBodiesWaitGoesOnToTheSameBytes)
 {
@@ -172,7 +167,7 @@ TEST(Emitter, ARunStoppedWhileBodiesWaitGoesOnToTheSameBytes)
     }
     for (int frame = 1001; frame <= 1012; ++frame) {
         const std::string name = "frames/frame.00" + std::to_string(frame) + ".scree";
-        EXPECT_EQ(bytesOf(folder / "whole" / name), bytesOf(folder / "cut" / name)) << frame;
+        EXPECT_EQ(contentOf(folder / "whole" / name), contentOf(folder / "cut" / name)) << frame;
     }
 
     // A reader of the take is told when each body came.
@@ -222,7 +217,7 @@ protected:
 
 TEST_F(EmittedExport, AlembicHidesABodyUntilItsBirth)
 {
-    const test::CheckResult result = test::runAbcCheck(write("a.abc"), "--strict");
+    const test::CommandResult result = test::runAbcCheck(write("a.abc"), "--strict");
     ASSERT_EQ(result.exitCode, 0) << result.output;
     const std::string& tree = result.output;
     const std::size_t late = tree.find("/test_shot/late "), never = tree.find("/test_shot/never ");
@@ -236,7 +231,7 @@ TEST_F(EmittedExport, AlembicHidesABodyUntilItsBirth)
 
 TEST_F(EmittedExport, AlembicNeverHidesABodyOfTheStartThoughSamplesBeginBeforeTheFirstFrame)
 {
-    const test::CheckResult result = test::runAbcCheck(write("a.abc", kSubframes), "--strict");
+    const test::CommandResult result = test::runAbcCheck(write("a.abc", kSubframes), "--strict");
     ASSERT_EQ(result.exitCode, 0) << result.output;
     const std::string& tree = result.output;
     EXPECT_EQ(tree.substr(0, tree.find("/test_shot/late ")).find("visible"), std::string::npos);
@@ -278,7 +273,7 @@ struct ScaleTracks {
 
 ScaleTracks::ScaleTracks(const std::filesystem::path& path)
 {
-    const std::string file = bytesOf(path);
+    const std::string file = contentOf(path);
     std::uint32_t length = 0;
     std::memcpy(&length, file.data() + 12, 4);
     const auto json = nlohmann::json::parse(file.substr(20, length));
@@ -315,9 +310,9 @@ TEST_F(EmittedExport, GltfScalesABodyToNothingUntilItsBirth)
 TEST_F(EmittedExport, SequencesLeaveUnbornBodiesOut)
 {
     write("a.####.obj");
-    EXPECT_EQ(bytesOf(folder / "a.1002.obj").find("o late"), std::string::npos);
-    EXPECT_NE(bytesOf(folder / "a.1003.obj").find("o late"), std::string::npos);
-    EXPECT_EQ(bytesOf(folder / "a.1005.obj").find("o never"), std::string::npos);
+    EXPECT_EQ(contentOf(folder / "a.1002.obj").find("o late"), std::string::npos);
+    EXPECT_NE(contentOf(folder / "a.1003.obj").find("o late"), std::string::npos);
+    EXPECT_EQ(contentOf(folder / "a.1005.obj").find("o never"), std::string::npos);
 }
 
 }  // namespace

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -28,11 +26,7 @@ using Json = nlohmann::json;
 // Single precision of positions near 10 and of quaternions.
 constexpr double kTolerance = 1e-6;
 
-std::string contentOf(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 struct Glb {
     Json json;

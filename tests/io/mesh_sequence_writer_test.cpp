@@ -5,8 +5,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -24,11 +22,7 @@ constexpr int kFirst = 1001;
 // A point is a rotation and a sum; two spellings of it differ by a few roundings of values near 10.
 constexpr double kTolerance = 1e-13;
 
-std::string contentOf(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 /// Two shapes, three bodies, spinning: enough for shared numbering to go wrong.
 SceneDescription mixedScene()

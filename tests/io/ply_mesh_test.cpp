@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "core/base/error.h"
@@ -21,11 +20,7 @@ TriMesh smallMesh(bool hasUvs = false)
     return {mesh.points / 3.0, mesh.triangles, mesh.cornerUvs / 3.0f};
 }
 
-std::string contentOf(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 void expectDamaged(const fs::path& path, const std::string& bytes)
 {

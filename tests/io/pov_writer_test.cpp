@@ -19,11 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contentOf(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 /// The comma-separated numbers between the < and > that follow `before`, from `at` on.
 std::vector<double> numbersAfter(const std::string& text, const std::string& before,

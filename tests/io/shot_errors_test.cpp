@@ -151,6 +151,17 @@ std::vector<BadShot> badShots()
          "bad.toml:13:11: 'release' must be a frame after the first, 1001; a body that is free "
          "from "
          "the beginning has motion = \"dynamic\""},
+        {"TakenOverBeforeTheShot",
+         body(
+             "shape = \"block\"\nmotion = \"keyed\"\nkeys = [{ frame = 5, position = [0, 0, 0] }]\n"
+             "keyed_from = 1001\n"),
+         "bad.toml:13:14: 'keyed_from' must be a frame after the first, 1001; without it a body is "
+         "keyed from the beginning"},
+        {"ReleasedBeforeItIsTakenOver",
+         body(
+             "shape = \"block\"\nmotion = \"keyed\"\nkeys = [{ frame = 5, position = [0, 0, 0] }]\n"
+             "keyed_from = 1010\nrelease = 1010\n"),
+         "bad.toml:14:11: 'release' must be a frame after 'keyed_from', 1010"},
         {"PositionBesideKeys",
          body("shape = \"block\"\nposition = [0, 0, 0]\nmotion = \"keyed\"\n"
               "keys = [{ frame = 5, position = [0, 0, 0] }]\n"),
@@ -467,7 +478,7 @@ TEST(ShotErrors, BadOverridesNameTheirOwnText)
               "--set body.b=3: 'b' is a whole [body]; name one of its keys: name, shape, plane, "
               "material, motion, position, rotation, orientation, velocity, spin, mass, grid, "
               "poses, force, torque, group, collides, unmoved_by, start, keys, interpolate, "
-              "release");
+              "release, keyed_from");
     EXPECT_EQ(message("shot.fps.x=1"), "--set shot.fps.x=1: 'fps' has no keys of its own");
     EXPECT_EQ(message("shot.frames=end"),
               "--set shot.frames=end: 'frames' must be \"FIRST-LAST\", for example "

@@ -178,7 +178,9 @@ TEST_F(SubframesTest, WhatStandsStillHasTheSameBitsInEverySample)
     simulate(shotWith(), folder / "take");
     const TakeReader take(folder / "take");
     const Pose still = take.readFrame(1001).worldFromAsset[kGround];
-    for (const SceneFrame& sample : take.readSamples(1004)) {
+    const std::vector<SceneFrame> samples = take.readSamples(1004);
+    ASSERT_EQ(samples.size(), 4u);
+    for (const SceneFrame& sample : samples) {
         EXPECT_EQ(sample.worldFromAsset[kGround].position, still.position);
         EXPECT_EQ(sample.worldFromAsset[kGround].orientation.coeffs(), still.orientation.coeffs());
     }

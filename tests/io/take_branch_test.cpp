@@ -185,6 +185,24 @@ TEST_F(BranchTest, TakesThatOnlyRememberOtherContactsDiffer)
     EXPECT_EQ(comparison.difference->bodies, (std::vector<std::string>{"ground", "block"}));
 }
 
+TEST_F(BranchTest, AContactThatOneTakeAloneRemembersIsADifferenceWhicheverComesFirst)
+{
+    const TakeReader whole = simulate("whole", {});
+    const TakeReader other = simulate("other", {});
+    const fs::path path = other.paths().frame(1004);
+    FrameState state = readFrameFile(path);
+    ASSERT_FALSE(state.contactMemory.contacts.empty());
+    RememberedContact more = state.contactMemory.contacts.back();
+    more.b = 2;
+    state.contactMemory.contacts.push_back(more);
+    writeFileBytes(path, encodeFrame(state));
+    for (const TakeComparison& comparison :
+         {compareTakes(whole, other), compareTakes(other, whole)}) {
+        ASSERT_TRUE(comparison.difference);
+        EXPECT_EQ(comparison.difference->bodies, (std::vector<std::string>{"ground", "away"}));
+    }
+}
+
 TEST_F(BranchTest, OtherBodiesAreRefusedWithWhatDiffers)
 {
     simulate("whole", {});

@@ -163,6 +163,7 @@ TEST_F(TakeTest, AStateThatNoStepCouldGoOnFromIsRefusedThoughItsChecksumFits)
         expectRefusal("order of bodies", [&](FrameState& s) { s.order[1] = wrong; });
     expectRefusal("clock", [](FrameState& s) { s.clock.subStep = -1; });
     expectRefusal("clock", [](FrameState& s) { s.clock.frameTimeDone = NAN; });
+    expectRefusal("clock", [](FrameState& s) { s.clock.frameTimeDone = -0.01; });
     expectRefusal("body 1", [](FrameState& s) { s.motion[1].velocity.y() = INFINITY; });
     expectRefusal("does not exist", [&](FrameState& s) { remember(s, {{0, 2}}); });
     expectRefusal("not in order", [&](FrameState& s) { remember(s, {{1, 1}, {0, 1}}); });

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,11 +23,7 @@ using MakeWriter = std::unique_ptr<FrameWriter> (*)(const fs::path& output);
 // Samples at these times, and readers asked between them too.
 const std::vector<double> kOffsets = {-0.25, 0.0, 0.25};
 
-std::string contentOf(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
+using test::contentOf;
 
 std::string exported(MakeWriter make, const fs::path& path, const SceneDescription& scene,
                      const std::vector<double>& offsets = {0.0})

@@ -47,6 +47,26 @@ TEST(DepthMap, ABoxHidesTheTexelsItCoversAtTheDepthOfItsTop)
     }
 }
 
+TEST(DepthMap, ASlopeIsSetBackByTheDepthItGainsFromTexelToTexelAlongItsSteeperAxis)
+{
+    // A triangle that rises by 2 along x and by 1/2 along z: 1/64 and 1/256 of the depth a texel.
+    TriMesh slope{Points(3, 3), Triangles(3, 1)};
+    slope.points << -1, 1, -1, -2.25, 1.75, -1.75, -1, -1, 0;
+    slope.triangles << 0, 2, 1;
+    DepthMap flush, setBack;
+    for (DepthMap* map : {&flush, &setBack}) {
+        clearDepths(*map, kSize);
+        drawDepths(*map, shaded(slope), fromAbove(), map == &setBack ? 2.0 : 0.0);
+    }
+    int covered = 0;
+    for (std::size_t i = 0; i < flush.depths.size(); ++i) {
+        if (flush.depths[i] == 1.0f) continue;
+        ++covered;
+        EXPECT_NEAR(setBack.depths[i] - flush.depths[i], 2.0 / 64.0, 1e-6) << i;
+    }
+    EXPECT_GT(covered, 100);
+}
+
 TEST(DepthMap, NoEdgeBetweenTrianglesLeavesAGap)
 {
     // A sphere turned any way: every texel well inside its outline is covered, at its height.

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/base/parallel.h"
-#include "render/png_writer.h"
 #include "render/rasterizer.h"
 #include "render/ray_tracer.h"
+#include "tests/support/png_file.h"
 #include "tests/support/preview_scene.h"
 #include "tests/support/support.h"
 
@@ -71,8 +71,8 @@ constexpr double kStoredTolerance = 1.0;
 Image stored(const std::string& name, const Image& present)
 {
     const auto path = test::sourceFile("tests/render/pictures/" + name);
-    if (std::getenv("SCREE_STORE_PICTURES")) writePng(path, present);
-    return readPng(path).image;
+    if (std::getenv("SCREE_STORE_PICTURES")) test::storePng(path, present);
+    return test::loadPng(path);
 }
 
 TEST(Engines, PicturesAreThoseThatWereLookedAt)

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/primitives.h"
-#include "render/png_writer.h"
+#include "tests/support/png_file.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -313,7 +313,7 @@ TEST(Rasterizer, DISABLED_LeavesAPicture)
 {
     const char* path = std::getenv("SCREE_TEST_PICTURE");
     ASSERT_NE(path, nullptr);
-    writePng(path, smallHeap().draw(lookingFrom({8, 5, 9})));
+    test::storePng(path, smallHeap().draw(lookingFrom({8, 5, 9})));
 }
 
 TEST(Rasterizer, AnyNumberOfThreadsGivesTheSamePicture)
@@ -328,7 +328,7 @@ TEST(Rasterizer, AnyNumberOfThreadsGivesTheSamePicture)
             "' '" + self +
             "' --gtest_also_run_disabled_tests --gtest_filter='*LeavesAPicture' > /dev/null";
         ASSERT_EQ(std::system(command.c_str()), 0) << command;
-        pictures.push_back(readPng(path).image.values);
+        pictures.push_back(test::loadPng(path).values);
     }
     for (const auto& picture : pictures) EXPECT_EQ(picture, pictures.front());
 }

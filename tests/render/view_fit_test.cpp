@@ -32,10 +32,11 @@ TEST(FitDepthMap, HoldsAllCastersAndLeavesATexelFreeAroundThem)
     for (int k = 0; k < 200; ++k) {
         const std::vector<Ball> casters = {{{-3 + 0.1 * k, 1, 2}, 1.0}, {{8, 20, -4}, 2.0}};
         const Vec3 sun(0.3, 0.8 - 0.003 * k, 0.5);
-        const DepthMapFit fit = fitDepthMap(sun, casters, Points(3, 0), 0.0, 0.0, 64 + k);
+        const double margin = k % 2 ? 0.7 : 0.0;
+        const DepthMapFit fit = fitDepthMap(sun, casters, Points(3, 0), margin, 0.0, 64 + k);
         for (const Ball& ball : casters) {
             const Vec3 clip = (fit.clipFromWorld * ball.centre.homogeneous()).hnormalized();
-            const double radius = ball.radius * 2.0 / (fit.size * fit.texel);
+            const double radius = (ball.radius + margin) * 2.0 / (fit.size * fit.texel);
             EXPECT_LE(clip.head<2>().cwiseAbs().maxCoeff() + radius, 1.0 - 2.0 / fit.size + 1e-9);
             const double depth = ball.radius * 2.0 / fit.depth;
             EXPECT_LE(std::abs(clip.z()) + depth, 1.0 + 1e-9);

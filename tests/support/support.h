@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace scree::test {
@@ -10,6 +12,13 @@ namespace scree::test {
 inline std::filesystem::path sourceFile(const std::string& relative)
 {
     return std::filesystem::path(SCREE_SOURCE_DIR) / relative;
+}
+
+/// All of a file, read without the code that is tested; empty where there is none.
+inline std::string contentOf(const std::filesystem::path& path)
+{
+    std::ifstream stream(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 /// A fresh, empty folder for one test, removed with the object.

@@ -17,9 +17,9 @@
 
 #include "io/file_bytes.h"
 #include "io/take.h"
-#include "render/png_writer.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
+#include "tools/picture_file.h"
 
 namespace scree {
 namespace test {
@@ -537,7 +537,7 @@ TEST_F(ProgramTest, SignalsAreHeededWhileTheWorldIsBuilt)
     std::ofstream(take("slow.toml")) << test::shotTextOf(
         {.name = "slow", .frames = "1001-1002"},
         "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = [400, 200] }\n"
-        "sdf = { resolution = 400 }\n" +
+        "sdf = { resolution = 300 }\n" +
             test::bodyText("ring", "position = [0, 3, 0]", "ring"));
     for (const int number : {SIGUSR1, SIGTERM}) {
         Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache"});

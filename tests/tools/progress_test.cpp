@@ -76,6 +76,16 @@ TEST(Progress, WhatIsLeftIsUnknownBeforeAFrameWasTimed)
     EXPECT_TRUE(first["seconds_left"].is_null());
 }
 
+TEST(Progress, TheNewestFrameHasAFifthOfTheSayInWhatIsLeft)
+{
+    const auto second = lastJson(told(ProgressMode::json, 4, 0, [](Progress& progress) {
+        progress.frameDone(1001, 1.0);
+        progress.frameDone(1002, 6.0);
+    }));
+    EXPECT_DOUBLE_EQ(second["seconds_per_frame"].get<double>(), 0.8 * 1.0 + 0.2 * 6.0);
+    EXPECT_DOUBLE_EQ(second["seconds_left"].get<double>(), 2 * 2.0);
+}
+
 TEST(Progress, ALogOfJsonHoldsNothingElse)
 {
     const std::string text = told(

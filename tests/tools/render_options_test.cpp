@@ -10,10 +10,10 @@
 #include "io/frame_writer.h"
 #include "io/take_reader.h"
 #include "render/legend.h"
-#include "render/png_writer.h"
 #include "tests/support/export_scene.h"
 #include "tests/support/readers.h"
 #include "tests/support/small_shot.h"
+#include "tools/picture_file.h"
 
 namespace scree::test {
 namespace {

@@ -1,0 +1,43 @@
+#include "tools/run_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include "io/build_world.h"
+#include "tests/support/small_shot.h"
+
+namespace scree {
+namespace {
+
+RunEstimate estimateOf(const std::vector<std::string>& overrides)
+{
+    const std::string text = test::shotTextOf(
+        {.frames = "1001-1200"},
+        test::bodyText("block",
+                       "position = [0, 2, 0]\ngrid = { count = [5, 2, 5], spacing = [2, 2, 2] }"));
+    const Shot shot = parseShotText(text, "s.toml", overrides);
+    return estimateRun(shot, buildWorld(shot), 1, 10.0, [] { return false; });
+}
+
+TEST(RunEstimate, ASampleBetweenFramesCostsItsPosesAndVelocitiesInEveryFrame)
+{
+    const RunEstimate without = estimateOf({"output.subframes=[]"});
+    const RunEstimate with = estimateOf({"output.subframes=[-0.25, 0.0, 0.25]"});
+    // Two samples that are no frames, of 51 bodies, 13 numbers each; times in the lines of figures
+    // have more digits or fewer.
+    const double samples = 200.0 * 2 * 51 * 13 * sizeof(double);
+    const double more =
+        static_cast<double>(with.diskBytes) - static_cast<double>(without.diskBytes);
+    EXPECT_NEAR(more, samples, 0.02 * samples);
+}
+
+TEST(RunEstimate, TimeIsScaledToTheWholeShot)
+{
+    const RunEstimate estimate = estimateOf({});
+    EXPECT_EQ(estimate.framesTried, 1);
+    EXPECT_GE(estimate.stepsTried, 1);
+    EXPECT_GT(estimate.wallSeconds, 0.0);
+    EXPECT_EQ(estimate.complaint, "");
+}
+
+}  // namespace
+}  // namespace scree
