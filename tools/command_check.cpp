@@ -269,17 +269,6 @@ int checkShot(const CheckOptions& options, Console& console)
     return exitCodeFor(ErrorKind::qualityLimit);
 }
 
-int runCheck(const CheckOptions& options, Console& console)
-{
-    watchSignals();
-    try {
-        return checkShot(options, console);
-    } catch (const StoppedBeforeStart&) {
-        console.info("stopped; the shot was not looked at to the end");
-        return kExitStopped;
-    }
-}
-
 }  // namespace
 
 Command addCheckCommand(CLI::App& program)
@@ -306,7 +295,7 @@ Command addCheckCommand(CLI::App& program)
     command->footer(
         "Ends with 65 when sim would refuse the shot.\n"
         "Example:\n  scree check shots/rings_100.toml");
-    return {command, [options](Console& console) { return runCheck(*options, console); }};
+    return {command, [options](Console& console) { return checkShot(*options, console); }};
 }
 
 }  // namespace scree

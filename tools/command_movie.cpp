@@ -290,7 +290,6 @@ int runMovie(const MovieOptions& options, Console& console)
     AtomicFile{output};  // says now, with its own error, when nothing can be created there
     console.info(shellLine(makeCommand(sequence, muxer, output.string())));
 
-    watchSignals();
     requireWholePictures(sequence);
 
     // Under another name first: an interrupted ffmpeg leaves half a film.
@@ -299,11 +298,7 @@ int runMovie(const MovieOptions& options, Console& console)
     std::error_code code;
     try {
         runProgram(makeCommand(sequence, muxer, temporary.string()));
-        if (stopRequested()) {
-            fs::remove(temporary, code);
-            console.info("stopped; no film was made");
-            return kExitStopped;
-        }
+        heedStop("no film was made");
         fs::rename(temporary, output, code);
         if (code)
             throw Error(ErrorKind::cannotCreate,

@@ -146,12 +146,7 @@ public:
     {
         watchSignals();
         paintAll();
-        if (stopRequested()) {
-            console_.info(
-                "stopped; the pictures written so far are whole, --skip-existing keeps "
-                "them");
-            return kExitStopped;
-        }
+        heedStop("the pictures written so far are whole, --skip-existing keeps them");
         std::printf("%s\n", pattern_.c_str());
         return finishTakeFrames(chosen_, pattern_, console_);
     }

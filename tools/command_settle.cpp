@@ -12,6 +12,7 @@
 #include "core/dynamics/stepper.h"
 #include "core/scene/motion_script.h"
 #include "io/build_world.h"
+#include "io/distance_cache.h"
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
 #include "io/pose_json.h"
@@ -23,6 +24,7 @@
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/stoppable_fields.h"
 
 namespace scree {
 namespace {
@@ -95,7 +97,10 @@ public:
           shot_(parseShot(options.shot, options.overrides, options.importLimits))
     {
         setThreadCount(threadsToUse(options.threads));
-        world_ = buildWorld(shot_);
+        DistanceCache none({});
+        StoppableFields fields(none, console);
+        world_ = buildWorld(shot_, &fields);
+        fields.heedSignals();
         endOfEvents_ = endOfEvents(world_);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
@@ -105,10 +110,7 @@ public:
     {
         watchSignals();
         const bool isAtRest = simulate();
-        if (stopRequested()) {
-            console_.info("stopped; nothing is written");
-            return kExitStopped;
-        }
+        heedStop();
         write();
         std::printf("%s\n", options_.output.c_str());
         if (isAtRest) return kExitDone;

@@ -380,10 +380,9 @@ private:
 
 int simulate(const SimOptions& options, Console& console)
 {
-    watchSignals();
     try {
         return SimRun(options, console).run();
-    } catch (const StoppedBeforeStart&) {
+    } catch (const Stopped&) {
         console.info("stopped before the first frame; nothing was written: run the same again");
         return kExitStopped;
     }

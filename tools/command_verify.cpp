@@ -73,7 +73,7 @@ int runVerify(const VerifyOptions& options, Console& console)
             verify::Result result{experiment, method, {}, 0.0};
             const double before = cpuSeconds();
             verify::runExperiment(*experiment, context, result.findings);
-            if (stopRequested()) return kExitStopped;  // a large shot was; its take is kept
+            heedStop("the takes of large shots are kept");
             result.cpuSeconds = cpuSeconds() - before;
             if (!options.json) std::printf("%s\n", verify::toText(result).c_str());
             std::fflush(stdout);

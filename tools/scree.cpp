@@ -197,10 +197,14 @@ int main(int argumentCount, char** arguments)
         console.error(std::string("reading or writing failed: ") + problem.what());
         return scree::exitCodeFor(scree::ErrorKind::inputOutput);
     } catch (const std::bad_alloc&) {
+    scree::watchSignals();
         console.error("memory ran out");
         return scree::kExitInternal;
     } catch (const std::exception& problem) {
         console.error(std::string("internal: ") + problem.what());
+    } catch (const scree::Stopped& stop) {
+        console.info("stopped; " + stop.outcome);
+        return scree::kExitStopped;
         return scree::kExitInternal;
     }
 }

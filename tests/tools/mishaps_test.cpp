@@ -1,0 +1,100 @@
+// What the program says and leaves when it is used in haste: stopped, pointed at the wrong thing,
+// told to write over its own files.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "io/file_bytes.h"
+#include "io/take.h"
+#include "render/png_writer.h"
+#include "tests/support/program.h"
+#include "tests/support/small_shot.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::Program;
+using test::runScree;
+using test::TemporaryFolder;
+
+class MishapsTest : public testing::Test {
+protected:
+    std::string file(const std::string& name) const { return folder / name; }
+
+    /// A shot of one block above a ground, as a file.
+    std::string shot(const std::string& name, const std::string& frames = "1001-1005",
+                     const std::string& more = "")
+    {
+        const std::string path = file(name + ".toml");
+        std::ofstream(path) << test::shotTextOf(
+            {.name = name, .frames = frames},
+            test::bodyText("block", "position = [0, 0.6, 0]") + more);
+        return path;
+    }
+
+    std::string take(const std::string& name, const std::string& frames = "1001-1005",
+                     const std::string& more = "")
+    {
+        const Outcome outcome = runScree({"sim", shot(name, frames, more), "-o", file(name), "-q"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return file(name);
+    }
+
+    nlohmann::json info(const std::string& path)
+    {
+        return nlohmann::json::parse(runScree({"info", path, "--json"}).out);
+    }
+
+    TemporaryFolder folder;
+};
+
+bool says(const Outcome& outcome, const std::string& words)
+{
+    return outcome.err.find(words) != std::string::npos;
+}
+
+TEST_F(MishapsTest, WhatReadsOrJudgesStopsWith75)
+{
+    const std::string a = take("a", "1001-9000");
+    const std::vector<std::vector<std::string>> commands = {
+        {"diff", a, a}, {"info", a}, {"verify", "E7", "-o", file("out.html")}};
+    for (const std::vector<std::string>& words : commands) {
+        Program program(words);
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));
+        program.signal(SIGTERM);
+        const Outcome stopped = program.wait();
+        EXPECT_EQ(stopped.code, 75) << words[0] << ": " << stopped.err;
+        EXPECT_TRUE(says(stopped, "stopped")) << stopped.err;
+    }
+    EXPECT_FALSE(fs::exists(file("out.html")));
+}
+
+TEST_F(MishapsTest, AHangUpThatIsIgnoredStaysIgnored)
+{
+    Program program({"sim", shot("long", "1001-9000"), "-o", file("long"), "-q"},
+                    [] { ::signal(SIGHUP, SIG_IGN); });
+    const fs::path first = TakePaths{file("long")}.frame(1001);
+    for (int i = 0; i < 20000 && !fs::exists(first); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    program.signal(SIGHUP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const int framesSoon = static_cast<int>(listFrames({file("long")}).size());
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_GT(static_cast<int>(listFrames({file("long")}).size()), framesSoon);
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.wait().code, 75);
+}
+
+}  // namespace
+}  // namespace scree
