@@ -96,5 +96,30 @@ TEST_F(MishapsTest, AHangUpThatIsIgnoredStaysIgnored)
     EXPECT_EQ(program.wait().code, 75);
 }
 
+TEST_F(MishapsTest, APipeInPlaceOfAFileIsRefusedAtOnce)
+{
+    ::mkfifo(file("pipe.toml").c_str(), 0600);
+    ::mkfifo(file("pipe.obj").c_str(), 0600);
+    const Outcome asShot = runScree({"check", file("pipe.toml")});
+    EXPECT_EQ(asShot.code, 66);
+    EXPECT_TRUE(says(asShot, "pipe.toml' cannot be reached: it is a pipe")) << asShot.err;
+    const std::string mesh = "[shape.bone]\nfile = \"pipe.obj\"\n";
+    const Outcome asMesh =
+        runScree({"check", shot("m", "1001-1002", mesh + test::bodyText("b", "", "bone"))});
+    EXPECT_EQ(asMesh.code, 66);
+    EXPECT_TRUE(says(asMesh, ".toml:") && says(asMesh, "it is a pipe")) << asMesh.err;
+    fs::create_directory(file("take"));
+    ::mkfifo(file("take/take.json").c_str(), 0600);
+    EXPECT_EQ(runScree({"info", file("take")}).code, 66);
+}
+
+TEST_F(MishapsTest, AFolderWithoutAShotIsAMissingInput)
+{
+    fs::create_directory(file("empty"));
+    const Outcome outcome = runScree({"check", file("empty")});
+    EXPECT_EQ(outcome.code, 66);
+    EXPECT_TRUE(says(outcome, "is a folder without a shot.toml")) << outcome.err;
+}
+
 }  // namespace
 }  // namespace scree
