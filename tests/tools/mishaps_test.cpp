@@ -121,5 +121,19 @@ TEST_F(MishapsTest, AFolderWithoutAShotIsAMissingInput)
     EXPECT_TRUE(says(outcome, "is a folder without a shot.toml")) << outcome.err;
 }
 
+TEST_F(MishapsTest, InfoCallsATakeWithDamagedFramesUnfinishedAndNamesThem)
+{
+    const std::string whole = take("t");
+    EXPECT_TRUE(info(whole).at("finished"));
+    EXPECT_EQ(info(whole).at("damaged_frames"), "");
+    fs::resize_file(TakePaths{whole}.frame(1002), 0);
+    fs::resize_file(TakePaths{whole}.frame(1004), 0);
+    EXPECT_FALSE(info(whole).at("finished"));
+    EXPECT_EQ(info(whole).at("damaged_frames"), "1002-1004x2");
+    const Outcome text = runScree({"info", whole});
+    EXPECT_NE(text.out.find("unfinished"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("frame.001002.scree"), std::string::npos) << text.out;
+}
+
 }  // namespace
 }  // namespace scree
