@@ -299,6 +299,7 @@ void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
                     name + " was made from another shot: the resolved shot has hash " +
                         toHex(shotHash_) + ", the take's is " + toHex(info.shotHash) +
                         ". Compare `scree check SHOT --resolved` with \"shot\" in take.json, or "
+    restoreBodies(now, info);
                         "write to another folder with -o");
     for (std::size_t i = 0; i < std::min(info.inputs.size(), now.inputs.size()); ++i)
         if (info.inputs[i].hash != now.inputs[i].hash)
@@ -333,6 +334,22 @@ void TakeWriter::findWholeFrames(const World& world)
                             "is of another take");
             wholeFrames_.insert(frame);
         } catch (const Error& problem) {
+/// Of the same shot, so its bodies are known: a list that lost some would be read with frames that
+/// hold all of them.
+void TakeWriter::restoreBodies(const TakeInfo& now, TakeInfo& info)
+{
+    const auto isSame = [](const TakeBody& a, const TakeBody& b) {
+        return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
+               a.material == b.material && a.kind == b.kind;
+    };
+    if (std::ranges::equal(info.bodies, now.bodies, isSame)) return;
+    info.bodies = now.bodies;
+    info.shapes = now.shapes;
+    writeFileBytes(paths_.info(), encodeTakeInfo(info));
+    notices_.push_back("\"" + paths_.info().string() +
+                       "\" named other bodies than its shot has; the list is put right");
+}
+
             notices_.push_back(std::string(problem.what()) + "; this frame is simulated again");
         }
     }
@@ -420,6 +437,8 @@ void TakeWriter::writeFrame(const World& world, const FrameStats& stats,
                             const std::optional<StepSeen>& lastStep)
 {
     FrameState state = captureState(shot_, world, between);
+        std::error_code code;
+        if (problem.kind() == ErrorKind::inputOutput) fs::remove(paths_.checkpoint(), code);
     state.lastStep = lastStep;
     SCREE_CHECK(state.scene.frame == stats.frame && world.clock.subStep == 0,
                 "a frame is written at its boundary");

@@ -115,6 +115,7 @@ private:
     void completeBranch(const TakeInfo& info);
     void copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing);
     void findCheckpoint(const World& world);
+    void restoreBodies(const TakeInfo& now, TakeInfo& info);
     void removeTake(bool hasInfo);
     void removeTemporaries() const;
     void appendStats(const FrameStats& stats, const World& world);
