@@ -60,9 +60,8 @@ std::map<std::string, ShapeUse> collectUses(const World& world)
         if (!use.shape) use.report = reportShape(shape);
         use.shape = &shape;
         ++use.bodies;
-        const BodyMass& weight = world.massWhenBorn(body);
-        if (!weight.isMovable()) continue;
-        const double mass = 1.0 / weight.inverseMass;
+        const double mass = world.massWhenFree(body);
+        if (mass == 0.0) continue;
         use.lightest = use.lightest == 0.0 ? mass : std::min(use.lightest, mass);
         use.heaviest = std::max(use.heaviest, mass);
     }
@@ -74,7 +73,7 @@ ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
     ShotReport report;
     report.bodies = world.bodyCount();
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
-        report.movable += world.massWhenBorn(body).isMovable();
+        report.movable += world.massWhenFree(body) > 0.0;
     }
     report.shapes = collectUses(world);
     report.repairs = repairsOf(world);

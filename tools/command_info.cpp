@@ -46,8 +46,7 @@ TakeSummary summarize(const TakeReader& take)
                                        take.info().lastFrame - take.info().firstFrame + 1;
     std::error_code ignored;
     summary.hasCheckpoint = std::filesystem::exists(take.paths().checkpoint(), ignored);
-    for (const TakeBody& body : take.info().bodies)
-        summary.movable += body.kind == BodyKind::dynamic;
+    for (const TakeBody& body : take.info().bodies) summary.movable += body.mass > 0.0;
     std::set<int> untold(summary.frames.begin(), summary.frames.end());
     for (const FrameSummary& frame : take.stats()) {
         untold.erase(frame.frame);
@@ -87,10 +86,10 @@ void printText(const TakeReader& take, const TakeSummary& summary)
                 info.zUp ? "+z" : "+y");
     std::printf("take       %s: %s%s\n", summary.isFinished ? "finished" : "unfinished",
                 summary.frames.empty() ? "no frames" : describeFrames(summary.frames).c_str(),
+                summary.hasCheckpoint ? " and a checkpoint" : "");
     if (!summary.damaged.empty())
         std::printf("damaged    %s: %s; scree sim --resume simulates them again\n",
                     describeFrames(summary.damaged).c_str(), summary.damage.c_str());
-                summary.hasCheckpoint ? " and a checkpoint" : "");
     if (summary.untold > 0)
         std::printf("figures    missing for %zu of %zu frames: stats.jsonl does not tell of them\n",
                     summary.untold, summary.frames.size());
@@ -116,8 +115,8 @@ void printJson(const TakeReader& take, const TakeSummary& summary)
         {"shapes", info.shapes.size()},
         {"frames", describeFrames(summary.frames)},
         {"frame_count", summary.frames.size()},
-        {"damaged_frames", describeFrames(summary.damaged)},
         {"finished", summary.isFinished},
+        {"damaged_frames", describeFrames(summary.damaged)},
         {"checkpoint", summary.hasCheckpoint},
         {"frames_without_figures", summary.untold},
         {"wall_s", summary.wallSeconds},

@@ -135,5 +135,16 @@ TEST_F(MishapsTest, InfoCallsATakeWithDamagedFramesUnfinishedAndNamesThem)
     EXPECT_NE(text.out.find("frame.001002.scree"), std::string::npos) << text.out;
 }
 
+TEST_F(MishapsTest, ABodyThatIsReleasedCountsAmongTheMovable)
+{
+    const std::string thrown =
+        "[[body]]\nname = \"thrown\"\nshape = \"block\"\nmaterial = \"wood\"\nmotion = \"keyed\"\n"
+        "keys = [{ frame = 1001, position = [3, 2, 0] }, { frame = 1003, position = [3, 3, 0] }]\n";
+    const std::string path = take("t", "1001-1005", thrown + "release = 1003\n");
+    EXPECT_EQ(info(path).at("movable_bodies"), 2);
+    EXPECT_NE(runScree({"check", file("t.toml")}).out.find("2 of them movable"), std::string::npos);
+    EXPECT_EQ(info(take("keyed", "1001-1005", thrown)).at("movable_bodies"), 1);
+}
+
 }  // namespace
 }  // namespace scree
