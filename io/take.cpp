@@ -138,6 +138,23 @@ std::vector<int> listFrames(const TakePaths& paths)
     std::error_code code;
     for (const fs::directory_entry& entry : fs::directory_iterator(paths.frames(), code))
         if (const auto frame = frameNumber(entry.path().filename().string()))
+void refuseTakeFile(const fs::path& output)
+{
+    std::error_code code;
+    const fs::path file = fs::weakly_canonical(output, code);
+    if (code) return;
+    const fs::path folder = file.parent_path();
+    const TakePaths here{folder}, above{folder.parent_path()};
+    const bool isOfTake =
+        (isThere(here.info()) &&
+         (file == here.info() || file == here.stats() || file == here.checkpoint())) ||
+        (isThere(above.info()) && (folder == above.frames() || folder == above.shapes()));
+    if (isOfTake)
+        throw Error(ErrorKind::cannotCreate, "cannot write \"" + output.string() +
+                                                 "\": it belongs to the take itself, which only "
+                                                 "scree sim writes");
+}
+
             frames.push_back(*frame);
     std::sort(frames.begin(), frames.end());
     return frames;

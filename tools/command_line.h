@@ -62,3 +62,6 @@ void requirePngName(const std::string& name);
 std::string describeDuration(double seconds);
 
 }  // namespace scree
+/// Throws Error{usage} when the name of a page for a browser has an ending that says otherwise.
+void requirePageName(const std::string& name);
+

@@ -17,14 +17,15 @@
 #include "io/frame_writer.h"
 #include "io/pose_json.h"
 #include "io/shot_parser.h"
+#include "io/take.h"
 #include "tools/broken_frame.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/take_export.h"
 #include "tools/stoppable_fields.h"
+#include "tools/take_export.h"
 
 namespace scree {
 namespace {
@@ -108,7 +109,6 @@ public:
 
     int run()
     {
-        watchSignals();
         const bool isAtRest = simulate();
         heedStop();
         write();
@@ -239,6 +239,7 @@ Command addSettleCommand(CLI::App& program)
         "Example:\n  scree settle shots/rings_100.toml -o rings.json");
     return {command, [options](Console& console) {
                 requirePoseFormat(options->output);
+                refuseTakeFile(options->output);
                 return Settling(*options, console).run();
             }};
 }

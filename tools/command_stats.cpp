@@ -39,6 +39,7 @@ std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count)
 
 int runStats(const StatsOptions& options)
 {
+    requirePageName(options.output);
     setThreadCount(threadsToUse(std::nullopt));
     const TakeReader take(options.take);
     if (take.frames().empty())

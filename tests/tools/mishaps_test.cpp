@@ -146,5 +146,38 @@ TEST_F(MishapsTest, ABodyThatIsReleasedCountsAmongTheMovable)
     EXPECT_EQ(info(take("keyed", "1001-1005", thrown)).at("movable_bodies"), 1);
 }
 
+TEST_F(MishapsTest, NothingIsWrittenOverTheFilesOfATake)
+{
+    const std::string path = take("t");
+    const fs::path info = TakePaths{path}.info();
+    const std::string before = readFileBytes(info);
+    const std::vector<std::vector<std::string>> commands = {
+        {"settle", file("t.toml"), "-o", info},
+        {"settle", file("t.toml"), "-o", TakePaths{path}.shape("block")},
+        {"stats", path, "--pictures", "0", "-o", TakePaths{path}.frames() / "page"},
+        {"verify", "E6", "-o", TakePaths{path}.shapes() / "page.html"}};
+    for (const std::vector<std::string>& words : commands) {
+        const Outcome refused = runScree(words);
+        EXPECT_EQ(refused.code, 73) << words[0] << ": " << refused.err;
+        EXPECT_TRUE(says(refused, "belongs to the take")) << refused.err;
+    }
+    EXPECT_EQ(readFileBytes(info), before);
+    EXPECT_EQ(runScree({"stats", path, "--pictures", "0"}).code, 0);
+    EXPECT_EQ(runScree({"settle", file("t.toml"), "-o", path + "/pose.json"}).code, 0);
+}
+
+TEST_F(MishapsTest, APageIsNotGivenTheEndingOfSomethingElse)
+{
+    const std::string path = take("t");
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"stats", path, "-o", file("page.txt")}, {"verify", "E6", "-o", file("page.txt")}}) {
+        const Outcome refused = runScree(words);
+        EXPECT_EQ(refused.code, 64);
+        EXPECT_TRUE(says(refused, ".html")) << refused.err;
+    }
+    EXPECT_FALSE(fs::exists(file("page.txt")));
+    EXPECT_EQ(runScree({"stats", path, "--pictures", "0", "-o", file("page.HTM")}).code, 0);
+}
+
 }  // namespace
 }  // namespace scree
