@@ -95,12 +95,24 @@ std::string unknownWord(const CLI::App& program, const std::vector<std::string>&
 }
 
 /// An empty word is a shell variable that was never set: taken for "not given" it would simulate
+/// "-o=x" is the value "=x" to the parser of options, and a file of that name to whoever writes it.
+void refuseShortEquals(const std::string& word)
+{
+    const bool isShort = word.size() >= 3 && word[0] == '-' && word[1] != '-' && word[2] == '=';
+    if (!isShort) return;
+    const std::string option = word.substr(0, 2), value = word.substr(3);
+    throw Error(ErrorKind::usage, "\"" + word + "\": the value of " + option +
+                                      " comes after a space" +
+                                      (value.empty() ? "" : ": " + option + " " + value));
+}
+
 /// all frames, or write to another place, without a word.
 void refuseEmptyWords(const std::vector<std::string>& words)
 {
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
         const bool isOption = word.starts_with("--") && word.find('=') == word.size() - 1;
+        refuseShortEquals(word);
         if (!word.empty() && !isOption) continue;
         const bool followsOption = word.empty() && i > 0 && words[i - 1].starts_with("-");
         const std::string where = isOption        ? word.substr(0, word.size() - 1) + " has"

@@ -179,5 +179,15 @@ TEST_F(MishapsTest, APageIsNotGivenTheEndingOfSomethingElse)
     EXPECT_EQ(runScree({"stats", path, "--pictures", "0", "-o", file("page.HTM")}).code, 0);
 }
 
+TEST_F(MishapsTest, AShortOptionWithAnEqualsSignIsRefused)
+{
+    const std::string path = take("t");
+    for (const std::string value : {"", "out.abc"}) {
+        const Outcome refused = runScree({"export", path, "-o=" + value});
+        EXPECT_EQ(refused.code, 64);
+        EXPECT_TRUE(says(refused, "comes after a space")) << refused.err;
+    }
+}
+
 }  // namespace
 }  // namespace scree
