@@ -189,5 +189,23 @@ TEST_F(MishapsTest, AShortOptionWithAnEqualsSignIsRefused)
     }
 }
 
+TEST_F(MishapsTest, AnEmitterInsideWhatIsStaticIsWarnedOf)
+{
+    const auto emitter = [](const std::string& heights) {
+        return "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 3\n"
+               "frames = \"1001-1004\"\nbox = { min = [8, " +
+               heights + ", 8] }\n";
+    };
+    const Outcome under =
+        runScree({"check", shot("under", "1001-1005", emitter("-9, 8], max = [9, -5"))});
+    EXPECT_EQ(under.code, 0);
+    EXPECT_NE(under.out.find("3 of 3 emitted bodies can never come"), std::string::npos)
+        << under.out;
+    EXPECT_NE(under.out.find("'ground'"), std::string::npos) << under.out;
+    const Outcome above =
+        runScree({"check", shot("above", "1001-1005", emitter("5, 8], max = [9, 9"))});
+    EXPECT_EQ(above.out.find("never come"), std::string::npos) << above.out;
+}
+
 }  // namespace
 }  // namespace scree
