@@ -207,5 +207,19 @@ TEST_F(MishapsTest, AnEmitterInsideWhatIsStaticIsWarnedOf)
     EXPECT_EQ(above.out.find("never come"), std::string::npos) << above.out;
 }
 
+TEST_F(MishapsTest, WhatNoCacheCanHoldIsNamedAndNothingIsWritten)
+{
+    // Far away and unmoved, so that no step is broken by it.
+    const std::string path =
+        take("far", "1001-1002",
+             test::bodyText("far", "motion = \"static\"\nposition = [3.5e38, 0, 0]"));
+    for (const char* name : {"x.abc", "x.usda", "x.instances.usda", "x.glb", "x.####.ply"}) {
+        const Outcome refused = runScree({"export", path, "-o", file(name)});
+        EXPECT_EQ(refused.code, 79) << name << ": " << refused.err;
+        EXPECT_TRUE(says(refused, "frame 1001: pose or velocity of \"far\"")) << refused.err;
+        EXPECT_FALSE(fs::exists(file(name)));
+    }
+}
+
 }  // namespace
 }  // namespace scree
