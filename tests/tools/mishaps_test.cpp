@@ -221,5 +221,22 @@ TEST_F(MishapsTest, WhatNoCacheCanHoldIsNamedAndNothingIsWritten)
     }
 }
 
+TEST_F(MishapsTest, PicturesBelowZeroBecomeAFilmInTheirOrder)
+{
+    for (int frame = -12; frame <= 3; ++frame) {
+        char name[32];
+        std::snprintf(name, sizeof name, "p.%04d.png", frame);
+        writePng(file(name), Image(16, 16));
+        if (frame % 5 == -2) fs::copy_file(file(name), file("q" + std::string(name + 1)));
+    }
+    for (const std::string letter : {"p", "q"}) {
+        const Outcome made =
+            runScree({"movie", file(letter + ".####.png"), "-o", file(letter + ".mp4")});
+        EXPECT_EQ(made.code, 0) << made.err;
+        EXPECT_LT(made.err.find(".-012.png"), made.err.find(".-007.png")) << made.err;
+        EXPECT_GT(fs::file_size(file(letter + ".mp4")), 500u);
+    }
+}
+
 }  // namespace
 }  // namespace scree
