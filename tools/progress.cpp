@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "io/nearest_word.h"
 #include "tools/command_line.h"
 
 namespace scree {
@@ -52,8 +53,9 @@ ProgressMode parseProgressMode(const std::string& word)
     if (word == "alf") return ProgressMode::alf;
     if (word == "json") return ProgressMode::json;
     if (word == "none") return ProgressMode::none;
-    throw Error(ErrorKind::usage,
-                "--progress is auto, tty, alf, json or none, not \"" + word + "\"");
+    throw Error(ErrorKind::usage, "--progress is auto, tty, alf, json or none, not \"" + word +
+                                      "\"" +
+                                      didYouMean(word, {"auto", "tty", "alf", "json", "none"}));
 }
 
 Progress::Progress(Console& console, ProgressMode mode, const std::string& what, int frameCount,

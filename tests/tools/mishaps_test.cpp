@@ -238,5 +238,21 @@ TEST_F(MishapsTest, PicturesBelowZeroBecomeAFilmInTheirOrder)
     }
 }
 
+TEST_F(MishapsTest, SlipsInTheValuesOfOptionsAreAnsweredWithTheNearestWord)
+{
+    const std::string camera = "[[camera]]\nname = \"main\"\neye = [3, 3, 3]\ntarget = [0, 0, 0]\n";
+    const std::string path = take("t", "1001-1002", camera);
+    const std::vector<std::pair<std::vector<std::string>, std::string>> slips = {
+        {{"render", path, "--engine", "embre"}, "embree"},
+        {{"render", path, "--camera", "mian"}, "main"},
+        {{"render", path, "--progress", "tyt"}, "tty"},
+        {{"--log-format", "jsn", "info", path}, "json"}};
+    for (const auto& [words, meant] : slips) {
+        const Outcome refused = runScree(words);
+        EXPECT_EQ(refused.code, 64);
+        EXPECT_TRUE(says(refused, "did you mean '" + meant + "'?")) << refused.err;
+    }
+}
+
 }  // namespace
 }  // namespace scree
