@@ -107,10 +107,16 @@ void appendLine(const fs::path& path, const std::string& line)
                     "cannot create \"" + path.string() + "\": " + std::strerror(errno));
     const off_t before = ::lseek(descriptor, 0, SEEK_END);
     const std::string bytes = line + "\n";
-    errno = 0;
-    const bool written =
-        ::write(descriptor, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
-    int reason = errno == 0 ? ENOSPC : errno;
+    // A call that writes a part does not say why: the next one does.
+    std::string_view rest = bytes;
+    int reason = 0;
+    while (!rest.empty() && reason == 0) {
+        const ssize_t count = ::write(descriptor, rest.data(), rest.size());
+        if (count > 0) rest.remove_prefix(static_cast<std::size_t>(count));
+        if (count == 0) reason = ENOSPC;
+        if (count < 0 && errno != EINTR) reason = errno;
+    }
+    const bool written = rest.empty();
     if (!written && ::ftruncate(descriptor, before) != 0) {
         // The cut line is skipped by readers and dropped by the next resume.
     }
@@ -132,12 +138,6 @@ fs::path TakePaths::frame(int frame) const
     return frames() / name;
 }
 
-std::vector<int> listFrames(const TakePaths& paths)
-{
-    std::vector<int> frames;
-    std::error_code code;
-    for (const fs::directory_entry& entry : fs::directory_iterator(paths.frames(), code))
-        if (const auto frame = frameNumber(entry.path().filename().string()))
 void refuseTakeFile(const fs::path& output)
 {
     std::error_code code;
@@ -155,6 +155,12 @@ void refuseTakeFile(const fs::path& output)
                                                  "scree sim writes");
 }
 
+std::vector<int> listFrames(const TakePaths& paths)
+{
+    std::vector<int> frames;
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(paths.frames(), code))
+        if (const auto frame = frameNumber(entry.path().filename().string()))
             frames.push_back(*frame);
     std::sort(frames.begin(), frames.end());
     return frames;
@@ -293,6 +299,7 @@ void TakeWriter::resume(const World& world, const TakeInfo& now,
     writeMissingShapes(world);
     createFolder(paths_.frames());
     findWholeFrames(world);
+    restoreBodies(now, info);
     // Statistics follow the frames: lines of frames that are gone or damaged go too.
     for (const FrameSummary& summary : readStats(paths_.stats()))
         if (hasFrame(summary.frame)) statsLines_[summary.frame] = summary.line;
@@ -316,7 +323,6 @@ void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
                     name + " was made from another shot: the resolved shot has hash " +
                         toHex(shotHash_) + ", the take's is " + toHex(info.shotHash) +
                         ". Compare `scree check SHOT --resolved` with \"shot\" in take.json, or "
-    restoreBodies(now, info);
                         "write to another folder with -o");
     for (std::size_t i = 0; i < std::min(info.inputs.size(), now.inputs.size()); ++i)
         if (info.inputs[i].hash != now.inputs[i].hash)
@@ -326,6 +332,22 @@ void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
     if (info.programVersion != now.programVersion)
         notices_.push_back(name + " was begun by scree " + info.programVersion + ", this is " +
                            now.programVersion + ": the bits may differ from an unbroken run");
+}
+
+/// Of the same shot, so its bodies are known: a list that lost some would be read with frames that
+/// hold all of them.
+void TakeWriter::restoreBodies(const TakeInfo& now, TakeInfo& info)
+{
+    const auto isSame = [](const TakeBody& a, const TakeBody& b) {
+        return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
+               a.material == b.material && a.kind == b.kind;
+    };
+    if (std::ranges::equal(info.bodies, now.bodies, isSame)) return;
+    info.bodies = now.bodies;
+    info.shapes = now.shapes;
+    writeFileBytes(paths_.info(), encodeTakeInfo(info));
+    notices_.push_back("\"" + paths_.info().string() +
+                       "\" named other bodies than its shot has; the list is put right");
 }
 
 void TakeWriter::writeMissingShapes(const World& world) const
@@ -351,22 +373,6 @@ void TakeWriter::findWholeFrames(const World& world)
                             "is of another take");
             wholeFrames_.insert(frame);
         } catch (const Error& problem) {
-/// Of the same shot, so its bodies are known: a list that lost some would be read with frames that
-/// hold all of them.
-void TakeWriter::restoreBodies(const TakeInfo& now, TakeInfo& info)
-{
-    const auto isSame = [](const TakeBody& a, const TakeBody& b) {
-        return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
-               a.material == b.material && a.kind == b.kind;
-    };
-    if (std::ranges::equal(info.bodies, now.bodies, isSame)) return;
-    info.bodies = now.bodies;
-    info.shapes = now.shapes;
-    writeFileBytes(paths_.info(), encodeTakeInfo(info));
-    notices_.push_back("\"" + paths_.info().string() +
-                       "\" named other bodies than its shot has; the list is put right");
-}
-
             notices_.push_back(std::string(problem.what()) + "; this frame is simulated again");
         }
     }
@@ -431,6 +437,8 @@ void TakeWriter::findCheckpoint(const World& world)
         else
             fs::remove(paths_.checkpoint());
     } catch (const Error& problem) {
+        std::error_code code;
+        if (problem.kind() == ErrorKind::inputOutput) fs::remove(paths_.checkpoint(), code);
         notices_.push_back(std::string(problem.what()) + "; going on from the last whole frame");
     }
 }
@@ -454,8 +462,6 @@ void TakeWriter::writeFrame(const World& world, const FrameStats& stats,
                             const std::optional<StepSeen>& lastStep)
 {
     FrameState state = captureState(shot_, world, between);
-        std::error_code code;
-        if (problem.kind() == ErrorKind::inputOutput) fs::remove(paths_.checkpoint(), code);
     state.lastStep = lastStep;
     SCREE_CHECK(state.scene.frame == stats.frame && world.clock.subStep == 0,
                 "a frame is written at its boundary");

@@ -254,5 +254,15 @@ TEST_F(MishapsTest, SlipsInTheValuesOfOptionsAreAnsweredWithTheNearestWord)
     }
 }
 
+TEST_F(MishapsTest, ALimitOnFilesIsNotCalledAFullDisk)
+{
+    const Outcome full = Program({"sim", shot("t", "1001-1040"), "-o", file("t"), "-q"}, [] {
+                             const rlimit limit = {12000, 12000};
+                             ::setrlimit(RLIMIT_FSIZE, &limit);
+                         }).wait();
+    EXPECT_EQ(full.code, 74);
+    EXPECT_TRUE(says(full, "stats.jsonl\" failed: File too large")) << full.err;
+}
+
 }  // namespace
 }  // namespace scree
