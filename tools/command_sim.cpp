@@ -179,6 +179,8 @@ private:
         FrameStats stats;
         stats.frame = shot_.firstFrame;
         stats.report = reportStart(world_, shot_.settings.gravity);
+        lookAtPoses(shot_.firstFrame, stats.report);
+        stats.report.sum.deepestBeforePushOut = stats.report.sum.deepestAfterPushOut;
         take_->writeFrame(world_, stats);
     }
 
@@ -339,12 +341,14 @@ private:
         return true;
     }
 
-    /// Looks over the whole take, earlier sittings included. False when a frame broke the limit.
+    /// Looks over the whole take, earlier sittings included. False when a frame broke the limit;
+    /// how the first one overlaps is for start.overlap to judge.
     bool judgeOverlap()
     {
         std::vector<FrameSummary> broken;
         for (const FrameSummary& frame : take_->summaries())
-            if (frame.frame <= lastFrame_ && frame.overlapRatio > shot_.penetrationFail)
+            if (frame.frame > shot_.firstFrame && frame.frame <= lastFrame_ &&
+                frame.overlapRatio > shot_.penetrationFail)
                 broken.push_back(frame);
         if (broken.empty()) return true;
         std::stable_sort(broken.begin(), broken.end(), [](const auto& a, const auto& b) {

@@ -64,6 +64,7 @@ bool says(const Outcome& outcome, const std::string& words)
     return outcome.err.find(words) != std::string::npos;
 }
 
+// They ended with 143 and said nothing.
 TEST_F(MishapsTest, WhatReadsOrJudgesStopsWith75)
 {
     const std::string a = take("a", "1001-9000");
@@ -80,6 +81,7 @@ TEST_F(MishapsTest, WhatReadsOrJudgesStopsWith75)
     EXPECT_FALSE(fs::exists(file("out.html")));
 }
 
+// nohup and its like ignore it for the program, which then listened to it all the same.
 TEST_F(MishapsTest, AHangUpThatIsIgnoredStaysIgnored)
 {
     Program program({"sim", shot("long", "1001-9000"), "-o", file("long"), "-q"},
@@ -96,6 +98,7 @@ TEST_F(MishapsTest, AHangUpThatIsIgnoredStaysIgnored)
     EXPECT_EQ(program.wait().code, 75);
 }
 
+// Opening the pipe waited for a writer, and no signal was heard.
 TEST_F(MishapsTest, APipeInPlaceOfAFileIsRefusedAtOnce)
 {
     ::mkfifo(file("pipe.toml").c_str(), 0600);
@@ -121,6 +124,7 @@ TEST_F(MishapsTest, AFolderWithoutAShotIsAMissingInput)
     EXPECT_TRUE(says(outcome, "is a folder without a shot.toml")) << outcome.err;
 }
 
+// A take of empty files was called finished.
 TEST_F(MishapsTest, InfoCallsATakeWithDamagedFramesUnfinishedAndNamesThem)
 {
     const std::string whole = take("t");
@@ -135,6 +139,7 @@ TEST_F(MishapsTest, InfoCallsATakeWithDamagedFramesUnfinishedAndNamesThem)
     EXPECT_NE(text.out.find("frame.001002.scree"), std::string::npos) << text.out;
 }
 
+// Whoever was keyed and then released was awake, but not among the movable.
 TEST_F(MishapsTest, ABodyThatIsReleasedCountsAmongTheMovable)
 {
     const std::string thrown =
@@ -179,6 +184,7 @@ TEST_F(MishapsTest, APageIsNotGivenTheEndingOfSomethingElse)
     EXPECT_EQ(runScree({"stats", path, "--pictures", "0", "-o", file("page.HTM")}).code, 0);
 }
 
+// It made a file "=out.abc".
 TEST_F(MishapsTest, AShortOptionWithAnEqualsSignIsRefused)
 {
     const std::string path = take("t");
@@ -221,6 +227,7 @@ TEST_F(MishapsTest, WhatNoCacheCanHoldIsNamedAndNothingIsWritten)
     }
 }
 
+// ffmpeg's own error was all there was, and every n-th picture ran backwards.
 TEST_F(MishapsTest, PicturesBelowZeroBecomeAFilmInTheirOrder)
 {
     for (int frame = -12; frame <= 3; ++frame) {
@@ -254,6 +261,7 @@ TEST_F(MishapsTest, SlipsInTheValuesOfOptionsAreAnsweredWithTheNearestWord)
     }
 }
 
+// A file that may not grow was told as a disk without space.
 TEST_F(MishapsTest, ALimitOnFilesIsNotCalledAFullDisk)
 {
     const Outcome full = Program({"sim", shot("t", "1001-1040"), "-o", file("t"), "-q"}, [] {
@@ -262,6 +270,22 @@ TEST_F(MishapsTest, ALimitOnFilesIsNotCalledAFullDisk)
                          }).wait();
     EXPECT_EQ(full.code, 74);
     EXPECT_TRUE(says(full, "stats.jsonl\" failed: File too large")) << full.err;
+}
+
+TEST_F(MishapsTest, TheFirstLineOfTheFiguresTellsHowDeepTheStartOverlaps)
+{
+    const std::string overlapping =
+        "[start]\noverlap = \"warn\"\n" + test::bodyText("deep", "position = [3, 0.45, 0]");
+    const std::string path = take("t", "1001-1002", overlapping);
+    std::ifstream lines(TakePaths{path}.stats());
+    std::string first;
+    std::getline(lines, first);
+    const nlohmann::json overlap = nlohmann::json::parse(first).at("overlap");
+    EXPECT_NEAR(overlap.at("worst_ratio"), 0.05, 1e-6);
+    EXPECT_NEAR(overlap.at("after_push_out_m"), 0.05, 1e-6);
+    EXPECT_EQ(
+        overlap.at("bodies")[0].get<std::string>() + overlap.at("bodies")[1].get<std::string>(),
+        "grounddeep");
 }
 
 }  // namespace
