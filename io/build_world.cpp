@@ -242,8 +242,7 @@ SceneDescription describeScene(const Shot& shot, const World& world, double plan
         described.mesh = entry->second;
         described.material = world.materialOf(body).name;
         described.moves = world.info[i].kind != BodyKind::fixed;
-        const BodyMass& mass = world.massWhenBorn(body);
-        described.mass = mass.isMovable() ? 1.0 / mass.inverseMass : 0.0;
+        described.mass = world.massWhenFree(body);
         scene.bodies.push_back(described);
     }
     return scene;

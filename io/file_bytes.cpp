@@ -12,6 +12,8 @@ namespace scree {
 
 std::string readFileBytes(const std::filesystem::path& path)
 {
+    if (const std::string obstacle = obstacleTo(path); !obstacle.empty())
+        throw Error(ErrorKind::missingInput, {path.string(), 0, 0}, "cannot be read: " + obstacle);
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::error_code ignored;
@@ -27,7 +29,11 @@ std::string obstacleTo(const std::filesystem::path& path)
 {
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(path, code);
-    return std::filesystem::status_known(status) ? "" : code.message();
+    if (!std::filesystem::status_known(status)) return code.message();
+    const bool isUsual = !std::filesystem::exists(status) ||
+                         std::filesystem::is_regular_file(status) ||
+                         std::filesystem::is_directory(status);
+    return isUsual ? "" : "it is a pipe or a device, not a file";
 }
 
 void writeFileBytes(const std::filesystem::path& path, std::string_view bytes)

@@ -11,8 +11,9 @@ namespace scree {
 /// fails.
 std::string readFileBytes(const std::filesystem::path& path);
 
-/// Why the system does not tell whether anything stands under that name ("Permission denied", "File
-/// name too long"); empty when it does.
+/// Why nothing can be read under that name, whatever stands there: the system does not tell
+/// ("Permission denied", "File name too long"), or it is a pipe or a device, whose reader may wait
+/// for ever. Empty when there is a file, a folder or nothing.
 std::string obstacleTo(const std::filesystem::path& path);
 
 /// Through AtomicFile: complete or not at all.

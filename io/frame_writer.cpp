@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -75,6 +76,16 @@ void requireIdentifier(std::string_view what, const std::string& name)
                                          "\": names may hold letters, digits and _ only");
 }
 
+/// Most formats hold numbers in single precision, where what is larger becomes infinite, or a word
+/// that no reader takes for a number.
+template <class Derived>
+bool fits(const Eigen::MatrixBase<Derived>& numbers)
+{
+    return (numbers.array().abs() <= double{std::numeric_limits<float>::max()}).all();
+}
+constexpr const char* kMisfit =
+    "is not finite, or beyond 3.4e38, the largest number that a cache can hold";
+
 void requireMesh(const SceneMesh& mesh)
 {
     const bool cornersExist = mesh.triangles.size() == 0 ||
@@ -83,9 +94,9 @@ void requireMesh(const SceneMesh& mesh)
     SCREE_CHECK(cornersExist, "mesh " + mesh.name + ": a triangle names a point it does not have");
     SCREE_CHECK(mesh.cornerUvs.cols() == 0 || mesh.cornerUvs.cols() == mesh.triangles.size(),
                 "mesh " + mesh.name + ": texture coordinates for other corners than it has");
-    if (mesh.points.allFinite() && mesh.cornerUvs.allFinite()) return;
+    if (fits(mesh.points) && fits(mesh.cornerUvs)) return;
     throw Error(ErrorKind::badInput,
-                "cannot export the mesh \"" + mesh.name + "\": a point of it is not finite");
+                "cannot export the mesh \"" + mesh.name + "\": a point of it " + kMisfit);
 }
 
 void requireExportable(const SceneDescription& scene)
@@ -106,11 +117,11 @@ void requireExportable(const SceneDescription& scene)
     }
 }
 
-bool isFinite(const SceneFrame& frame, std::size_t body)
+bool fits(const SceneFrame& frame, std::size_t body)
 {
     const Pose& pose = frame.worldFromAsset[body];
-    return pose.position.allFinite() && pose.orientation.coeffs().allFinite() &&
-           frame.velocity[body].allFinite() && frame.angularVelocity[body].allFinite();
+    return fits(pose.position) && fits(pose.orientation.coeffs()) && fits(frame.velocity[body]) &&
+           fits(frame.angularVelocity[body]);
 }
 
 }  // namespace
@@ -148,10 +159,10 @@ void FrameWriter::write(const SceneFrame& frame)
                     frame.angularVelocity.size() == bodyCount,
                 "a frame must hold every body");
     for (std::size_t body = 0; body < bodyCount; ++body) {
-        if (isFinite(frame, body)) continue;
+        if (fits(frame, body)) continue;
         throw Error(ErrorKind::qualityLimit, "cannot export frame " + std::to_string(frame.frame) +
                                                  ": pose or velocity of \"" +
-                                                 scene_->bodies[body].name + "\" is not finite");
+                                                 scene_->bodies[body].name + "\" " + kMisfit);
     }
     writeFrame(frame);
     if (++nextSample_ < offsets_.size()) return;

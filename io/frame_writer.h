@@ -36,7 +36,8 @@ public:
 
     /// Frames come one after the other without gaps, samples of a frame in the order of the
     /// offsets.
-    /// Throws Error{qualityLimit} naming the first body whose pose or velocity is not finite.
+    /// Throws Error{qualityLimit} naming the first body whose pose or velocity is not finite, or
+    /// beyond what single precision holds.
     void write(const SceneFrame& frame);
 
     /// Throws Error{inputOutput} when the disk refuses, as write() may.

@@ -1,11 +1,19 @@
 #include "io/plane_mesh.h"
 
+#include <algorithm>
+
 namespace scree {
+namespace {
+
+/// No cache could hold a larger one: then the body that is so far away is to be named.
+constexpr double kLargestHalfWidth = 1e38;
+
+}  // namespace
 
 SceneMesh makePlaneMesh(const std::string& name, double halfWidth)
 {
     SceneMesh square{name, Points(3, 4), Triangles(3, 2)};
-    const double h = halfWidth;
+    const double h = std::min(halfWidth, kLargestHalfWidth);
     square.points << -h, -h, h, h,  //
         0, 0, 0, 0,                 //
         -h, h, h, -h;

@@ -139,7 +139,7 @@ private:
         ShotBody body;
         body.location = node.where;
         if (const ShotNode* name = node.find("name")) body.name = name->text;
-        if (!claim(node, body.name, ownerOfItem_)) return;
+        const bool hasOwnName = claim(node, body.name, ownerOfItem_);
         readReferences(node, body);
         if (const ShotNode* plane = node.find("plane")) readPlane(node, *plane, body);
         readMotion(node, body);
@@ -149,6 +149,7 @@ private:
 
         // A copy count that is wrong or too large is reported, and nothing is expanded.
         const std::vector<Pose> copies = readCopies(node);
+        if (!hasOwnName) return;
         const bool isSingle = !node.mentions("grid") && !node.mentions("poses");
         bool isNew = true;
         for (std::size_t i = 0; i < copies.size() && isNew; ++i) {

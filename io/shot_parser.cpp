@@ -259,7 +259,9 @@ void requireShotFile(const std::string& path, const SourceLocation& where = {})
     if (!obstacle.empty()) refuse(ErrorKind::missingInput, "cannot be reached: " + obstacle);
     if (!std::filesystem::exists(path)) refuse(ErrorKind::missingInput, "does not exist");
     if (std::filesystem::is_directory(path)) {
-        refuse(ErrorKind::badInput, "is a folder without a shot.toml: name the .toml file in it");
+        // As a base it is what a shot says, and says wrongly.
+        refuse(where.file.empty() ? ErrorKind::missingInput : ErrorKind::badInput,
+               "is a folder without a shot.toml: name the .toml file in it");
     }
 }
 

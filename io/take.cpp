@@ -107,10 +107,16 @@ void appendLine(const fs::path& path, const std::string& line)
                     "cannot create \"" + path.string() + "\": " + std::strerror(errno));
     const off_t before = ::lseek(descriptor, 0, SEEK_END);
     const std::string bytes = line + "\n";
-    errno = 0;
-    const bool written =
-        ::write(descriptor, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
-    int reason = errno == 0 ? ENOSPC : errno;
+    // A call that writes a part does not say why: the next one does.
+    std::string_view rest = bytes;
+    int reason = 0;
+    while (!rest.empty() && reason == 0) {
+        const ssize_t count = ::write(descriptor, rest.data(), rest.size());
+        if (count > 0) rest.remove_prefix(static_cast<std::size_t>(count));
+        if (count == 0) reason = ENOSPC;
+        if (count < 0 && errno != EINTR) reason = errno;
+    }
+    const bool written = rest.empty();
     if (!written && ::ftruncate(descriptor, before) != 0) {
         // The cut line is skipped by readers and dropped by the next resume.
     }
@@ -130,6 +136,23 @@ fs::path TakePaths::frame(int frame) const
     char name[32];
     std::snprintf(name, sizeof name, "frame.%06d.scree", frame);
     return frames() / name;
+}
+
+void refuseTakeFile(const fs::path& output)
+{
+    std::error_code code;
+    const fs::path file = fs::weakly_canonical(output, code);
+    if (code) return;
+    const fs::path folder = file.parent_path();
+    const TakePaths here{folder}, above{folder.parent_path()};
+    const bool isOfTake =
+        (isThere(here.info()) &&
+         (file == here.info() || file == here.stats() || file == here.checkpoint())) ||
+        (isThere(above.info()) && (folder == above.frames() || folder == above.shapes()));
+    if (isOfTake)
+        throw Error(ErrorKind::cannotCreate, "cannot write \"" + output.string() +
+                                                 "\": it belongs to the take itself, which only "
+                                                 "scree sim writes");
 }
 
 std::vector<int> listFrames(const TakePaths& paths)
@@ -276,6 +299,7 @@ void TakeWriter::resume(const World& world, const TakeInfo& now,
     writeMissingShapes(world);
     createFolder(paths_.frames());
     findWholeFrames(world);
+    restoreBodies(now, info);
     // Statistics follow the frames: lines of frames that are gone or damaged go too.
     for (const FrameSummary& summary : readStats(paths_.stats()))
         if (hasFrame(summary.frame)) statsLines_[summary.frame] = summary.line;
@@ -308,6 +332,22 @@ void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
     if (info.programVersion != now.programVersion)
         notices_.push_back(name + " was begun by scree " + info.programVersion + ", this is " +
                            now.programVersion + ": the bits may differ from an unbroken run");
+}
+
+/// Of the same shot, so its bodies are known: a list that lost some would be read with frames that
+/// hold all of them.
+void TakeWriter::restoreBodies(const TakeInfo& now, TakeInfo& info)
+{
+    const auto isSame = [](const TakeBody& a, const TakeBody& b) {
+        return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
+               a.material == b.material && a.kind == b.kind;
+    };
+    if (std::ranges::equal(info.bodies, now.bodies, isSame)) return;
+    info.bodies = now.bodies;
+    info.shapes = now.shapes;
+    writeFileBytes(paths_.info(), encodeTakeInfo(info));
+    notices_.push_back("\"" + paths_.info().string() +
+                       "\" named other bodies than its shot has; the list is put right");
 }
 
 void TakeWriter::writeMissingShapes(const World& world) const
@@ -397,6 +437,8 @@ void TakeWriter::findCheckpoint(const World& world)
         else
             fs::remove(paths_.checkpoint());
     } catch (const Error& problem) {
+        std::error_code code;
+        if (problem.kind() == ErrorKind::inputOutput) fs::remove(paths_.checkpoint(), code);
         notices_.push_back(std::string(problem.what()) + "; going on from the last whole frame");
     }
 }

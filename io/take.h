@@ -38,6 +38,10 @@ struct TakePaths {
     std::filesystem::path frame(int frame) const;
 };
 
+/// Throws Error{cannotCreate} when `output` is one of the files that the take around it consists
+/// of: what is made from a take must not replace it.
+void refuseTakeFile(const std::filesystem::path& output);
+
 /// Numbers of the frame files that stand in the take, whole or not, ascending.
 std::vector<int> listFrames(const TakePaths& paths);
 
@@ -111,6 +115,7 @@ private:
     void resume(const World& world, const TakeInfo& now, const std::optional<TakeBranch>& branch);
     void checkSameShot(const TakeInfo& info, const TakeInfo& now);
     void findWholeFrames(const World& world);
+    void restoreBodies(const TakeInfo& now, TakeInfo& info);
     void writeMissingShapes(const World& world) const;
     void completeBranch(const TakeInfo& info);
     void copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing);

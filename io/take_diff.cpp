@@ -179,7 +179,8 @@ void noteSettings(const TakeReader& a, const TakeReader& b, TakeComparison& comp
 
 }  // namespace
 
-TakeComparison compareTakes(const TakeReader& a, const TakeReader& b)
+TakeComparison compareTakes(const TakeReader& a, const TakeReader& b,
+                            const std::function<void()>& beforeFrame)
 {
     requireSameBodies(a.info(), b.info());
     TakeComparison comparison;
@@ -188,6 +189,7 @@ TakeComparison compareTakes(const TakeReader& a, const TakeReader& b)
     std::set_intersection(a.frames().begin(), a.frames().end(), b.frames().begin(),
                           b.frames().end(), std::back_inserter(frames));
     for (const int frame : frames) {
+        if (beforeFrame) beforeFrame();
         const FrameState stateA = readFrameFile(a.paths().frame(frame), frame);
         const FrameState stateB = readFrameFile(b.paths().frame(frame), frame);
         const std::size_t count = a.info().bodies.size();

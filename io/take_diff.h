@@ -1,6 +1,7 @@
 // Where two takes part: the first frame, sample and body that differ.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,9 @@ struct TakeComparison {
 };
 
 /// Compares the state of every frame that both takes hold, in order, up to the first that differs.
-/// Throws Error{badInput} when their bodies are not the same.
-TakeComparison compareTakes(const TakeReader& a, const TakeReader& b);
+/// `beforeFrame` is called before each and may throw to break off. Throws Error{badInput} when
+/// their bodies are not the same.
+TakeComparison compareTakes(const TakeReader& a, const TakeReader& b,
+                            const std::function<void()>& beforeFrame = {});
 
 }  // namespace scree

@@ -116,6 +116,20 @@ std::vector<SceneFrame> TakeReader::readSamples(int frame) const
     return samples;
 }
 
+std::map<int, std::string> TakeReader::damagedFrames(const std::function<void()>& beforeFrame) const
+{
+    std::map<int, std::string> damaged;
+    for (const int frame : frames_) {
+        if (beforeFrame) beforeFrame();
+        try {
+            readState(frame);
+        } catch (const Error& problem) {
+            damaged[frame] = problem.what();
+        }
+    }
+    return damaged;
+}
+
 FrameState TakeReader::readState(int frame) const
 {
     const std::filesystem::path path = paths_.frame(frame);

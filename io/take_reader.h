@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +48,10 @@ public:
     /// What the step that ended at the frame did (SI), where the shot asked for it with
     /// output.contacts; nothing at the first frame, which no step led to. Throws as readFrame does.
     std::optional<StepSeen> readLastStep(int frame) const { return readState(frame).lastStep; }
+
+    /// Those of frames() that are cut, damaged or of another take, and what is wrong with each.
+    /// Reads them all; `beforeFrame` is called before each and may throw to break off.
+    std::map<int, std::string> damagedFrames(const std::function<void()>& beforeFrame = {}) const;
 
     std::vector<FrameSummary> stats() const { return readStats(paths_.stats()); }
 

@@ -60,9 +60,8 @@ std::map<std::string, ShapeUse> collectUses(const World& world)
         if (!use.shape) use.report = reportShape(shape);
         use.shape = &shape;
         ++use.bodies;
-        const BodyMass& weight = world.massWhenBorn(body);
-        if (!weight.isMovable()) continue;
-        const double mass = 1.0 / weight.inverseMass;
+        const double mass = world.massWhenFree(body);
+        if (mass == 0.0) continue;
         use.lightest = use.lightest == 0.0 ? mass : std::min(use.lightest, mass);
         use.heaviest = std::max(use.heaviest, mass);
     }
@@ -74,7 +73,7 @@ ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
     ShotReport report;
     report.bodies = world.bodyCount();
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
-        report.movable += world.massWhenBorn(body).isMovable();
+        report.movable += world.massWhenFree(body) > 0.0;
     }
     report.shapes = collectUses(world);
     report.repairs = repairsOf(world);
@@ -269,17 +268,6 @@ int checkShot(const CheckOptions& options, Console& console)
     return exitCodeFor(ErrorKind::qualityLimit);
 }
 
-int runCheck(const CheckOptions& options, Console& console)
-{
-    watchSignals();
-    try {
-        return checkShot(options, console);
-    } catch (const StoppedBeforeStart&) {
-        console.info("stopped; the shot was not looked at to the end");
-        return kExitStopped;
-    }
-}
-
 }  // namespace
 
 Command addCheckCommand(CLI::App& program)
@@ -306,7 +294,7 @@ Command addCheckCommand(CLI::App& program)
     command->footer(
         "Ends with 65 when sim would refuse the shot.\n"
         "Example:\n  scree check shots/rings_100.toml");
-    return {command, [options](Console& console) { return runCheck(*options, console); }};
+    return {command, [options](Console& console) { return checkShot(*options, console); }};
 }
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 #include "io/take_diff.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/stop_signals.h"
 
 namespace scree {
 namespace {
@@ -82,7 +83,8 @@ Command addDiffCommand(CLI::App& program)
     command->footer("Example:\n  scree diff takes/rings_100 takes/rings_100_again");
     return {command, [options](Console&) {
                 const TakeReader a(options->a), b(options->b);
-                const TakeComparison comparison = compareTakes(a, b);
+                const TakeComparison comparison =
+                    compareTakes(a, b, [] { heedStop("no difference was found so far"); });
                 if (options->json)
                     printJson(comparison);
                 else

@@ -20,11 +20,8 @@ int runExport(const ExportOptions& options, Console& console)
     const ProgressMode progress = parseProgressMode(options.progress);
     const TakeReader take(options.take);
     const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
-    watchSignals();
-    if (!exportTake(take, chosen.frames, options.output, console, progress)) {
-        console.info("stopped before the end of \"" + options.output + "\"");
-        return kExitStopped;
-    }
+    if (!exportTake(take, chosen.frames, options.output, console, progress))
+        throw Stopped{"\"" + options.output + "\" was not written"};
     std::printf("%s\n", options.output.c_str());
     return finishTakeFrames(chosen, options.output, console);
 }

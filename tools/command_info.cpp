@@ -9,6 +9,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/stop_signals.h"
 
 namespace scree {
 namespace {
@@ -23,6 +24,8 @@ struct TakeSummary {
     std::vector<int> frames;
     bool isFinished = false;
     bool hasCheckpoint = false;
+    std::vector<int> damaged;  ///< of the frames
+    std::string damage;        ///< of the first of them
     std::size_t movable = 0;
     double wallSeconds = 0.0, cpuSeconds = 0.0;
     FrameSummary worst;  ///< the frame with the deepest overlap
@@ -34,12 +37,16 @@ TakeSummary summarize(const TakeReader& take)
 {
     TakeSummary summary;
     summary.frames = take.frames();
-    summary.isFinished = static_cast<int>(summary.frames.size()) ==
-                         take.info().lastFrame - take.info().firstFrame + 1;
+    for (const auto& [frame, damage] : take.damagedFrames([] { heedStop("nothing was told"); })) {
+        if (summary.damaged.empty()) summary.damage = damage;
+        summary.damaged.push_back(frame);
+    }
+    summary.isFinished =
+        summary.damaged.empty() && static_cast<int>(summary.frames.size()) ==
+                                       take.info().lastFrame - take.info().firstFrame + 1;
     std::error_code ignored;
     summary.hasCheckpoint = std::filesystem::exists(take.paths().checkpoint(), ignored);
-    for (const TakeBody& body : take.info().bodies)
-        summary.movable += body.kind == BodyKind::dynamic;
+    for (const TakeBody& body : take.info().bodies) summary.movable += body.mass > 0.0;
     std::set<int> untold(summary.frames.begin(), summary.frames.end());
     for (const FrameSummary& frame : take.stats()) {
         untold.erase(frame.frame);
@@ -80,6 +87,9 @@ void printText(const TakeReader& take, const TakeSummary& summary)
     std::printf("take       %s: %s%s\n", summary.isFinished ? "finished" : "unfinished",
                 summary.frames.empty() ? "no frames" : describeFrames(summary.frames).c_str(),
                 summary.hasCheckpoint ? " and a checkpoint" : "");
+    if (!summary.damaged.empty())
+        std::printf("damaged    %s: %s; scree sim --resume simulates them again\n",
+                    describeFrames(summary.damaged).c_str(), summary.damage.c_str());
     if (summary.untold > 0)
         std::printf("figures    missing for %zu of %zu frames: stats.jsonl does not tell of them\n",
                     summary.untold, summary.frames.size());
@@ -106,6 +116,7 @@ void printJson(const TakeReader& take, const TakeSummary& summary)
         {"frames", describeFrames(summary.frames)},
         {"frame_count", summary.frames.size()},
         {"finished", summary.isFinished},
+        {"damaged_frames", describeFrames(summary.damaged)},
         {"checkpoint", summary.hasCheckpoint},
         {"frames_without_figures", summary.untold},
         {"wall_s", summary.wallSeconds},

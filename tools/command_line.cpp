@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "core/base/error.h"
+#include "io/nearest_word.h"
 
 namespace scree {
 namespace {
@@ -67,6 +68,15 @@ int affinityCount()
     CPU_ZERO(&mask);
     if (::sched_getaffinity(0, sizeof mask, &mask) != 0) return 1;
     return std::max(CPU_COUNT(&mask), 1);
+}
+
+/// In small letters, with its dot.
+std::string endingOf(const std::string& name)
+{
+    std::string ending = std::filesystem::path(name).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char letter) { return std::tolower(letter); });
+    return ending;
 }
 
 /// Quota and period of one group: cpu.max of version 2, two files in version 1.
@@ -241,12 +251,25 @@ std::string complaintIfNotFinite(const std::string& text)
     return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : "'" + text + "' is not finite";
 }
 
+std::function<std::string(const std::string&)> oneOf(const std::vector<std::string>& words)
+{
+    return [words](const std::string& text) -> std::string {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return "";
+        return "'" + text + "' is none of " + joined(words) + didYouMean(text, words);
+    };
+}
+
+void requirePageName(const std::string& name)
+{
+    const std::string ending = endingOf(name);
+    if (ending.empty() || ending == ".html" || ending == ".htm") return;
+    throw Error(ErrorKind::usage,
+                "\"" + name + "\": the page is HTML; expected a name ending in .html");
+}
+
 void requirePngName(const std::string& name)
 {
-    std::string ending = std::filesystem::path(name).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char letter) { return std::tolower(letter); });
-    if (ending == ".png") return;
+    if (endingOf(name) == ".png") return;
     throw Error(
         ErrorKind::usage,
         "\"" + name + "\": pictures are written as PNG; expected a name " + "ending in .png");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -54,9 +55,16 @@ std::vector<std::pair<std::string, std::string>> changedLimits(const ImportLimit
 /// of the library let "nan" pass, and "inf" where they have no upper end.
 std::string complaintIfNotFinite(const std::string& text);
 
+/// For CLI11's check of an option: a complaint, with the nearest of `words`, when the text is none
+/// of them.
+std::function<std::string(const std::string&)> oneOf(const std::vector<std::string>& words);
+
 /// Throws Error{usage} when the name of a picture does not end in .png, the format they are written
 /// in.
 void requirePngName(const std::string& name);
+
+/// Throws Error{usage} when the name of a page for a browser has an ending that says otherwise.
+void requirePageName(const std::string& name);
 
 /// Seconds as a person says them: "8.2 s", "3 min 05 s", "2 h 10 min".
 std::string describeDuration(double seconds);

@@ -182,9 +182,31 @@ SplitPattern splitPattern(const std::string& pattern)
     return {split.head, split.tail, expandFramePattern(pattern, 0).size() - rest};
 }
 
+/// The pictures one by one, as a single stream: ffmpeg counts -7 as one digit more than we do, and
+/// sorts it before -12.
+std::vector<std::string> listedInput(const PictureSequence& sequence)
+{
+    constexpr std::size_t kLongestArgument = 120'000;  // the system takes no more in one piece
+    std::string list = "concat:";
+    for (const int frame : sequence.frames) {
+        const std::string name = expandFramePattern(sequence.pattern.string(), frame);
+        const bool isNameable = name.find('|') == std::string::npos && name.ends_with(".png");
+        list += (list.ends_with(':') ? "file:" : "|file:") + name;
+        if (isNameable && list.size() < kLongestArgument) continue;
+        throw Error(ErrorKind::usage,
+                    "\"" + sequence.pattern.string() +
+                        "\": ffmpeg cannot be told these pictures, whose numbers are below 0; give "
+                        "them others, or shorter names that end in .png");
+    }
+    return {"-f",         "png_pipe",
+            "-framerate", format("%.10g", sequence.framesPerSecond / spacingOf(sequence)),
+            "-i",         list};
+}
+
 /// Every picture by a numbered pattern; every n-th by a glob, which ffmpeg sorts by name.
 std::vector<std::string> inputArguments(const PictureSequence& sequence)
 {
+    if (sequence.frames.front() < 0) return listedInput(sequence);
     const int spacing = spacingOf(sequence);
     const SplitPattern split = splitPattern(sequence.pattern.string());
     std::vector<std::string> arguments = {"-framerate",
@@ -290,7 +312,6 @@ int runMovie(const MovieOptions& options, Console& console)
     AtomicFile{output};  // says now, with its own error, when nothing can be created there
     console.info(shellLine(makeCommand(sequence, muxer, output.string())));
 
-    watchSignals();
     requireWholePictures(sequence);
 
     // Under another name first: an interrupted ffmpeg leaves half a film.
@@ -299,11 +320,7 @@ int runMovie(const MovieOptions& options, Console& console)
     std::error_code code;
     try {
         runProgram(makeCommand(sequence, muxer, temporary.string()));
-        if (stopRequested()) {
-            fs::remove(temporary, code);
-            console.info("stopped; no film was made");
-            return kExitStopped;
-        }
+        heedStop("no film was made");
         fs::rename(temporary, output, code);
         if (code)
             throw Error(ErrorKind::cannotCreate,

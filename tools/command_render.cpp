@@ -144,14 +144,8 @@ public:
 
     int run()
     {
-        watchSignals();
         paintAll();
-        if (stopRequested()) {
-            console_.info(
-                "stopped; the pictures written so far are whole, --skip-existing keeps "
-                "them");
-            return kExitStopped;
-        }
+        heedStop("the pictures written so far are whole, --skip-existing keeps them");
         std::printf("%s\n", pattern_.c_str());
         return finishTakeFrames(chosen_, pattern_, console_);
     }
@@ -217,7 +211,7 @@ Command addRenderCommand(CLI::App& program)
     command->add_option("--chunk", options->chunk,
                         "I/N: the I-th of N runs of frames, for N machines of a farm");
     command->add_option("--engine", options->engine, "osmesa, or embree: ray-traced [osmesa]")
-        ->check(CLI::IsMember({"osmesa", "embree"}));
+        ->check(oneOf({"osmesa", "embree"}));
     command
         ->add_option("--samples", options->samples,
                      "A pixel: 1 or 4 with osmesa [1], any number with embree [8]")

@@ -12,16 +12,19 @@
 #include "core/dynamics/stepper.h"
 #include "core/scene/motion_script.h"
 #include "io/build_world.h"
+#include "io/distance_cache.h"
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
 #include "io/pose_json.h"
 #include "io/shot_parser.h"
+#include "io/take.h"
 #include "tools/broken_frame.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
+#include "tools/stoppable_fields.h"
 #include "tools/take_export.h"
 
 namespace scree {
@@ -95,7 +98,10 @@ public:
           shot_(parseShot(options.shot, options.overrides, options.importLimits))
     {
         setThreadCount(threadsToUse(options.threads));
-        world_ = buildWorld(shot_);
+        DistanceCache none({});
+        StoppableFields fields(none, console);
+        world_ = buildWorld(shot_, &fields);
+        fields.heedSignals();
         endOfEvents_ = endOfEvents(world_);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
@@ -103,12 +109,8 @@ public:
 
     int run()
     {
-        watchSignals();
         const bool isAtRest = simulate();
-        if (stopRequested()) {
-            console_.info("stopped; nothing is written");
-            return kExitStopped;
-        }
+        heedStop();
         write();
         std::printf("%s\n", options_.output.c_str());
         if (isAtRest) return kExitDone;
@@ -237,6 +239,7 @@ Command addSettleCommand(CLI::App& program)
         "Example:\n  scree settle shots/rings_100.toml -o rings.json");
     return {command, [options](Console& console) {
                 requirePoseFormat(options->output);
+                refuseTakeFile(options->output);
                 return Settling(*options, console).run();
             }};
 }

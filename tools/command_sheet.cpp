@@ -61,34 +61,29 @@ std::vector<LabelledImage> readPictures(const SheetOptions& options)
     return pictures;
 }
 
-/// False when it was stopped, and the pictures are not all there.
-bool writeSheet(const SheetOptions& options, const std::vector<LabelledImage>& pictures,
-                Console& console)
+void writeSheet(const SheetOptions& options, const std::vector<LabelledImage>& pictures)
 {
-    if (stopRequested()) {
-        console.info("stopped; no sheet was written");
-        return false;
-    }
+    heedStop("no sheet was written");
     createFolderOf(options.output);
     writePng(options.output, makeContactSheet(pictures, options.layout), {{"Software", "scree"}});
     std::printf("%s\n", options.output.c_str());
-    return true;
 }
 
 int runSheet(const SheetOptions& options, Console& console)
 {
-    watchSignals();
     setThreadCount(threadsToUse(std::nullopt));
     requirePngName(options.output);
     std::error_code ignored;
     const bool isTake = options.inputs.size() == 1 && fs::is_directory(options.inputs[0], ignored);
     if (!isTake && !(options.frames.empty() && options.camera.empty()))
         throw Error(ErrorKind::usage, "--frames and --camera belong to a take, not to pictures");
-    if (!isTake)
-        return writeSheet(options, readPictures(options), console) ? kExitDone : kExitStopped;
+    if (!isTake) {
+        writeSheet(options, readPictures(options));
+        return kExitDone;
+    }
     const TakeReader take(options.inputs[0]);
     const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
-    if (!writeSheet(options, paintTake(options, take, chosen.frames), console)) return kExitStopped;
+    writeSheet(options, paintTake(options, take, chosen.frames));
     return finishTakeFrames(chosen, options.output, console);
 }
 

@@ -180,6 +180,8 @@ private:
         FrameStats stats;
         stats.frame = shot_.firstFrame;
         stats.report = reportStart(world_, shot_.settings.gravity);
+        lookAtPoses(shot_.firstFrame, stats.report);
+        stats.report.sum.deepestBeforePushOut = stats.report.sum.deepestAfterPushOut;
         take_->writeFrame(world_, stats);
     }
 
@@ -340,12 +342,14 @@ private:
         return true;
     }
 
-    /// Looks over the whole take, earlier sittings included. False when a frame broke the limit.
+    /// Looks over the whole take, earlier sittings included. False when a frame broke the limit;
+    /// how the first one overlaps is for start.overlap to judge.
     bool judgeOverlap()
     {
         std::vector<FrameSummary> broken;
         for (const FrameSummary& frame : take_->summaries())
-            if (frame.frame <= lastFrame_ && frame.overlapRatio > shot_.penetrationFail)
+            if (frame.frame > shot_.firstFrame && frame.frame <= lastFrame_ &&
+                frame.overlapRatio > shot_.penetrationFail)
                 broken.push_back(frame);
         if (broken.empty()) return true;
         std::stable_sort(broken.begin(), broken.end(), [](const auto& a, const auto& b) {
@@ -381,10 +385,9 @@ private:
 
 int simulate(const SimOptions& options, Console& console)
 {
-    watchSignals();
     try {
         return SimRun(options, console).run();
-    } catch (const StoppedBeforeStart&) {
+    } catch (const Stopped&) {
         console.info("stopped before the first frame; nothing was written: run the same again");
         return kExitStopped;
     }

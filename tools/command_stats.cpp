@@ -37,9 +37,9 @@ std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count)
     return thumbnails;
 }
 
-int runStats(const StatsOptions& options, Console& console)
+int runStats(const StatsOptions& options)
 {
-    watchSignals();
+    requirePageName(options.output);
     setThreadCount(threadsToUse(std::nullopt));
     const TakeReader take(options.take);
     if (take.frames().empty())
@@ -49,10 +49,7 @@ int runStats(const StatsOptions& options, Console& console)
     createFolderOf(output);
     const std::vector<Thumbnail> thumbnails =
         options.pictures > 0 ? paintThumbnails(take, options.pictures) : std::vector<Thumbnail>();
-    if (stopRequested()) {
-        console.info("stopped; no page was written");
-        return kExitStopped;
-    }
+    heedStop("no page was written");
     writeFileBytes(output, makeStatsPage(take, thumbnails));
     std::printf("%s\n", output.c_str());
     return kExitDone;
@@ -71,7 +68,7 @@ Command addStatsCommand(CLI::App& program)
         ->add_option("--pictures", options->pictures, "Frames that are drawn, evenly spread [32]")
         ->check(CLI::Range(0, 1000));
     command->footer("Example:\n  scree stats takes/rings_100 -o rings.html");
-    return {command, [options](Console& console) { return runStats(*options, console); }};
+    return {command, [options](Console&) { return runStats(*options); }};
 }
 
 }  // namespace scree

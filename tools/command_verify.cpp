@@ -4,6 +4,7 @@
 
 #include "core/base/parallel.h"
 #include "io/atomic_file.h"
+#include "io/take.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/cpu_time.h"
@@ -62,7 +63,11 @@ int runVerify(const VerifyOptions& options, Console& console)
         };
     }
     setThreadCount(threadsToUse(options.threads));
-    if (!options.report.empty()) AtomicFile{options.report};  // now, not after hours
+    if (!options.report.empty()) {  // now, not after hours
+        requirePageName(options.report);
+        refuseTakeFile(options.report);
+        AtomicFile{options.report};
+    }
 
     const auto chosen = verify::chooseExperiments(options.ids);
     std::vector<verify::Result> results;
@@ -73,7 +78,7 @@ int runVerify(const VerifyOptions& options, Console& console)
             verify::Result result{experiment, method, {}, 0.0};
             const double before = cpuSeconds();
             verify::runExperiment(*experiment, context, result.findings);
-            if (stopRequested()) return kExitStopped;  // a large shot was; its take is kept
+            heedStop("the takes of large shots are kept");
             result.cpuSeconds = cpuSeconds() - before;
             if (!options.json) std::printf("%s\n", verify::toText(result).c_str());
             std::fflush(stdout);

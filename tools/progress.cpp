@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "io/nearest_word.h"
 #include "tools/command_line.h"
 
 namespace scree {
@@ -36,11 +37,11 @@ std::size_t terminalColumns()
     return isTold ? size.ws_col : kUsualColumns;
 }
 
-/// Whether a line can be redrawn there: a dumb terminal shows control codes as rubbish.
-bool canRedraw()
+/// A dumb terminal shows control codes as rubbish.
+bool isDumb()
 {
     const char* kind = std::getenv("TERM");
-    return ::isatty(STDERR_FILENO) && !(kind && std::string(kind) == "dumb");
+    return kind && std::string(kind) == "dumb";
 }
 
 }  // namespace
@@ -52,21 +53,23 @@ ProgressMode parseProgressMode(const std::string& word)
     if (word == "alf") return ProgressMode::alf;
     if (word == "json") return ProgressMode::json;
     if (word == "none") return ProgressMode::none;
-    throw Error(ErrorKind::usage,
-                "--progress is auto, tty, alf, json or none, not \"" + word + "\"");
+    throw Error(ErrorKind::usage, "--progress is auto, tty, alf, json or none, not \"" + word +
+                                      "\"" +
+                                      didYouMean(word, {"auto", "tty", "alf", "json", "none"}));
 }
 
 Progress::Progress(Console& console, ProgressMode mode, const std::string& what, int frameCount,
                    int framesDone)
     : console_(console), mode_(mode), what_(what), frameCount_(frameCount), framesDone_(framesDone)
 {
+    if (mode_ == ProgressMode::tty && isDumb()) mode_ = ProgressMode::alf;
     if (mode_ != ProgressMode::automatic) return;
     if (console_.isQuiet)
         mode_ = ProgressMode::none;
     else if (console_.format == LogFormat::json)
         mode_ = ProgressMode::json;  // who reads the log as JSON could not read other lines
     else
-        mode_ = canRedraw() ? ProgressMode::tty : ProgressMode::alf;
+        mode_ = ::isatty(STDERR_FILENO) && !isDumb() ? ProgressMode::tty : ProgressMode::alf;
 }
 
 Progress::~Progress()

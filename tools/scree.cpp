@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "io/nearest_word.h"
+#include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/exit_code.h"
@@ -42,7 +43,7 @@ void addConsoleOptions(CLI::App& program, Console& console)
                 console.format = word == "json" ? LogFormat::json : LogFormat::text;
             },
             "Messages on stderr: text, or json with one object a line")
-        ->check(CLI::IsMember({"text", "json"}));
+        ->check(oneOf({"text", "json"}));
 }
 
 /// The long options of a command, as they are written.
@@ -94,12 +95,24 @@ std::string unknownWord(const CLI::App& program, const std::vector<std::string>&
     return "";
 }
 
+/// "-o=x" is the value "=x" to the parser of options, and a file of that name to whoever writes it.
+void refuseShortEquals(const std::string& word)
+{
+    const bool isShort = word.size() >= 3 && word[0] == '-' && word[1] != '-' && word[2] == '=';
+    if (!isShort) return;
+    const std::string option = word.substr(0, 2), value = word.substr(3);
+    throw Error(ErrorKind::usage, "\"" + word + "\": the value of " + option +
+                                      " comes after a space" +
+                                      (value.empty() ? "" : ": " + option + " " + value));
+}
+
 /// An empty word is a shell variable that was never set: taken for "not given" it would simulate
 /// all frames, or write to another place, without a word.
 void refuseEmptyWords(const std::vector<std::string>& words)
 {
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
+        refuseShortEquals(word);
         const bool isOption = word.starts_with("--") && word.find('=') == word.size() - 1;
         if (!word.empty() && !isOption) continue;
         const bool followsOption = word.empty() && i > 0 && words[i - 1].starts_with("-");
@@ -184,10 +197,14 @@ int main(int argumentCount, char** arguments)
 {
     scree::Console console;
     scree::takeFileLimitsAsErrors();
+    scree::watchSignals();
     try {
         const int code = scree::runProgram(argumentCount, arguments, console);
         scree::requireResultsWritten();
         return code;
+    } catch (const scree::Stopped& stop) {
+        console.info("stopped; " + stop.outcome);
+        return scree::kExitStopped;
     } catch (const scree::Error& problem) {
         console.error(problem.what());
         return scree::exitCodeFor(problem.kind());

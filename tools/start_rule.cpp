@@ -6,6 +6,8 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/collision/interference.h"
+#include "core/dynamics/body_pairs.h"
 
 namespace scree {
 namespace {
@@ -78,6 +80,38 @@ std::string describeHaste(const FastBody& body)
 {
     if (!std::isfinite(body.stepsNeeded)) return "is faster than any number of steps can follow";
     return formatted("needs %.0f steps a frame at %.3g m/s", body.stepsNeeded, body.speed);
+}
+
+/// The static body that stands where a body is to be born, or −1. It never makes room.
+BodyId obstacleTo(const World& world, BodyId newcomer)
+{
+    const Aabb box = boxAt(world.shapeOf(newcomer), world.motion[newcomer].worldFromBody());
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        if (world.info[body].kind != BodyKind::fixed) continue;
+        if (!acceptEachOther(world, {newcomer, body})) continue;
+        const Shape& shape = world.shapeOf(body);
+        if (!box.overlaps(boxAt(shape, world.motion[body].worldFromBody()))) continue;
+        const double tau = contourValue(world.shapeOf(newcomer), shape);
+        if (deepestTouch(placePair(world, {newcomer, body}), tau)) return body;
+    }
+    return -1;
+}
+
+void warnOfBlockedBirths(const World& world, std::vector<std::string>& warnings)
+{
+    std::vector<BodyId> blocked;
+    BodyId first = -1;
+    for (const PlannedBirth& birth : world.births) {
+        const BodyId obstacle = obstacleTo(world, birth.body);
+        if (obstacle < 0) continue;
+        if (blocked.empty()) first = obstacle;
+        blocked.push_back(birth.body);
+    }
+    if (blocked.empty()) return;
+    warnings.push_back(
+        std::to_string(blocked.size()) + " of " + std::to_string(world.births.size()) +
+        " emitted bodies can never come, for what is static stands at their places ('" +
+        world.info[first].name + "' at the first): " + namesOf(blocked, world));
 }
 
 void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>& warnings)
@@ -178,6 +212,7 @@ std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& worl
             "; '" + world.info[fast.front().body].name + "' " + describeHaste(fast.front()) +
             (fast.front().whenItLands ? ", when it lands" : ", at the start"));
     }
+    warnOfBlockedBirths(world, warnings);
     warnOfSizes(shot, world, warnings);
     return warnings;
 }

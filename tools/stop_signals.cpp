@@ -28,12 +28,20 @@ void handle(int signal, void (*handler)(int), int flags)
     ::sigaction(signal, &action, nullptr);
 }
 
+bool isIgnored(int signal)
+{
+    struct sigaction action = {};
+    return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 void watchSignals()
 {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        if (signal == SIGHUP && isIgnored(signal)) continue;  // nohup: to outlive the terminal
         handle(signal, noteStop, static_cast<int>(SA_RESTART | SA_RESETHAND));
+    }
     handle(SIGUSR1, noteSave, SA_RESTART);
     handle(SIGPIPE, SIG_IGN, 0);
 }
@@ -46,6 +54,11 @@ void takeFileLimitsAsErrors()
 bool stopRequested()
 {
     return stopWanted != 0;
+}
+
+void heedStop(const std::string& outcome)
+{
+    if (stopRequested()) throw Stopped{outcome};
 }
 
 bool takeSaveRequest()

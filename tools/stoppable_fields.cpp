@@ -18,7 +18,7 @@ void StoppableFields::keep(std::uint64_t key, const DistanceField& field)
 
 void StoppableFields::heedSignals()
 {
-    if (stopRequested()) throw StoppedBeforeStart();
+    heedStop();
     if (takeSaveRequest())
         console_.answer("scree: still building distance fields; there is nothing to save yet");
 }

@@ -6,11 +6,9 @@
 
 namespace scree {
 
-/// Thrown where a request to stop is heeded before there is anything to save.
-struct StoppedBeforeStart {};
-
 /// Passes on to a store what is asked of it. It is asked before a distance field is built and told
-/// after: the places where signals are heeded while the world comes about.
+/// after: the places where signals are heeded while the world comes about, when there is nothing to
+/// save yet: throws Stopped.
 class StoppableFields : public FieldStore {
 public:
     StoppableFields(FieldStore& fields, Console& console) : fields_(fields), console_(console) {}

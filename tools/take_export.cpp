@@ -56,6 +56,7 @@ std::filesystem::path defaultExport(const TakeReader& take, const std::string& e
 
 void createFolderOf(const std::filesystem::path& file)
 {
+    refuseTakeFile(file);
     if (!file.has_parent_path()) return;
     std::error_code code;
     std::filesystem::create_directories(file.parent_path(), code);

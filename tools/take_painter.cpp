@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/math/point_box.h"
 #include "core/scene/camera_motion.h"
+#include "io/nearest_word.h"
 #include "io/subframes.h"
 #include "render/rasterizer.h"
 #include "render/ray_tracer.h"
@@ -66,14 +67,15 @@ Aabb actionBox(const TakeReader& take, const SceneDescription& scene)
 SceneCamera chooseCamera(const TakeReader& take, const SceneDescription& scene,
                          const std::string& name, double aspect)
 {
-    std::string known;
+    std::vector<std::string> known;
     for (const SceneCamera& camera : take.info().cameras) {
         if (name.empty() || camera.name == name) return camera;
-        known += (known.empty() ? "" : ", ") + camera.name;
+        known.push_back(camera.name);
     }
     if (!name.empty())
         throw Error(ErrorKind::usage, "the shot has no camera \"" + name + "\"" +
-                                          (known.empty() ? "" : "; it has " + known));
+                                          didYouMean(name, known) +
+                                          (known.empty() ? "" : " (it has " + joined(known) + ")"));
     return viewOfAction(take, scene, aspect);
 }
 

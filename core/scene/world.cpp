@@ -1,6 +1,7 @@
 #include "core/scene/world.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/base/check.h"
@@ -105,6 +106,16 @@ const BodyMass& World::massWhenBorn(BodyId body) const
         std::lower_bound(births.begin(), births.end(), body,
                          [](const PlannedBirth& b, BodyId id) { return b.body < id; });
     return birth != births.end() && birth->body == body ? birth->mass : mass[body];
+}
+
+double World::massWhenFree(BodyId body) const
+{
+    const BodyInfo& told = info[body];
+    const bool isAlwaysKeyed = told.script && told.keyedFrom <= 0 &&
+                               told.keyedUntil == std::numeric_limits<std::int64_t>::max();
+    if (isAlwaysKeyed) return 0.0;
+    const double inverse = std::max(told.freeInverseMass, massWhenBorn(body).inverseMass);
+    return inverse > 0.0 ? 1.0 / inverse : 0.0;
 }
 
 void World::setKind(BodyId body, BodyKind kind)

@@ -102,6 +102,9 @@ public:
     /// What the body has once it is born.
     const BodyMass& massWhenBorn(BodyId body) const;
 
+    /// [kg] whenever it is there and free, be it after its birth or its keys; 0: never.
+    double massWhenFree(BodyId body) const;
+
     std::vector<BodyMotion> motion;
     std::vector<BodyMass> mass;
     std::vector<BodyInfo> info;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"

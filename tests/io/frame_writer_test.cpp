@@ -107,6 +107,27 @@ TEST(FrameWriter, ANonFinitePoseIsNamedWithBodyAndFrame)
     EXPECT_NE(message.find("frame 7"), std::string::npos) << message;
 }
 
+// GLB said null of it, USD inf.
+TEST(FrameWriter, WhatSinglePrecisionCannotHoldIsNamedWithBodyAndFrame)
+{
+    const SceneDescription scene = test::sceneOf({test::bodyNamed("a"), test::bodyNamed("far")});
+    for (const double far : {3.3e38, -3.5e38}) {
+        SceneFrame frame = test::tumblingFrame(scene, 7, 7);
+        frame.worldFromAsset[1].position.y() = far;
+        SilentWriter writer;
+        writer.begin(scene, 7, 1);
+        if (far > 0.0) {
+            writer.write(frame);
+            continue;
+        }
+        const std::string message =
+            messageOf(ErrorKind::qualityLimit, [&] { writer.write(frame); });
+        EXPECT_NE(message.find("frame 7: pose or velocity of \"far\""), std::string::npos)
+            << message;
+        EXPECT_NE(message.find("3.4e38"), std::string::npos) << message;
+    }
+}
+
 TEST(FrameWriter, GapsAndMissingFramesAreOurOwnMistakes)
 {
     const SceneDescription scene = test::sceneOf({test::bodyNamed("a")});

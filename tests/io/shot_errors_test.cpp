@@ -287,6 +287,12 @@ std::vector<BadShot> badShots()
          body("shape = \"block\"\n[[body]]\nname = \"b\"\nmaterial = \"wood\"\n"
               "shape = \"block\"\n"),
          "bad.toml:12:8: body name 'b' is taken by the body at bad.toml:8:8"},
+        {"SameNameTwiceAndMoreAmiss",
+         body("shape = \"block\"\n[[body]]\nname = \"b\"\nmaterial = \"wod\"\n"
+              "shape = \"block\"\nmotion = \"static\"\nvelocity = [1, 0, 0]\n"),
+         "bad.toml:12:8: body name 'b' is taken by the body at bad.toml:8:8\n"
+         "bad.toml:13:12: no [material.wod] in the shot; did you mean 'wood'? (known: wood)\n"
+         "bad.toml:16:12: a static body has no 'velocity'"},
         {"NameOfACopy",
          body("shape = \"block\"\ngrid = { count = [2, 1, 1], spacing = [2, 2, 2] }\n"
               "[[body]]\nname = \"b_0001\"\nmaterial = \"wood\"\nshape = \"block\"\n"),

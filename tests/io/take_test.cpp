@@ -489,6 +489,31 @@ TEST_F(TakeTest, DamagedCheckpointFallsBackToTheFrame)
     EXPECT_EQ(stateHash(resumed), stateHash(world));
 }
 
+// It stayed for ever, and every later resume told of it again.
+TEST_F(TakeTest, DamagedCheckpointIsToldOnceAndRemoved)
+{
+    writeWholeTake();
+    writeFileBytes(folder / "take/checkpoint.scree", "garbage");
+    EXPECT_EQ(open(ExistingTake::resume, shot).notices().size(), 1u);
+    EXPECT_FALSE(fs::exists(folder / "take/checkpoint.scree"));
+    EXPECT_EQ(open(ExistingTake::resume, shot).notices().size(), 0u);
+}
+
+// Frames of two bodies were then of another take for every reader.
+TEST_F(TakeTest, ATakeJsonThatLostItsBodiesIsPutRightOnResume)
+{
+    writeWholeTake();
+    const fs::path path = folder / "take/take.json";
+    const std::string whole = readFileBytes(path);
+    TakeInfo info = decodeTakeInfo(whole, path);
+    info.bodies.clear();
+    writeFileBytes(path, encodeTakeInfo(info));
+    EXPECT_EQ(TakeReader(folder / "take").damagedFrames().size(), 5u);
+    EXPECT_EQ(open(ExistingTake::resume, shot).notices().size(), 1u);
+    EXPECT_EQ(readFileBytes(path), whole);
+    EXPECT_TRUE(TakeReader(folder / "take").damagedFrames().empty());
+}
+
 TEST_F(TakeTest, CutLineOfTheStatisticsIsDroppedOnResume)
 {
     writeWholeTake();

@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,86 +9,18 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <regex>
 #include <sstream>
 #include <thread>
 
 #include "io/file_bytes.h"
 #include "io/take.h"
+#include "tests/support/program.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 #include "tools/picture_file.h"
 
 namespace scree {
-namespace test {
-
-struct Outcome {
-    int code = -1;  ///< exit code, or minus the signal that ended it
-    std::string out, err;
-};
-
-/// A running scree. Must be waited for.
-class Program {
-public:
-    /// `prepare` runs in the child before the program starts, for limits.
-    explicit Program(const std::vector<std::string>& arguments,
-                     const std::function<void()>& prepare = {});
-
-    void signal(int number) const;
-    Outcome wait();
-
-private:
-    pid_t child_ = -1;
-    std::string outPath_, errPath_;
-};
-
-Program::Program(const std::vector<std::string>& arguments, const std::function<void()>& prepare)
-{
-    outPath_ = (std::filesystem::temp_directory_path() / "scree_out_XXXXXX").string();
-    errPath_ = (std::filesystem::temp_directory_path() / "scree_err_XXXXXX").string();
-    const int out = ::mkstemp(outPath_.data()), err = ::mkstemp(errPath_.data());
-    std::vector<char*> words = {const_cast<char*>(SCREE_PROGRAM)};
-    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-    words.push_back(nullptr);
-    child_ = ::fork();
-    if (child_ == 0) {
-        ::dup2(out, STDOUT_FILENO);
-        ::dup2(err, STDERR_FILENO);
-        if (prepare) prepare();
-        ::execv(words[0], words.data());
-        ::_exit(127);
-    }
-    ::close(out);
-    ::close(err);
-}
-
-void Program::signal(int number) const
-{
-    ::kill(child_, number);
-}
-
-Outcome Program::wait()
-{
-    int status = 0;
-    ::waitpid(child_, &status, 0);
-    Outcome outcome;
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    outcome.out = readFileBytes(outPath_);
-    outcome.err = readFileBytes(errPath_);
-    ::unlink(outPath_.c_str());
-    ::unlink(errPath_.c_str());
-    return outcome;
-}
-
-/// Starts and waits.
-Outcome runScree(const std::vector<std::string>& arguments)
-{
-    return Program(arguments).wait();
-}
-
-}  // namespace test
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -34,6 +34,16 @@ nlohmann::json lastJson(const std::string& text)
     return nlohmann::json::parse(last);
 }
 
+// Control codes are rubbish there, whoever asks for them.
+TEST(Progress, ADumbTerminalGetsLinesEvenWhereARedrawnOneIsAskedFor)
+{
+    ::setenv("TERM", "dumb", 1);
+    const std::string text =
+        told(ProgressMode::tty, 2, 0, [](Progress& progress) { progress.frameDone(1001, 1.0); });
+    ::unsetenv("TERM");
+    EXPECT_EQ(text, "ALF_PROGRESS 50%\n");
+}
+
 // It was 97 columns wide, wrapped, and filled the terminal with its remains.
 TEST(Progress, TheLineFitsEightyColumnsWhateverItTells)
 {

@@ -12,10 +12,12 @@
 #include "render/look.h"
 #include "render/png_writer.h"
 #include "render/rasterizer.h"
+#include "tools/stop_signals.h"
 
 namespace scree::verify {
 namespace {
 
+constexpr const char* kOutcomeOfStop = "the experiments were not run to their end";
 constexpr int kPictureWidth = 640, kPictureHeight = 400;
 
 /// Half width of the quads that stand for planes; the rasteriser draws them without end [m].
@@ -24,6 +26,7 @@ constexpr double kPlaneHalfWidth = 50.0;
 Shot readShot(const Context& context, const std::string& name, std::vector<std::string> overrides,
               const std::function<void(StepSettings&)>& change)
 {
+    heedStop(kOutcomeOfStop);
     overrides.push_back("solver.method=" + context.method);
     Shot shot = parseShot((context.shots / (name + ".toml")).string(), overrides);
     if (change) change(shot.settings);
@@ -71,6 +74,7 @@ void ShotRun::advance(double seconds, double stepsPerSecond,
     const double dt = 1.0 / stepsPerSecond;
     const int steps = static_cast<int>(std::lround(seconds * stepsPerSecond));
     for (int k = 1; k <= steps; ++k) {
+        heedStop(kOutcomeOfStop);
         const StepReport report = stepper.step(world, dt);
         refuseNonFinite(world, report);
         if (look) look(report, k * dt);
@@ -80,7 +84,9 @@ void ShotRun::advance(double seconds, double stepsPerSecond,
 void ShotRun::advanceFrames(int count, const std::function<void(const FrameReport&)>& look)
 {
     for (int frame = 0; frame < count; ++frame) {
-        const FrameReport report = stepper.advanceFrame(world, 1.0 / shot.framesPerSecond);
+        const FrameReport report =
+            stepper.advanceFrame(world, 1.0 / shot.framesPerSecond, stopRequested);
+        heedStop(kOutcomeOfStop);
         refuseNonFinite(world, report.sum);
         if (look) look(report);
     }

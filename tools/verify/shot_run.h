@@ -22,7 +22,7 @@ public:
 
     /// Advances by `seconds` in steps of 1/stepsPerSecond; `look` after each, with its report and
     /// the time since the start of this call [s]. Throws Error{qualityLimit} when a body is no
-    /// longer finite, as the next does.
+    /// longer finite, and Stopped at a request to stop, as the next does.
     void advance(double seconds, double stepsPerSecond,
                  const std::function<void(const StepReport&, double)>& look = {});
 

@@ -1,0 +1,292 @@
+// What the program says and leaves when it is used in haste: stopped, pointed at the wrong thing,
+// told to write over its own files.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "io/file_bytes.h"
+#include "io/take.h"
+#include "tests/support/program.h"
+#include "tests/support/small_shot.h"
+#include "tests/support/support.h"
+#include "tools/picture_file.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::Program;
+using test::runScree;
+using test::TemporaryFolder;
+
+class MishapsTest : public testing::Test {
+protected:
+    std::string file(const std::string& name) const { return folder / name; }
+
+    /// A shot of one block above a ground, as a file.
+    std::string shot(const std::string& name, const std::string& frames = "1001-1005",
+                     const std::string& more = "")
+    {
+        const std::string path = file(name + ".toml");
+        std::ofstream(path) << test::shotTextOf(
+            {.name = name, .frames = frames},
+            test::bodyText("block", "position = [0, 0.6, 0]") + more);
+        return path;
+    }
+
+    std::string take(const std::string& name, const std::string& frames = "1001-1005",
+                     const std::string& more = "")
+    {
+        const Outcome outcome = runScree({"sim", shot(name, frames, more), "-o", file(name), "-q"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return file(name);
+    }
+
+    nlohmann::json info(const std::string& path)
+    {
+        return nlohmann::json::parse(runScree({"info", path, "--json"}).out);
+    }
+
+    TemporaryFolder folder;
+};
+
+bool says(const Outcome& outcome, const std::string& words)
+{
+    return outcome.err.find(words) != std::string::npos;
+}
+
+// They ended with 143 and said nothing.
+TEST_F(MishapsTest, WhatReadsOrJudgesStopsWith75)
+{
+    const std::string a = take("a", "1001-9000");
+    const std::vector<std::vector<std::string>> commands = {
+        {"diff", a, a}, {"info", a}, {"verify", "E7", "-o", file("out.html")}};
+    for (const std::vector<std::string>& words : commands) {
+        Program program(words);
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));
+        program.signal(SIGTERM);
+        const Outcome stopped = program.wait();
+        EXPECT_EQ(stopped.code, 75) << words[0] << ": " << stopped.err;
+        EXPECT_TRUE(says(stopped, "stopped")) << stopped.err;
+    }
+    EXPECT_FALSE(fs::exists(file("out.html")));
+}
+
+// nohup and its like ignore it for the program, which then listened to it all the same.
+TEST_F(MishapsTest, AHangUpThatIsIgnoredStaysIgnored)
+{
+    Program program({"sim", shot("long", "1001-9000"), "-o", file("long"), "-q"},
+                    [] { ::signal(SIGHUP, SIG_IGN); });
+    const fs::path first = TakePaths{file("long")}.frame(1001);
+    for (int i = 0; i < 20000 && !fs::exists(first); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    program.signal(SIGHUP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const int framesSoon = static_cast<int>(listFrames({file("long")}).size());
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_GT(static_cast<int>(listFrames({file("long")}).size()), framesSoon);
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.wait().code, 75);
+}
+
+// Opening the pipe waited for a writer, and no signal was heard.
+TEST_F(MishapsTest, APipeInPlaceOfAFileIsRefusedAtOnce)
+{
+    ::mkfifo(file("pipe.toml").c_str(), 0600);
+    ::mkfifo(file("pipe.obj").c_str(), 0600);
+    const Outcome asShot = runScree({"check", file("pipe.toml")});
+    EXPECT_EQ(asShot.code, 66);
+    EXPECT_TRUE(says(asShot, "pipe.toml' cannot be reached: it is a pipe")) << asShot.err;
+    const std::string mesh = "[shape.bone]\nfile = \"pipe.obj\"\n";
+    const Outcome asMesh =
+        runScree({"check", shot("m", "1001-1002", mesh + test::bodyText("b", "", "bone"))});
+    EXPECT_EQ(asMesh.code, 66);
+    EXPECT_TRUE(says(asMesh, ".toml:") && says(asMesh, "it is a pipe")) << asMesh.err;
+    fs::create_directory(file("take"));
+    ::mkfifo(file("take/take.json").c_str(), 0600);
+    EXPECT_EQ(runScree({"info", file("take")}).code, 66);
+}
+
+TEST_F(MishapsTest, AFolderWithoutAShotIsAMissingInput)
+{
+    fs::create_directory(file("empty"));
+    const Outcome outcome = runScree({"check", file("empty")});
+    EXPECT_EQ(outcome.code, 66);
+    EXPECT_TRUE(says(outcome, "is a folder without a shot.toml")) << outcome.err;
+}
+
+// A take of empty files was called finished.
+TEST_F(MishapsTest, InfoCallsATakeWithDamagedFramesUnfinishedAndNamesThem)
+{
+    const std::string whole = take("t");
+    EXPECT_TRUE(info(whole).at("finished"));
+    EXPECT_EQ(info(whole).at("damaged_frames"), "");
+    fs::resize_file(TakePaths{whole}.frame(1002), 0);
+    fs::resize_file(TakePaths{whole}.frame(1004), 0);
+    EXPECT_FALSE(info(whole).at("finished"));
+    EXPECT_EQ(info(whole).at("damaged_frames"), "1002-1004x2");
+    const Outcome text = runScree({"info", whole});
+    EXPECT_NE(text.out.find("unfinished"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("frame.001002.scree"), std::string::npos) << text.out;
+}
+
+// Whoever was keyed and then released was awake, but not among the movable.
+TEST_F(MishapsTest, ABodyThatIsReleasedCountsAmongTheMovable)
+{
+    const std::string thrown =
+        "[[body]]\nname = \"thrown\"\nshape = \"block\"\nmaterial = \"wood\"\nmotion = \"keyed\"\n"
+        "keys = [{ frame = 1001, position = [3, 2, 0] }, { frame = 1003, position = [3, 3, 0] }]\n";
+    const std::string path = take("t", "1001-1005", thrown + "release = 1003\n");
+    EXPECT_EQ(info(path).at("movable_bodies"), 2);
+    EXPECT_NE(runScree({"check", file("t.toml")}).out.find("2 of them movable"), std::string::npos);
+    EXPECT_EQ(info(take("keyed", "1001-1005", thrown)).at("movable_bodies"), 1);
+}
+
+TEST_F(MishapsTest, NothingIsWrittenOverTheFilesOfATake)
+{
+    const std::string path = take("t");
+    const fs::path info = TakePaths{path}.info();
+    const std::string before = readFileBytes(info);
+    const std::vector<std::vector<std::string>> commands = {
+        {"settle", file("t.toml"), "-o", info},
+        {"settle", file("t.toml"), "-o", TakePaths{path}.shape("block")},
+        {"stats", path, "--pictures", "0", "-o", TakePaths{path}.frames() / "page"},
+        {"verify", "E6", "-o", TakePaths{path}.shapes() / "page.html"}};
+    for (const std::vector<std::string>& words : commands) {
+        const Outcome refused = runScree(words);
+        EXPECT_EQ(refused.code, 73) << words[0] << ": " << refused.err;
+        EXPECT_TRUE(says(refused, "belongs to the take")) << refused.err;
+    }
+    EXPECT_EQ(readFileBytes(info), before);
+    EXPECT_EQ(runScree({"stats", path, "--pictures", "0"}).code, 0);
+    EXPECT_EQ(runScree({"settle", file("t.toml"), "-o", path + "/pose.json"}).code, 0);
+}
+
+TEST_F(MishapsTest, APageIsNotGivenTheEndingOfSomethingElse)
+{
+    const std::string path = take("t");
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"stats", path, "-o", file("page.txt")}, {"verify", "E6", "-o", file("page.txt")}}) {
+        const Outcome refused = runScree(words);
+        EXPECT_EQ(refused.code, 64);
+        EXPECT_TRUE(says(refused, ".html")) << refused.err;
+    }
+    EXPECT_FALSE(fs::exists(file("page.txt")));
+    EXPECT_EQ(runScree({"stats", path, "--pictures", "0", "-o", file("page.HTM")}).code, 0);
+}
+
+// It made a file "=out.abc".
+TEST_F(MishapsTest, AShortOptionWithAnEqualsSignIsRefused)
+{
+    const std::string path = take("t");
+    for (const std::string value : {"", "out.abc"}) {
+        const Outcome refused = runScree({"export", path, "-o=" + value});
+        EXPECT_EQ(refused.code, 64);
+        EXPECT_TRUE(says(refused, "comes after a space")) << refused.err;
+    }
+}
+
+TEST_F(MishapsTest, AnEmitterInsideWhatIsStaticIsWarnedOf)
+{
+    const auto emitter = [](const std::string& heights) {
+        return "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 3\n"
+               "frames = \"1001-1004\"\nbox = { min = [8, " +
+               heights + ", 8] }\n";
+    };
+    const Outcome under =
+        runScree({"check", shot("under", "1001-1005", emitter("-9, 8], max = [9, -5"))});
+    EXPECT_EQ(under.code, 0);
+    EXPECT_NE(under.out.find("3 of 3 emitted bodies can never come"), std::string::npos)
+        << under.out;
+    EXPECT_NE(under.out.find("'ground'"), std::string::npos) << under.out;
+    const Outcome above =
+        runScree({"check", shot("above", "1001-1005", emitter("5, 8], max = [9, 9"))});
+    EXPECT_EQ(above.out.find("never come"), std::string::npos) << above.out;
+}
+
+TEST_F(MishapsTest, WhatNoCacheCanHoldIsNamedAndNothingIsWritten)
+{
+    // Far away and unmoved, so that no step is broken by it.
+    const std::string path =
+        take("far", "1001-1002",
+             test::bodyText("far", "motion = \"static\"\nposition = [3.5e38, 0, 0]"));
+    for (const char* name : {"x.abc", "x.usda", "x.instances.usda", "x.glb", "x.####.ply"}) {
+        const Outcome refused = runScree({"export", path, "-o", file(name)});
+        EXPECT_EQ(refused.code, 79) << name << ": " << refused.err;
+        EXPECT_TRUE(says(refused, "frame 1001: pose or velocity of \"far\"")) << refused.err;
+        EXPECT_FALSE(fs::exists(file(name)));
+    }
+}
+
+// ffmpeg's own error was all there was, and every n-th picture ran backwards.
+TEST_F(MishapsTest, PicturesBelowZeroBecomeAFilmInTheirOrder)
+{
+    for (int frame = -12; frame <= 3; ++frame) {
+        char name[32];
+        std::snprintf(name, sizeof name, "p.%04d.png", frame);
+        writePng(file(name), Image(16, 16));
+        if (frame % 5 == -2) fs::copy_file(file(name), file("q" + std::string(name + 1)));
+    }
+    for (const std::string letter : {"p", "q"}) {
+        const Outcome made =
+            runScree({"movie", file(letter + ".####.png"), "-o", file(letter + ".mp4")});
+        EXPECT_EQ(made.code, 0) << made.err;
+        EXPECT_LT(made.err.find(".-012.png"), made.err.find(".-007.png")) << made.err;
+        EXPECT_GT(fs::file_size(file(letter + ".mp4")), 500u);
+    }
+}
+
+TEST_F(MishapsTest, SlipsInTheValuesOfOptionsAreAnsweredWithTheNearestWord)
+{
+    const std::string camera = "[[camera]]\nname = \"main\"\neye = [3, 3, 3]\ntarget = [0, 0, 0]\n";
+    const std::string path = take("t", "1001-1002", camera);
+    const std::vector<std::pair<std::vector<std::string>, std::string>> slips = {
+        {{"render", path, "--engine", "embre"}, "embree"},
+        {{"render", path, "--camera", "mian"}, "main"},
+        {{"render", path, "--progress", "tyt"}, "tty"},
+        {{"--log-format", "jsn", "info", path}, "json"}};
+    for (const auto& [words, meant] : slips) {
+        const Outcome refused = runScree(words);
+        EXPECT_EQ(refused.code, 64);
+        EXPECT_TRUE(says(refused, "did you mean '" + meant + "'?")) << refused.err;
+    }
+}
+
+// A file that may not grow was told as a disk without space.
+TEST_F(MishapsTest, ALimitOnFilesIsNotCalledAFullDisk)
+{
+    const Outcome full = Program({"sim", shot("t", "1001-1040"), "-o", file("t"), "-q"}, [] {
+                             const rlimit limit = {12000, 12000};
+                             ::setrlimit(RLIMIT_FSIZE, &limit);
+                         }).wait();
+    EXPECT_EQ(full.code, 74);
+    EXPECT_TRUE(says(full, "stats.jsonl\" failed: File too large")) << full.err;
+}
+
+TEST_F(MishapsTest, TheFirstLineOfTheFiguresTellsHowDeepTheStartOverlaps)
+{
+    const std::string overlapping =
+        "[start]\noverlap = \"warn\"\n" + test::bodyText("deep", "position = [3, 0.45, 0]");
+    const std::string path = take("t", "1001-1002", overlapping);
+    std::ifstream lines(TakePaths{path}.stats());
+    std::string first;
+    std::getline(lines, first);
+    const nlohmann::json overlap = nlohmann::json::parse(first).at("overlap");
+    EXPECT_NEAR(overlap.at("worst_ratio"), 0.05, 1e-6);
+    EXPECT_NEAR(overlap.at("after_push_out_m"), 0.05, 1e-6);
+    EXPECT_EQ(
+        overlap.at("bodies")[0].get<std::string>() + overlap.at("bodies")[1].get<std::string>(),
+        "grounddeep");
+}
+
+}  // namespace
+}  // namespace scree
