@@ -86,7 +86,8 @@ public:
     /// inside: without any contact about as deep, the deepest one speaks. A ring that had slid over
     /// the rim of another, a corner first, sank 26 mm into it: its faces sloped too much to stand
     /// there, its edges ended in that corner and crossed nothing, and a fifth of a millimetre at
-    /// the far side of the ring was taken for all there was.
+    /// the far side of the ring was taken for all there was. An edge that pokes through the sharp
+    /// edge of a prism by its last millimetre sank as deep: its corner was out on the other side.
     void finish()
     {
         // A round part that touches elsewhere has nothing to say, if that place is known.

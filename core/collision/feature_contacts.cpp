@@ -53,18 +53,30 @@ bool isNear(const Shape& shape, const Vec3& place, double reach)
     return shape.distance.value(place) < reach;
 }
 
-/// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
-/// nearest to both of them past their ends, inside the body: it touches all the same. Past the end
-/// of an edge that goes on straight is no notch: there the next piece speaks. The edges themselves
-/// must be where edges that touch are looked for: near the other body, and not outside each other.
-bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
-                    const Crossing& at, double gap, double reach)
+double pastEnds(const Crossing& at)
+{
+    return std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
+}
+
+/// Whether lines that overlap are nearest where their edges are, or not far past an end of them. Of
+/// an edge that goes on straight the next piece speaks there.
+bool endsNear(const ConvexEdge& a, const ConvexEdge& b, const Crossing& at, double gap)
 {
     if (at.beyondFirst > 0.0 && a.goesOn[at.endOfFirst]) return false;
     if (at.beyondSecond > 0.0 && b.goesOn[at.endOfSecond]) return false;
-    const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
-    const double deepest = deepestEdges(pair);
-    if (beyond > -kPastEnds * gap || beyond * beyond + gap * gap > deepest * deepest) return false;
+    return pastEnds(at) <= -kPastEnds * gap;
+}
+
+/// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
+/// nearest to both of them past their ends, inside the body: it touches all the same. The edges
+/// themselves must be where edges that touch are looked for: near the other body, and not outside
+/// each other.
+bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
+                    const Crossing& at, double gap, double reach)
+{
+    if (!endsNear(a, b, at, gap)) return false;
+    const double beyond = pastEnds(at), deepest = deepestEdges(pair);
+    if (beyond * beyond + gap * gap > deepest * deepest) return false;
     const RelativePair back = pair.reversed();
     // There an edge goes on in the face beside it, neither inside nor outside.
     const auto isHollow = [](const Shape& shape, const Vec3& place, double past) {
@@ -110,6 +122,7 @@ Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3&
 struct Sunk {
     bool isAsDeep;  // in the second as under the nearer of the faces beside that edge, about
     bool isNear;    // to the second, by `reach`
+    double gap;     // to the second, where it is deepest [m]
 };
 
 Sunk sunkBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
@@ -118,8 +131,9 @@ Sunk sunkBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const Conve
     const Vec3 direction = pair.rotation * ofFirst.direction;
     const Dip dip = deepestBeside(ofSecond, n, gap, direction, along, ofFirst.length - along);
     const double rounding = kRounding * (ofFirst.length + ofSecond.length);
-    const double value = pair.second.distance.value(onFirst + dip.along * direction);
-    return {value <= 0.5 * dip.height + rounding, value < reach};
+    const double onEdge = std::clamp(dip.along, -along, ofFirst.length - along);
+    const double value = pair.second.distance.value(onFirst + onEdge * direction);
+    return {value <= 0.5 * dip.height + rounding, value < reach, value};
 }
 
 /// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a
@@ -299,8 +313,8 @@ FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double rea
     return FacedCorner{best, {}};
 }
 
-std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,
-                                        std::int32_t ofSecond, double reach, double sharpness)
+FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_t ofSecond,
+                     double reach, double sharpness)
 {
     const ConvexEdge& a = pair.first.features.edges()[ofFirst];
     const ConvexEdge& b = pair.second.features.edges()[ofSecond];
@@ -312,9 +326,10 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
     if (gap >= reach) return {};
     const double rounding = kRounding * (a.length + b.length);
     const bool isWithin = at->beyondFirst <= rounding && at->beyondSecond <= rounding;
-    if (!isWithin && !crossesInNotch(pair, a, b, *at, gap, reach)) return {};
+    const bool isPast = !isWithin && !crossesInNotch(pair, a, b, *at, gap, reach);
+    if (isPast && (gap >= -sharpness || !endsNear(a, b, *at, gap))) return {};
     if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
-    if (gap >= -sharpness) return FeatureContact{at->onFirst, n, gap};
+    if (gap >= -sharpness) return {FeatureContact{at->onFirst, n, gap}, {}};
 
     // Two edges of solids that overlap elsewhere may pass each other anywhere inside. If these are
     // what overlaps, the first edge is about as deep as the nearer of the faces beside the second,
@@ -332,7 +347,11 @@ std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t o
         leavesByFace(back, b, a, onSecond, nBack, -gap)) {
         return {};
     }
-    return FeatureContact{at->onFirst, n, gap};
+    if (!isPast) return {FeatureContact{at->onFirst, n, gap}, {}};
+    // Where the lines cross is outside: the edges are less deep than their lines.
+    const double deepest = std::min(first.gap, second.gap);
+    if (deepest >= -sharpness) return {};
+    return {{}, FeatureContact{at->onFirst, n, std::max(gap, deepest)}};
 }
 
 }  // namespace scree

@@ -67,8 +67,16 @@ struct FacedCorner {
 FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double reach,
                        double sharpness);
 
+/// What two edges are to each other.
+struct FacedEdges {
+    std::optional<FeatureContact> contact;
+    /// If not, as though they were one: they lie in each other, and the nearest places of their
+    /// lines are past the end of one.
+    std::optional<FeatureContact> unsupported;
+};
+
 /// An edge of either, when their gap is below `reach`.
-std::optional<FeatureContact> faceEdges(const RelativePair& pair, std::int32_t ofFirst,
-                                        std::int32_t ofSecond, double reach, double sharpness);
+FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_t ofSecond,
+                     double reach, double sharpness);
 
 }  // namespace scree

@@ -416,10 +416,14 @@ void NearFeatures::Memory::touchEdges(const RelativePair& pair, const ToWorld& t
             eight->outsideUntil[lane] = outsideUntil[i];
             if (!(mayTouch >> i & 1u)) continue;
             const std::int32_t ofA = eight->ofA[lane], ofB = eight->ofB[lane];
-            const auto contact = faceEdges(pair, ofA, ofB, reach, sharpness);
-            if (!contact) continue;
-            list.add(pair, {Part::edge, ofA}, {Part::edge, ofB}, toWorld,
-                     featureId(FeatureKind::edges, ofA, ofB), *contact);
+            const FacedEdges faced = faceEdges(pair, ofA, ofB, reach, sharpness);
+            const std::uint64_t feature = featureId(FeatureKind::edges, ofA, ofB);
+            if (faced.contact) {
+                list.add(pair, {Part::edge, ofA}, {Part::edge, ofB}, toWorld, feature,
+                         *faced.contact);
+            } else if (faced.unsupported) {
+                list.addUnsupported(toWorld(feature, *faced.unsupported));
+            }
         }
         filled = 0;
     };

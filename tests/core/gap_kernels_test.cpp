@@ -150,8 +150,9 @@ double smallestGap(const RelativePair& pair, double reach, double sharpness)
     face(pair.reversed());
     for (std::int32_t a = 0; a < std::ssize(pair.first.features.edges()); ++a) {
         for (std::int32_t b = 0; b < std::ssize(pair.second.features.edges()); ++b) {
-            const auto contact = faceEdges(pair, a, b, reach, sharpness);
-            if (contact) smallest = std::min(smallest, contact->gap);
+            const FacedEdges faced = faceEdges(pair, a, b, reach, sharpness);
+            for (const auto& contact : {faced.contact, faced.unsupported})
+                if (contact) smallest = std::min(smallest, contact->gap);
         }
     }
     return smallest;
@@ -629,7 +630,7 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
                 const EdgeGaps gaps =
                     edgeGaps(ofFirst, LineLanes(second), deepest, reach, rounding);
                 const bool mayTouch = bitsOf(gaps.mayTouch) >> lane & 1u;
-                const bool touches = faceEdges(pair, i, j, reach, 1e-3).has_value();
+                const bool touches = faceEdges(pair, i, j, reach, 1e-3).contact.has_value();
                 EXPECT_TRUE(mayTouch || !touches);
                 touching += touches;
                 spared += !mayTouch;

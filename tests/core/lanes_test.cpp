@@ -152,7 +152,7 @@ TEST(EdgeLanes, ThatComeToTouchMayFaceEachOtherBeforehand)
                 const unsigned bits =
                     mayFace(edge, FacingLanes(ofSecond), farthest, turned.norm() + 1e-5);
                 const bool mayTouch = bits >> lane & 1u;
-                const bool touches = faceEdges(then, i, j, reach, 1e-3).has_value();
+                const bool touches = faceEdges(then, i, j, reach, 1e-3).contact.has_value();
                 EXPECT_TRUE(mayTouch || !touches) << run << ' ' << i << ' ' << j;
                 touching += touches;
                 passed += mayTouch;

@@ -38,7 +38,8 @@ double deepestInHeap(const World& world)
     return deepest;
 }
 
-TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
+/// Stars, prisms, splinters and angles that fall into a bin, dealt by `seed`.
+void fillBin(std::uint64_t seed)
 {
     World world;
     const MaterialId material = addMaterial(world, 0.4, 0.2, 1000.0);
@@ -47,7 +48,7 @@ TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
     const std::array shapes = {starShape(), prismShape(), splinterShape(), angleShape()};
     constexpr int kBodies = 40, kFrames = 72;
     for (int i = 0; i < kBodies; ++i) {
-        const auto draw = static_cast<std::uint64_t>(1000 + i);
+        const std::uint64_t draw = seed + static_cast<std::uint64_t>(i);
         const Vec3 place(0.35 * (2 * (i % 2) - 1), 0.6 + 0.72 * (i / 4),
                          0.35 * (i / 2 % 2 * 2 - 1));
         addBody(world, shapes[i % 4], material,
@@ -56,11 +57,17 @@ TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
     Stepper stepper(screeSettings());
     for (int frame = 0; frame < kFrames; ++frame) {
         const FrameReport report = stepper.advanceFrame(world, 1.0 / 24.0);
-        EXPECT_LT(report.sum.worstOverlapRatio, 0.02) << frame;
-        if (frame % 8 == 7) {
-            EXPECT_GT(deepestInHeap(world), -0.03) << frame;
+        EXPECT_LT(report.sum.worstOverlapRatio, 0.02) << seed << ", " << frame;
+        if (frame % 2 == 1) {
+            EXPECT_GT(deepestInHeap(world), -0.02) << seed << ", " << frame;
         }
     }
+}
+
+TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
+{
+    // Of the second and the third, an edge of an angle once poked through that of a prism.
+    for (const std::uint64_t seed : {2000, 1000, 5000}) fillBin(seed);
 }
 
 }  // namespace
