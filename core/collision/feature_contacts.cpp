@@ -53,39 +53,17 @@ bool isNear(const Shape& shape, const Vec3& place, double reach)
     return shape.distance.value(place) < reach;
 }
 
-double pastEnds(const Crossing& at)
-{
-    return std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
-}
-
-/// Whether lines that overlap are nearest where their edges are, or not far past an end of them. Of
-/// an edge that goes on straight the next piece speaks there.
-bool endsNear(const ConvexEdge& a, const ConvexEdge& b, const Crossing& at, double gap)
+/// Whether the lines of two edges that overlap are nearest where these are, or not far past an end
+/// of them. Of an edge that goes on straight the next piece speaks there. The edges themselves must
+/// be where edges that touch are looked for: near the other body, and not outside each other.
+bool overlapNearEnds(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
+                     const Crossing& at, double gap, double reach)
 {
     if (at.beyondFirst > 0.0 && a.goesOn[at.endOfFirst]) return false;
     if (at.beyondSecond > 0.0 && b.goesOn[at.endOfSecond]) return false;
-    return pastEnds(at) <= -kPastEnds * gap;
-}
-
-/// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
-/// nearest to both of them past their ends, inside the body: it touches all the same. The edges
-/// themselves must be where edges that touch are looked for: near the other body, and not outside
-/// each other.
-bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
-                    const Crossing& at, double gap, double reach)
-{
-    if (!endsNear(a, b, at, gap)) return false;
-    const double beyond = pastEnds(at), deepest = deepestEdges(pair);
-    if (beyond * beyond + gap * gap > deepest * deepest) return false;
-    const RelativePair back = pair.reversed();
-    // There an edge goes on in the face beside it, neither inside nor outside.
-    const auto isHollow = [](const Shape& shape, const Vec3& place, double past) {
-        return past <= 0.0 || shape.distance.value(place) <= kNearlySquare * past;
-    };
-    if (!isHollow(pair.first, back * at.onFirst, at.beyondFirst) ||
-        !isHollow(pair.second, at.onSecond, at.beyondSecond)) {
-        return false;
-    }
+    const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
+    const double deepest = deepestEdges(pair);
+    if (beyond > -kPastEnds * gap || beyond * beyond + gap * gap > deepest * deepest) return false;
     const Vec3 start = pair * a.start, direction = pair.rotation * a.direction;
     const Vec3 nearFirst = start + std::clamp(at.alongFirst, 0.0, a.length) * direction;
     const double along = std::clamp(b.direction.dot(nearFirst - b.start), 0.0, b.length);
@@ -93,7 +71,19 @@ bool crossesInNotch(const RelativePair& pair, const ConvexEdge& a, const ConvexE
     const double alongFirst = std::clamp(direction.dot(onSecond - start), 0.0, a.length);
     const Vec3 onFirst = start + alongFirst * direction;
     return (onFirst - onSecond).dot(b.outward) <= 0.0 && isNear(pair.second, onFirst, reach) &&
-           isNear(pair.first, back * onSecond, reach);
+           isNear(pair.first, pair.reversed() * onSecond, reach);
+}
+
+/// In the notch where two edges of a hollow outline meet, an edge that lies a hair too deep is
+/// nearest to both of them past their ends, inside the body: it touches all the same.
+bool crossesInNotch(const RelativePair& pair, const Crossing& at)
+{
+    // There an edge goes on in the face beside it, neither inside nor outside.
+    const auto isHollow = [](const Shape& shape, const Vec3& place, double past) {
+        return past <= 0.0 || shape.distance.value(place) <= kNearlySquare * past;
+    };
+    return isHollow(pair.first, pair.reversed() * at.onFirst, at.beyondFirst) &&
+           isHollow(pair.second, at.onSecond, at.beyondSecond);
 }
 
 /// Where an edge is deepest that crosses another `-gap` inside along n: how far from the crossing,
@@ -326,8 +316,9 @@ FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_
     if (gap >= reach) return {};
     const double rounding = kRounding * (a.length + b.length);
     const bool isWithin = at->beyondFirst <= rounding && at->beyondSecond <= rounding;
-    const bool isPast = !isWithin && !crossesInNotch(pair, a, b, *at, gap, reach);
-    if (isPast && (gap >= -sharpness || !endsNear(a, b, *at, gap))) return {};
+    if (!isWithin && !overlapNearEnds(pair, a, b, *at, gap, reach)) return {};
+    const bool isPast = !isWithin && !crossesInNotch(pair, *at);
+    if (isPast && gap >= -sharpness) return {};
     if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
     if (gap >= -sharpness) return {FeatureContact{at->onFirst, n, gap}, {}};
 
