@@ -35,6 +35,10 @@ constexpr int kMostLooks = 8;
 /// they meet do so along another normal than they have now.
 constexpr double kSlidesOn = 2e-3;
 
+/// And if it turns by no more than this, they do not [rad]: what rolls on a flat face as it lands
+/// has places to touch that come and go.
+constexpr double kTurned = 1e-5;
+
 /// The moment of a blow is known when it changes by less than this share of the step.
 constexpr double kSameMoment = 1e-6;
 
@@ -141,7 +145,8 @@ public:
         for (GapRow& row : rows) {
             const GapContact& contact = contacts[&row - rows.data()];
             if (bears(row) || kindOf(contact.feature) != FeatureKind::round) continue;
-            if (const GapContact* then = sameAs(contact)) takeFrom(*then, t, row);
+            const GapContact* then = sameAs(contact);
+            if (then && (then->normal - contact.normal).norm() > kTurned) takeFrom(*then, t, row);
         }
     }
 
