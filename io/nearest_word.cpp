@@ -1,7 +1,9 @@
 #include "io/nearest_word.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <utility>
 
 namespace scree {
 namespace {
@@ -12,6 +14,46 @@ std::string lowerCase(std::string_view word)
     for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return result;
 }
+
+/// What the keys and words of a shot are called in Blender, Houdini, Maya and game engines.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 36> kElsewhere = {{
+    {"angular_velocity", "spin"},
+    {"w", "spin"},
+    {"linear_velocity", "velocity"},
+    {"v", "velocity"},
+    {"location", "position"},
+    {"translate", "position"},
+    {"translation", "position"},
+    {"center", "position"},
+    {"origin", "position"},
+    {"rotate", "rotation"},
+    {"euler", "rotation"},
+    {"quaternion", "orientation"},
+    {"orient", "orientation"},
+    {"bounce", "restitution"},
+    {"bounciness", "restitution"},
+    {"elasticity", "restitution"},
+    {"mu", "friction"},
+    {"albedo", "color"},
+    {"diffuse", "color"},
+    {"geometry", "shape"},
+    {"mesh", "file"},
+    {"path", "file"},
+    {"cube", "box"},
+    {"ball", "sphere"},
+    {"tube", "cylinder"},
+    {"ring", "torus"},
+    {"dimensions", "size"},
+    {"length", "height"},
+    {"type", "motion"},
+    {"active", "dynamic"},
+    {"rigid", "dynamic"},
+    {"passive", "static"},
+    {"fixed", "static"},
+    {"kinematic", "keyed"},
+    {"animated", "keyed"},
+    {"framerate", "fps"},
+}};
 
 /// Edit distance with swaps of neighbours, by rows of the usual table.
 std::size_t slipsBetween(const std::string& a, const std::string& b)
@@ -59,8 +101,12 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& c
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates)
 {
-    const std::string nearest = nearestWord(word, candidates);
-    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+    std::string meant = nearestWord(word, candidates);
+    for (const auto& [theirs, ours] : kElsewhere) {
+        const bool isOffered = std::ranges::find(candidates, ours) != candidates.end();
+        if (meant.empty() && isOffered && lowerCase(word) == theirs) meant = ours;
+    }
+    return meant.empty() ? "" : "; did you mean '" + meant + "'?";
 }
 
 std::string joined(const std::vector<std::string>& words)

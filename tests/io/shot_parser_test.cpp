@@ -363,5 +363,14 @@ TEST(NearestWord, ForgivesSlipsButNotOtherWords)
     EXPECT_EQ(nearestWord("", words), "");
 }
 
+TEST(NearestWord, KnowsWhatOtherProgramsCallIt)
+{
+    EXPECT_EQ(didYouMean("angular_velocity", {"velocity", "spin"}), "; did you mean 'spin'?");
+    EXPECT_EQ(didYouMean("Bounciness", {"density", "restitution"}),
+              "; did you mean 'restitution'?");
+    EXPECT_EQ(didYouMean("kinematic", {"dynamic", "static", "keyed"}), "; did you mean 'keyed'?");
+    EXPECT_EQ(didYouMean("bounciness", {"density", "friction"}), "");
+}
+
 }  // namespace
 }  // namespace scree
