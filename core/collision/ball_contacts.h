@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/collision/feature_contacts.h"
+#include "core/collision/relative_pair.h"
 
 namespace scree {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/collision/feature_contacts.h"
+#include "core/collision/relative_pair.h"
 
 namespace scree {
 

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "core/collision/feature_contacts.h"
+#include "core/collision/relative_pair.h"
 
 namespace scree {
 

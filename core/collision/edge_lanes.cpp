@@ -1,7 +1,7 @@
 // Symbols: s and t places along the edges of the first and of the second.
 #include "core/collision/edge_lanes.h"
 
-#include "core/collision/feature_contacts.h"
+#include "core/collision/edge_contacts.h"
 
 namespace scree {
 namespace {

@@ -13,8 +13,10 @@
 #include "core/collision/ball_contacts.h"
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
+#include "core/collision/corner_contacts.h"
 #include "core/collision/crease_contacts.h"
 #include "core/collision/deep_contact.h"
+#include "core/collision/edge_contacts.h"
 #include "core/collision/edge_lanes.h"
 #include "core/geometry/distance_lanes.h"
 

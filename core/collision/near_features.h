@@ -13,8 +13,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/collision/feature_contacts.h"
 #include "core/collision/interference.h"
+#include "core/collision/relative_pair.h"
 #include "core/geometry/shape.h"
 
 namespace scree {

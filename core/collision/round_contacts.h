@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/collision/feature_contacts.h"
+#include "core/collision/relative_pair.h"
 
 namespace scree {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/collision/feature_contacts.h"
+#include "core/collision/relative_pair.h"
 #include "core/dynamics/rolling_friction.h"
 
 namespace scree {

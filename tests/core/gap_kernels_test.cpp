@@ -11,7 +11,9 @@
 
 #include "core/base/parallel.h"
 #include "core/base/random.h"
+#include "core/collision/corner_contacts.h"
 #include "core/collision/deep_contact.h"
+#include "core/collision/edge_contacts.h"
 #include "core/collision/edge_lanes.h"
 #include "core/collision/near_features.h"
 #include "core/dynamics/gap_contact.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/collision/edge_contacts.h"
 #include "core/collision/edge_lanes.h"
-#include "core/collision/feature_contacts.h"
 #include "core/geometry/distance_lanes.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"

@@ -1,0 +1,32 @@
+// How an edge of a body faces an edge of another. Where two bodies lie deep in each other many
+// edges pass each other that are not what touches: most of this tells those from the ones that are.
+// Which pairs are worth asking is told eight at a time in edge_lanes.h.  [A7, A8]
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/collision/relative_pair.h"
+
+namespace scree {
+
+/// Edges closer to parallel than this meet nowhere in particular: their ends speak for them [-].
+inline constexpr double kParallel = 1e-3;
+
+/// Lines of edges that are closest past the ends of these by no more than so many times their
+/// overlap may still be what touches, in the notch of a hollow outline.
+inline constexpr double kPastEnds = 5.0;
+
+/// What two edges are to each other.
+struct FacedEdges {
+    std::optional<FeatureContact> contact;
+    /// If not, as though they were one: they lie in each other, and the nearest places of their
+    /// lines are past the end of one.
+    std::optional<FeatureContact> unsupported;
+};
+
+/// An edge of either, when their gap is below `reach`.
+FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_t ofSecond,
+                     double reach, double sharpness);
+
+}  // namespace scree

@@ -1,0 +1,48 @@
+// Two bodies as their features see each other: one at rest, the other somewhere before it; and what
+// it means there to touch. All kinds of contacts are told in this frame, and turned into the world
+// at the end.
+#pragma once
+
+#include <algorithm>
+
+#include "core/geometry/shape.h"
+
+namespace scree {
+
+/// Two shapes in the frame of the second.
+struct RelativePair {
+    const Shape& first;
+    const Shape& second;
+    Mat3 rotation;     ///< second from first
+    Vec3 translation;  ///< [m]
+
+    RelativePair reversed() const
+    {
+        const Mat3 back = rotation.transpose();
+        return {second, first, back, -(back * translation)};
+    }
+    Vec3 operator*(const Vec3& point) const { return rotation * point + translation; }
+};
+
+/// In the frame of the second shape.
+struct FeatureContact {
+    Vec3 point;   ///< on the first [m]
+    Vec3 normal;  ///< out of the second
+    double gap;   ///< [m]
+};
+
+/// Nearer to an edge or corner than this share of the smaller body, the faces beside it decide the
+/// normal: an edge is no sharper than that.
+inline constexpr double kSharpness = 1e-3;
+
+/// Edges deeper in each other than this are not what touches [m]: in a deep overlap every far edge
+/// "interferes", and the corners inside tell the way out.
+inline double deepestEdges(const RelativePair& pair)
+{
+    return 0.25 * std::min(pair.first.innerThickness, pair.second.innerThickness);
+}
+
+/// Bounding radius of the smaller shape [m]; planes have none.
+double smallerRadius(const Shape& a, const Shape& b);
+
+}  // namespace scree
