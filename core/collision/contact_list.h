@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/collision/near_features.h"
+#include "core/collision/contact_with_gap.h"
 #include "core/collision/round_contacts.h"
 
 namespace scree {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/collision/near_features.h"
+#include "core/collision/contact_with_gap.h"
 
 namespace scree {
 

@@ -2,6 +2,7 @@
 // they are still apart. Corners of each against the surface of the other, and pairs of convex
 // edges; each gives a point, a normal and a gap.  [A7, A8; algorithm 14]
 //
+// Which features those are is looked for and remembered in feature_memory.h; here they are asked.
 // Where the features of a fine mesh stand for a round surface, the places of that surface take over
 // (round_contacts.h).
 //
@@ -9,43 +10,15 @@
 // of the poses, so that one detection serves a whole step.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "core/collision/contact_with_gap.h"
 #include "core/collision/interference.h"
-#include "core/collision/relative_pair.h"
-#include "core/geometry/shape.h"
 
 namespace scree {
 
-/// What found a contact. A pair that has an exact ball in it has no other features.
-enum class FeatureKind : std::uint64_t {
-    cornerOfA = 0,
-    cornerOfB = 1,
-    edges = 2,
-    ball = 3,
-    round = 3
-};
-
-inline std::uint64_t featureId(FeatureKind kind, std::int32_t first, std::int32_t second = 0)
-{
-    return static_cast<std::uint64_t>(kind) << 62 | static_cast<std::uint64_t>(first) << 31 |
-           static_cast<std::uint64_t>(second);
-}
-
-inline FeatureKind kindOf(std::uint64_t feature)
-{
-    return static_cast<FeatureKind>(feature >> 62);
-}
-
-/// Two surfaces facing each other. The normal points from B to A.
-struct GapContact {
-    std::uint64_t feature;  ///< which features of A and B: the same as long as they stay the same
-    Vec3 rA;      ///< the place, halfway between the surfaces, from A's centre of mass, world [m]
-    Vec3 normal;  ///< world
-    double gap;   ///< [m], negative when they overlap
-};
+class FeatureMemory;
 
 /// Lower bound of the distance between two bodies, from a few spheres around their features [m];
 /// far below zero where these overlap.
@@ -73,8 +46,7 @@ public:
     void prefetchLists() const;
 
 private:
-    class Memory;
-    std::unique_ptr<Memory> memory_;  // none while everything is far
+    std::unique_ptr<FeatureMemory> memory_;  // none while everything is far
 };
 
 }  // namespace scree

@@ -12,7 +12,7 @@ namespace scree {
 /// The force that a place of contact needed in the last step. What held a heap then holds it now.
 struct RememberedContact {
     BodyId a = 0, b = 0;
-    std::uint64_t feature = 0;   ///< near_features.h
+    std::uint64_t feature = 0;   ///< contact_with_gap.h
     Vec3 place = Vec3::Zero();   ///< in A's object frame [m]
     Vec3 force = Vec3::Zero();   ///< on A, world [N]
     Vec3 couple = Vec3::Zero();  ///< of its resistance to rolling and spinning, on A, world [N m]

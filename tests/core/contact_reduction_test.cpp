@@ -8,6 +8,7 @@
 
 #include "core/base/random.h"
 #include "core/collision/contact_reduction.h"
+#include "core/collision/near_features.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
 #include "tests/support/scenes.h"
