@@ -83,6 +83,9 @@ void findForces(const World& world, const StepSettings& settings, double dt,
     // times as far after 20 s. The paper moves it with the new velocity, which does not gain.
     const double later = settings.method == Method::scree ? 0.5 * dt : 0.0;
     const double time = world.time(later);
+    std::vector<char> touches(world.bodyCount(), 0);
+    for (const RememberedContact& contact : world.contactMemory.contacts)
+        touches[contact.a] = touches[contact.b] = 1;
     forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
         forces[b] = {};
         if (!world.mass[b].isMovable()) return;
@@ -91,11 +94,20 @@ void findForces(const World& world, const StepSettings& settings, double dt,
         const double area = 0.25 * world.shapeOf(static_cast<BodyId>(b)).unitMass.area;
         const double airGrip = 0.5 * kAirDensity * area * inverseMass;
         forces[b].acceleration = settings.gravity + inverseMass * world.info[b].force;
-        for (const ForceField& field : world.fields) {
-            forces[b].acceleration +=
-                fieldAcceleration(field, time, motion.position + later * motion.velocity,
-                                  motion.velocity, airGrip, dt);
-        }
+        const Vec3 position = motion.position + later * motion.velocity;
+        const auto add = [&](bool isWind, const Vec3& velocity) {
+            Vec3 sum = Vec3::Zero();
+            for (const ForceField& field : world.fields) {
+                if ((field.kind == ForceField::Kind::wind) != isWind) continue;
+                sum += fieldAcceleration(field, time, position, velocity, airGrip, dt);
+            }
+            forces[b].acceleration += sum;
+        };
+        add(false, motion.velocity);
+        // Air takes from the speed of the middle of the step: told of that of its beginning, what
+        // falls through it ended g dt/2 too fast, a leaf a fifth. What lies there does not fall.
+        const Vec3 gained = later * forces[b].acceleration;
+        add(true, motion.velocity + (touches[b] ? Vec3(Vec3::Zero()) : gained));
         forces[b].torque = world.info[b].torque;
     });
 }

@@ -247,9 +247,17 @@ GapRow ImpactVisits::rowAt(Impact& impact) const
         if (row.movesA && row.movesB) impact.slid = row.rB - row.rA - bFromA;
         return row;
     }
-    if (slid.isZero(0.0)) return row;
-    row.rA -= 0.5 * slid;
-    row.rB += 0.5 * slid;
+    if (row.movesA && row.movesB) {
+        if (slid.isZero(0.0)) return row;
+        row.rA -= 0.5 * slid;
+        row.rB += 0.5 * slid;
+    } else {
+        // Halfway between the surfaces is not where either is touched: a ball on a plane was given
+        // a radius and half of what it fell in the step.
+        const Vec3 half = 0.5 * std::max(row.gap, 0.0) * row.normal;
+        row.rA += half;
+        row.rB -= half;
+    }
     const Vec3 velocity = velocityAt(row, a, b) + impact.time * gravityAt(row);
     const double speed = velocity.dot(row.normal);
     if (speed >= -state_.slowest) {

@@ -46,6 +46,29 @@ Quat turnedFreely(const Quat& q, const Vec3& D, const Vec3& L, double dt)
     return turnedAbout(other, rest, whole, L, 0.5 * dt).normalized();
 }
 
+/// Whether a script has just let go of a body.
+bool isLetGo(const World& world, const BodyInfo& body)
+{
+    const Clock& clock = world.clock;
+    return body.script && body.keyedFrom < body.keyedUntil && clock.frame > 0 &&
+           clock.frame == body.keyedUntil && clock.subStep == 0 && clock.frameTimeDone == 0.0;
+}
+
+/// Gives a body the velocity that its script has just then: with the mean of its last step, what
+/// was swung round left 7 degrees off at one step a frame.  [A55]
+void letGo(World& world, BodyId body)
+{
+    constexpr double kJustBefore = 1e-4;  // of a frame
+    const double moment = kJustBefore * world.frameDuration;
+    const Pose before = world.scriptedPose(body, world.time(-moment));
+    const Pose now = world.scriptedPose(body, world.time());
+    BodyMotion& motion = world.motion[body];
+    motion.velocity = (now.position - before.position) / moment;
+    const Quat turn = now.orientation * before.orientation.conjugate();
+    motion.angularMomentum =
+        momentumOfSpin(motion, world.mass[body], rotationVector(turn) / moment);
+}
+
 }  // namespace
 
 Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& velocity,
@@ -70,7 +93,10 @@ Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& veloci
 void aimKeyedBodies(World& world, double dt)
 {
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (world.info[b].kind != BodyKind::keyed) continue;
+        if (world.info[b].kind != BodyKind::keyed) {
+            if (isLetGo(world, world.info[b])) letGo(world, static_cast<BodyId>(b));
+            continue;
+        }
         BodyMotion& motion = world.motion[b];
         const Pose next = world.scriptedPose(static_cast<BodyId>(b), world.time(dt));
         const Quat turn = next.orientation * motion.orientation.conjugate();

@@ -126,6 +126,23 @@ TEST(Forces, AFallingBodyInStillAirReachesTheTerminalSpeedOfTheDragFormula)
     EXPECT_NEAR(-world.motion[ball].velocity.y(), terminal, 0.01 * terminal);
 }
 
+TEST(Forces, ALeafFallsAsSlowlyInOneStepAFrame)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const BodyId leaf = addBody(world, boxShape({0.1, 0.01, 0.1}, 1), material, {}, 2e-3);
+    ForceField air;
+    air.kind = ForceField::Kind::wind;
+    air.drag = 1.0;
+    world.fields.push_back(air);
+    const StepSettings settings = screeSettings();
+    Stepper stepper(settings);
+    for (int frame = 0; frame < 48; ++frame) stepper.step(world, 1.0 / 24.0);
+    const double area = 0.25 * world.shapeOf(leaf).unitMass.area;
+    const double terminal = std::sqrt(2.0 * 2e-3 * -settings.gravity.y() / (1.2 * area));
+    EXPECT_NEAR(-world.motion[leaf].velocity.y(), terminal, 0.02 * terminal);
+}
+
 TEST(Forces, FieldsPointAndFadeAsTheySay)
 {
     ForceField field;

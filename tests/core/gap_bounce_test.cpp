@@ -135,6 +135,26 @@ TEST(GapBounce, ABlowIsPassedOnWhereThreadsShareTheWork)
         EXPECT_NEAR((across[k] - handed[k]).norm(), 0.0, 1e-3) << across[k].transpose();
 }
 
+TEST(GapBounce, FrictionTurnsABallByItsRadiusHoweverFarItFellInTheStep)
+{
+    constexpr double kRadius = 0.5;
+    for (const double start : {0.7, 0.8, 0.9, 1.0, 1.1}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.2, 0.5);
+        addPlane(world, material);
+        const Vec3 before(20.0, -20.0, 0.0);
+        const BodyId ball = addBody(world, exactSphere(kRadius), material,
+                                    {{0.0, start, 0.0}, Quat::Identity()}, 1.0, before);
+        Stepper stepper(weightless());
+        for (int frame = 0; frame < 2; ++frame) stepper.advanceFrame(world, 1.0 / 24.0);
+        const Vec3 change = world.motion[ball].velocity - before;
+        ASSERT_LT(change.x(), -1.0);
+        // Of a kilogramme: what it has got of angular momentum by so much of momentum.
+        const double lever = world.motion[ball].angularMomentum.z() / change.x();
+        EXPECT_NEAR(std::abs(lever), kRadius, 1e-6) << start;
+    }
+}
+
 /// The most energy that a body has that tumbles over the ground, elastic and without friction, as a
 /// share of what it had at first.
 double mostEnergyOfTumbling(const std::shared_ptr<const Shape>& shape, double spin)

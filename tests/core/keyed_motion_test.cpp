@@ -145,6 +145,32 @@ TEST(KeyedMotion, AReleasedBodyFliesOnWithTheVelocityAndSpinOfItsLastStep)
     EXPECT_LE((world.motion[body].position - Vec3(2.0, 1.0, 0.0) * (13.0 / 24.0)).norm(), 1e-9);
 }
 
+TEST(KeyedMotion, WhatIsReleasedHasTheVelocityOfItsCurveJustThen)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    BodyDefinition definition;
+    definition.name = "thrown";
+    definition.shape = world.addShape(boxShape(Vec3::Ones(), 1));
+    definition.material = material;
+    definition.kind = BodyKind::keyed;
+    const Vec3 turn(0.0, 0.8, 0.0);
+    definition.script = std::make_shared<MotionScript>(
+        std::vector<MotionKey>{{0.0, {Vec3::Zero(), Quat::Identity()}},
+                               {1.0, {{2.0, 1.0, 0.0}, exponentialMap(turn)}}},
+        KeyInterpolation::smooth);
+    definition.keyedUntil = 6;
+    const BodyId body = world.addBody(definition);
+    StepSettings settings = oneStepAFrame();
+    settings.gravity.setZero();
+    Stepper stepper(settings);
+    for (int f = 0; f < 7; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+    // Of the share that has passed, s = 1/4, the slope of 3 s² - 2 s³.
+    constexpr double kSlope = 1.125;
+    EXPECT_LE((world.motion[body].velocity - kSlope * Vec3(2.0, 1.0, 0.0)).norm(), 1e-3);
+    EXPECT_LE((angularVelocityOf(world, body) - kSlope * turn).norm(), 1e-3);
+}
+
 /// A keyed ram that is released while it pushes two boxes, and a box that a script takes over.
 World makeHandOver()
 {
