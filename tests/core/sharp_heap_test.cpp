@@ -66,7 +66,7 @@ void fillBin(std::uint64_t seed)
 
 TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
 {
-    for (const std::uint64_t seed : {2000, 3000, 5000}) fillBin(seed);
+    for (const std::uint64_t seed : {2000, 5000, 8000}) fillBin(seed);
 }
 
 }  // namespace
