@@ -109,6 +109,36 @@ double resistSpin(GapRow& row, GapBody& a, GapBody& b)
     return (response * change).norm() * row.rA.norm();
 }
 
+/// Of a row whose surfaces move along its normal with `un`.
+double normalImpulse(const GapRow& row, double un)
+{
+    return std::max(0.0, row.impulse.x() - (un - row.target) / row.inverseNormalMass);
+}
+
+/// Friction of a row whose surfaces slide with (ut, us), by its normal impulse. Answers how much
+/// that changed their speed at most.
+double rub(GapRow& row, double ut, double us)
+{
+    const Vec3 before = row.impulse;
+    const double* k = row.frictionMass;
+    double t1 = before.y() - (k[0] * ut + k[1] * us);
+    double t2 = before.z() - (k[1] * ut + k[2] * us);
+    const double limit = row.friction * before.x();
+    if (t1 * t1 + t2 * t2 > limit * limit) {
+        // Projecting the sticking impulse would turn friction away from the sliding direction.
+        t1 = before.y() - row.slideMass * ut;
+        t2 = before.z() - row.slideMass * us;
+        const double length = std::sqrt(t1 * t1 + t2 * t2);
+        if (length > limit) {
+            t1 *= limit / length;
+            t2 *= limit / length;
+        }
+    }
+    row.impulse.y() = t1;
+    row.impulse.z() = t2;
+    return std::max(std::abs(t1 - before.y()), std::abs(t2 - before.z())) / row.slideMass;
+}
+
 /// What a step may spend on an island: the sweeps of the settings on a large heap, more on a small
 /// problem and in a chain.
 struct SweepLimits {
@@ -168,46 +198,40 @@ bool isHeap(const StepSettings& settings, const GapIsland& island)
     return spareSweeps(island) <= settings.gapSweeps;
 }
 
+double visitRow(GapRow& row, const Vec3& u)
+{
+    const Vec3 before = row.impulse;
+    const double normal = normalImpulse(row, u.x()), pushed = normal - before.x();
+    if (normal == 0.0 && before.isZero(0.0)) return 0.0;
+    row.impulse.x() = normal;
+    const double rubbed = rub(row, u.y() + pushed * row.normalIntoFriction[0],
+                              u.z() + pushed * row.normalIntoFriction[1]);
+    return std::max(std::abs(pushed) * row.inverseNormalMass, rubbed);
+}
+
 double visitRow(GapRow& row, GapBody& a, GapBody& b)
 {
-    Vec3 u = velocityAt(row, a, b);
-    const Vec3 before = row.impulse;
-    const double missing = (u.dot(row.normal) - row.target) / row.inverseNormalMass;
-    const double normal = std::max(0.0, before.x() - missing), pushed = normal - before.x();
-    if (normal == 0.0 && before.isZero(0.0) && !row.resistsSpin()) return 0.0;
-
-    const Vec3 s = row.secondTangent();
-    double changed = std::abs(pushed) * row.inverseNormalMass, ut, us;
-    row.impulse.x() = normal;
-    if (row.resistsSpin()) {
-        applyRow(row, a, b, pushed * row.normal);
-        changed = std::max(changed, resistSpin(row, a, b));
-        u = velocityAt(row, a, b);
-        ut = u.dot(row.tangent);
-        us = u.dot(s);
-    } else {
-        ut = u.dot(row.tangent) + pushed * row.normalIntoFriction[0];
-        us = u.dot(s) + pushed * row.normalIntoFriction[1];
+    const Vec3 before = row.impulse, s = row.secondTangent();
+    const auto velocity = [&] {
+        const Vec3 u = velocityAt(row, a, b);
+        return Vec3(u.dot(row.normal), u.dot(row.tangent), u.dot(s));
+    };
+    if (!row.resistsSpin()) {
+        const double changed = visitRow(row, velocity());
+        const Vec3 d = row.impulse - before;
+        if (changed > 0.0)
+            applyRow(row, a, b, d.x() * row.normal + d.y() * row.tangent + d.z() * s);
+        return changed;
     }
-    const double* k = row.frictionMass;
-    double t1 = before.y() - (k[0] * ut + k[1] * us);
-    double t2 = before.z() - (k[1] * ut + k[2] * us);
-    const double limit = row.friction * normal;
-    if (t1 * t1 + t2 * t2 > limit * limit) {
-        // Projecting the sticking impulse would turn friction away from the sliding direction.
-        t1 = before.y() - row.slideMass * ut;
-        t2 = before.z() - row.slideMass * us;
-        const double length = std::sqrt(t1 * t1 + t2 * t2);
-        if (length > limit) {
-            t1 *= limit / length;
-            t2 *= limit / length;
-        }
-    }
-    row.impulse = {normal, t1, t2};
-    const double d1 = t1 - before.y(), d2 = t2 - before.z();
-    const double pushedYet = row.resistsSpin() ? 0.0 : pushed;
-    applyRow(row, a, b, pushedYet * row.normal + d1 * row.tangent + d2 * s);
-    return std::max(changed, std::max(std::abs(d1), std::abs(d2)) / row.slideMass);
+    row.impulse.x() = normalImpulse(row, velocity().x());
+    const double pushed = row.impulse.x() - before.x();
+    applyRow(row, a, b, pushed * row.normal);
+    double changed = std::max(std::abs(pushed) * row.inverseNormalMass, resistSpin(row, a, b));
+    const Vec3 u = velocity();
+    changed = std::max(changed, rub(row, u.y(), u.z()));
+    const Vec3 d = row.impulse - before;
+    applyRow(row, a, b, d.y() * row.tangent + d.z() * s);
+    return changed;
 }
 
 void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)

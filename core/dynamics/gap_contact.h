@@ -7,8 +7,12 @@
 
 namespace scree {
 
-/// One visit. Answers how much it changed the normal velocity [m/s].
+/// One visit. Answers how much it changed the velocity there [m/s].
 double visitRow(GapRow& row, GapBody& a, GapBody& b);
+
+/// The same of a row whose surfaces move with u, along normal, tangent and second tangent: changes
+/// the impulse alone. Of a row that does not resist spin, or not here.
+double visitRow(GapRow& row, const Vec3& u);
 
 /// How much of the way that its impulses went in the last sweep an island goes again, by the
 /// energies of what that sweep and the one before changed. Above 1: none, the active set has

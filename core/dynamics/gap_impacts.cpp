@@ -25,10 +25,7 @@
 namespace scree {
 namespace {
 
-/// Places beside each other, as a ring has that lands, need a hundred: left after twenty it had
-/// gained 3 % of its energy.
-constexpr int kMostPairSweeps = 200;
-constexpr double kPairIsSolved = 1e-4;  // of the speed of the impact
+constexpr double kPairIsSolved = 3e-4;  // of the speed of the impact
 
 /// Places that are hit within this share of a step are hit together.
 constexpr double kTogether = 0.01;
@@ -292,10 +289,11 @@ void ImpactVisits::applyTogether()
 {
     double earliest = state_.dt;
     for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
-    const bool gainsEnergy = solveTogether(true) > 0.0;
+    solveTogether(true);
+    const bool gainsEnergy = together_.work() > 0.0;
     if (gainsEnergy) solveTogether(false);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const GapRow& row = rows_[i].row;
+    for (std::size_t i = 0; i < hits_.size(); ++i) {
+        const GapRow& row = together_.rows()[i];
         applyImpulses(row, row.worldImpulse(), earliest);
         const FrictionCase kind = gainsEnergy   ? FrictionCase::fallback
                                   : sticks(row) ? FrictionCase::sticking
@@ -304,44 +302,17 @@ void ImpactVisits::applyTogether()
     }
 }
 
-/// Fills rows_ with the impulses of hits_; answers their work [J].
-double ImpactVisits::solveTogether(bool withFriction)
+void ImpactVisits::solveTogether(bool withFriction)
 {
-    rows_.clear();
-    after_.clear();
-    hitBodies_.clear();
+    together_.begin(scratch_.bodies);
     double fastest = 0.0;
     for (Impact& impact : hits_) {
         GapRow row = rowAt(impact);
         if (!withFriction) row.friction = 0.0;
         fastest = std::max(fastest, impact.velocity.norm());
-        const std::size_t placeA = placeOf(row.a), placeB = placeOf(row.b);
-        rows_.push_back({row, placeA, placeB});
+        together_.add(row);
     }
-    for (int sweep = 0; sweep < kMostPairSweeps; ++sweep) {
-        double residual = 0.0;
-        for (auto& [row, a, b] : rows_)
-            residual = std::max(residual, visitRow(row, after_[a], after_[b]));
-        if (residual <= kPairIsSolved * fastest) break;
-    }
-    double work = 0.0;
-    for (const auto& [row, a, b] : rows_) {
-        const Vec3 before = velocityAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
-        work += 0.5 * row.worldImpulse().dot(before + velocityAt(row, after_[a], after_[b]));
-    }
-    return work;
-}
-
-/// In after_. There are few.
-std::size_t ImpactVisits::placeOf(BodyId body)
-{
-    const auto found = std::find(hitBodies_.begin(), hitBodies_.end(), body);
-    if (found == hitBodies_.end()) {
-        hitBodies_.push_back(body);
-        after_.push_back(scratch_.bodies[body]);
-        return after_.size() - 1;
-    }
-    return static_cast<std::size_t>(found - hitBodies_.begin());
+    together_.solve(kPairIsSolved * fastest);
 }
 
 void ImpactVisits::note(const Impact& impact, const Vec3& impulse, FrictionCase kind)

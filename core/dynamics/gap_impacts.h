@@ -12,6 +12,7 @@
 
 #include "core/dynamics/gap_held.h"
 #include "core/dynamics/gap_scratch.h"
+#include "core/dynamics/gap_together.h"
 
 namespace scree {
 
@@ -108,11 +109,6 @@ public:
     }
 
 private:
-    struct RowOfHit {
-        GapRow row;
-        std::size_t a, b;  // in after_
-    };
-
     ImpactChange& impactsOf(BodyId body) { return state_.impacts[state_.placeOf(body)]; }
     Vec3 gravityAt(const GapRow& row) const;
     bool impactOf(const GapPair& pair, GapRow& row, Impact& impact) const;
@@ -125,8 +121,7 @@ private:
     GapRow rowAt(Impact& impact) const;
     void applyOne(Impact& impact);
     void applyTogether();
-    double solveTogether(bool withFriction);
-    std::size_t placeOf(BodyId body);
+    void solveTogether(bool withFriction);
     void note(const Impact& impact, const Vec3& impulse, FrictionCase kind);
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time);
     void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& impacts,
@@ -140,9 +135,7 @@ private:
     std::vector<GapImpact> noted_;
     std::vector<BodyId> toSpread_;
     std::vector<Impact> hits_;
-    std::vector<RowOfHit> rows_;     // of hits_
-    std::vector<BodyId> hitBodies_;  // of these
-    std::vector<GapBody> after_;     // the same ones, as the blows leave them
+    HitTogether together_;
 };
 
 }  // namespace scree
