@@ -36,4 +36,15 @@ struct GapContact {
     double gap;   ///< [m], negative when they overlap
 };
 
+/// How the surfaces of two bodies have moved, seen from A's centre of mass.
+struct PairMove {
+    Mat3 turnA, turnB;
+    Vec3 bFromABefore, bFromA;  ///< centre of B from that of A [m]
+};
+
+/// The contact after its bodies have moved. A corner is a point of its body and a face a plane of
+/// the other, so that it is the one that would be found; where two edges cross it is as good as the
+/// turn is small. The place of a round contact is no point of its bodies.
+GapContact movedAlong(const GapContact& contact, const PairMove& move);
+
 }  // namespace scree

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/dynamics/body_pairs.h"
+#include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -39,8 +40,14 @@ constexpr double kSlidesOn = 2e-3;
 /// has places to touch that come and go.
 constexpr double kTurned = 1e-5;
 
+/// Places of bodies that turn by more than this until they are hit are hit elsewhere [rad].
+constexpr double kTurnsOn = 1e-3;
+
 /// The moment of a blow is known when it changes by less than this share of the step.
 constexpr double kSameMoment = 1e-6;
+
+/// The moment of a blow that nobody knows better than its rows.
+constexpr double kNotKnown = -1.0;
 
 /// A body on its way, if what carried it in the last step still does.
 struct Course {
@@ -55,7 +62,9 @@ struct Course {
         velocity = body.velocity;
         spin = body.spin;
         acceleration = body.pull + by.acceleration;
-        turning = body.inverseInertia * body.torque + by.turning;
+        turning =
+            body.inverseInertia * (body.torque - spin.cross(world.motion[id].angularMomentum)) +
+            by.turning;
     }
 
     Vec3 velocityAt(const Vec3& r, double t) const
@@ -108,8 +117,6 @@ public:
             std::min(kAfter * smallerRadius(world, bodies_.a, bodies_.b), kOfThickness * thinner);
     }
 
-    bool isFast(double u) const { return -u > fastEnough_; }
-
     /// Whether what is about to be hit in this step is not.
     bool passes(const std::vector<GapContact>& contacts)
     {
@@ -127,12 +134,68 @@ public:
         return false;
     }
 
-    /// Takes the rows of round surfaces that slide along each other until they meet from where
-    /// they are then, or at the end of the step if they miss.
-    void aim(const std::vector<GapContact>& contacts, std::span<GapRow> rows)
+    /// Takes rows from the moment at which the first of them is hit, where that makes a difference.
+    /// Answers this moment, or a negative number. Their gaps are those of then.
+    double aim(const std::vector<GapContact>& contacts, std::span<GapRow> rows)
     {
-        Blow blow = nextBlow(contacts, 0.0, fastEnough_);
-        if (!blow.contact || !turnsUntil(blow)) return;
+        const Blow first = nextBlow(contacts, 0.0, fastEnough_);
+        if (!first.contact) return kNotKnown;
+        const auto take = [&](double t, const auto& thenOf) {
+            for (std::size_t r = 0; r < rows.size(); ++r) {
+                const GapContact* then = bears(rows[r]) ? nullptr : thenOf(r);
+                if (then && velocityOf(*then, t).dot(then->normal) < 0.0)
+                    takeFrom(*then, t, rows[r]);
+            }
+            return t;
+        };
+        switch (kindOf(first.contact->feature)) {
+            case FeatureKind::round: {
+                if (!slidesUntil(first)) return kNotKnown;
+                return take(lookForBlow(first), [&](std::size_t r) -> const GapContact* {
+                    if (kindOf(contacts[r].feature) != FeatureKind::round) return nullptr;
+                    const GapContact* then = sameAs(contacts[r]);
+                    if (!then || (then->normal - contacts[r].normal).norm() <= kTurned)
+                        return nullptr;
+                    return then;
+                });
+            }
+            case FeatureKind::edges: {
+                if (!turnsUntil(first)) return kNotKnown;
+                return take(lookForBlow(first), [&](std::size_t r) { return sameAs(contacts[r]); });
+            }
+            default: {
+                const double t = turnsUntil(first) ? goAlongToBlow(contacts) : kNotKnown;
+                if (t == kNotKnown) return t;
+                return take(t, [&](std::size_t r) {
+                    return isOfCorner(contacts[r]) ? &found_[r] : nullptr;
+                });
+            }
+        }
+    }
+
+private:
+    static bool isOfCorner(const GapContact& contact)
+    {
+        const FeatureKind kind = kindOf(contact.feature);
+        return kind == FeatureKind::cornerOfA || kind == FeatureKind::cornerOfB;
+    }
+
+    bool slidesUntil(const Blow& blow) const
+    {
+        const Vec3 v = a_.velocity - b_.velocity;
+        const Vec3& n = blow.contact->normal;
+        return std::min(blow.time, dt_) * (v - v.dot(n) * n).norm() >
+               kSlidesOn * smallerRadius(world_, bodies_.a, bodies_.b);
+    }
+
+    bool turnsUntil(const Blow& blow) const
+    {
+        return std::min(blow.time, dt_) * (a_.spin.norm() + b_.spin.norm()) > kTurnsOn;
+    }
+
+    /// By looks; at the end of the step if they miss. Leaves in found_ what there is then.
+    double lookForBlow(Blow blow)
+    {
         const double reach = 2.0 * std::max(blow.contact->gap, after_);
         double t = 0.0;
         for (int look = 0; look < kMostLooks; ++look) {
@@ -142,22 +205,41 @@ public:
             lookAt(t, reach);
             blow = nextBlow(found_, t, 0.0);
         }
-        for (GapRow& row : rows) {
-            const GapContact& contact = contacts[&row - rows.data()];
-            if (bears(row) || kindOf(contact.feature) != FeatureKind::round) continue;
-            const GapContact* then = sameAs(contact);
-            if (then && (then->normal - contact.normal).norm() > kTurned) takeFrom(*then, t, row);
-        }
+        return t;
     }
 
-private:
-    bool turnsUntil(const Blow& blow) const
+    /// Of contacts that go along with their bodies, if they hit within the step. Leaves in found_
+    /// how they are then.
+    double goAlongToBlow(const std::vector<GapContact>& contacts)
     {
-        if (kindOf(blow.contact->feature) != FeatureKind::round) return false;
-        const Vec3 v = a_.velocity - b_.velocity;
-        const Vec3& n = blow.contact->normal;
-        return std::min(blow.time, dt_) * (v - v.dot(n) * n).norm() >
-               kSlidesOn * smallerRadius(world_, bodies_.a, bodies_.b);
+        double t = 0.0;
+        for (int look = 0; look < kMostLooks; ++look) {
+            goAlong(contacts, t);
+            double next = std::numeric_limits<double>::infinity();
+            for (const GapContact& contact : found_) {
+                const double u = velocityOf(contact, t).dot(contact.normal);
+                if (-u > fastEnough_) next = std::min(next, t + contact.gap / -u);
+            }
+            next = std::max(next, 0.0);
+            if (next > dt_) return kNotKnown;
+            if (std::abs(next - t) <= kSameMoment * dt_) return t;
+            t = next;
+        }
+        return kNotKnown;
+    }
+
+    void goAlong(const std::vector<GapContact>& contacts, double t)
+    {
+        const Pose a = a_.poseAt(t), b = b_.poseAt(t);
+        const PairMove move{turnOf(a_.start, a), turnOf(b_.start, b),
+                            b_.start.position - a_.start.position, b.position - a.position};
+        found_.clear();
+        for (const GapContact& contact : contacts) found_.push_back(movedAlong(contact, move));
+    }
+
+    static Mat3 turnOf(const Pose& before, const Pose& now)
+    {
+        return (now.orientation * before.orientation.conjugate()).toRotationMatrix();
     }
 
     /// Of what was found last.
@@ -174,18 +256,13 @@ private:
         return nearest;
     }
 
-    /// With the gap that closes when that of `contact` does.
     void takeFrom(const GapContact& contact, double t, GapRow& row) const
     {
         row.rA = contact.rA;
         row.rB = contact.rA + a_.placeAt(t) - b_.placeAt(t);
         row.normal = contact.normal;
         row.isOfBlow = true;
-        const double u =
-            velocityAt(row, scratch_.bodies[bodies_.a], scratch_.bodies[bodies_.b]).dot(row.normal);
-        const double g = (a_.acceleration - b_.acceleration).dot(row.normal);
-        row.gap = contact.gap - t * (u + 0.5 * g * t);
-        prepareRow(scratch_.bodies, row);
+        row.gap = contact.gap;
     }
 
     Vec3 velocityOf(const GapContact& contact, double t) const
@@ -254,36 +331,119 @@ double closedBy(const GapScratch& scratch, const GapRow& row, double u, double d
     return -(std::max(row.gap, 0.0) + dt * (u + 0.5 * g * dt));
 }
 
-}  // namespace
+/// What becomes of a pair in the step.
+struct Foreseen {
+    bool passes = false;
+    double fastEnough = 0.0;
+    double blowAt = kNotKnown;  // [s]
+};
 
-void foreseeBlows(const World& world, double dt, const std::vector<Held>& held,
-                  const GapBlock& block, GapScratch& scratch)
+double closingSpeed(const GapScratch& scratch, const GapRow& row)
 {
-    forPairs(block, [&](std::size_t i) {
+    return -velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
+}
+
+Foreseen foresee(const World& world, double dt, const std::vector<Held>& held, const GapPair& pair,
+                 GapScratch& scratch)
+{
+    const double slow = kSlow * smallerRadius(world, pair.bodies.a, pair.bodies.b) / dt;
+    double fastest = slow;
+    const std::span rows(&scratch.rows[pair.begin], pair.end - pair.begin);
+    for (const GapRow& row : rows) {
+        if (bears(row)) continue;
+        const double closing = closingSpeed(scratch, row);
+        if (closing > fastest && closedBy(scratch, row, -closing, dt) > 0.0) fastest = closing;
+    }
+    if (fastest == slow) return {};
+    Foresight foresight(world, held, scratch, pair, dt, fastest);
+    const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
+    // A plane is everywhere ahead of what comes down on it.
+    const bool isOnPlane =
+        world.shapeOf(pair.bodies.a).isPlane || world.shapeOf(pair.bodies.b).isPlane;
+    if (!isOnPlane && foresight.passes(contacts)) return {true, kOfFastest * fastest};
+    return {false, 0.0, foresight.aim(contacts, rows)};
+}
+
+/// Per place of a body in the block: the first moment at which it is known to be struck, or the end
+/// of the step.
+std::vector<double> momentsOfBlows(double dt, const std::vector<Foreseen>& foreseen,
+                                   const GapBlock& block, const GapScratch& scratch)
+{
+    std::vector<double> struckAt(block.bodies.size() + 1, dt);
+    for (const std::size_t i : block.pairs) {
         const GapPair& pair = scratch.pairs[i];
-        // A plane is everywhere ahead of what comes down on it.
-        if (world.shapeOf(pair.bodies.a).isPlane || world.shapeOf(pair.bodies.b).isPlane) return;
-        const std::span rows(&scratch.rows[pair.begin], pair.end - pair.begin);
-        const auto speedOf = [&](const GapRow& row) {
-            return velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
-        };
-        const double slow = kSlow * smallerRadius(world, pair.bodies.a, pair.bodies.b) / dt;
-        double fastest = slow;
-        for (const GapRow& row : rows) {
-            if (bears(row)) continue;
-            const double u = speedOf(row);
-            if (-u > fastest && closedBy(scratch, row, u, dt) > 0.0) fastest = -u;
+        const double t = foreseen[pair.place].blowAt;
+        if (t == kNotKnown) continue;
+        for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
+            double& first = struckAt[scratch.placeInBlock[body]];
+            first = std::min(first, t);
         }
-        if (fastest == slow) return;
-        Foresight foresight(world, held, scratch, pair, dt, fastest);
-        const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
-        if (!foresight.passes(contacts)) return foresight.aim(contacts, rows);
-        for (GapRow& row : rows) {
-            const double u = speedOf(row);
-            if (bears(row) || !foresight.isFast(u)) continue;
-            const double closed = std::max(closedBy(scratch, row, u, dt), 0.0);
+    }
+    return struckAt;
+}
+
+/// Gives a body that flies freely the spin and the inertia of a moment of the step: what strikes it
+/// then finds it turned.
+void turnUntil(const World& world, const StepSettings& settings, double t, BodyId id, GapBody& body)
+{
+    const BodyMotion& motion = world.motion[id];
+    const Pose then = predictPose(motion, world.mass[id], motion.velocity, motion.angularMomentum,
+                                  settings.orientation, t);
+    body.inverseInertia =
+        inverseInertiaWorld(then.orientation.toRotationMatrix(), world.mass[id].inverseInertia);
+    body.spin = body.inverseInertia * motion.angularMomentum;
+}
+
+/// Gives the rows of a pair what their bodies are now, and the gaps that close when they are hit.
+void settleRows(double dt, const std::vector<Held>& held, const GapPair& pair, const Foreseen& seen,
+                GapScratch& scratch)
+{
+    const auto pullOn = [&](BodyId body) {
+        return Vec3(scratch.bodies[body].pull + held[scratch.placeInBlock[body]].acceleration);
+    };
+    const Vec3 pull = pullOn(pair.bodies.a) - pullOn(pair.bodies.b);
+    for (std::size_t r = pair.begin; r < pair.end; ++r) {
+        GapRow& row = scratch.rows[r];
+        prepareRow(scratch.bodies, row);
+        const double closing = closingSpeed(scratch, row);
+        if (row.isOfBlow) {
+            row.gap = std::max(row.gap, 0.0) +
+                      seen.blowAt * (closing - 0.5 * pull.dot(row.normal) * seen.blowAt);
+        } else if (seen.passes && !bears(row) && closing > seen.fastEnough) {
+            const double closed = std::max(closedBy(scratch, row, -closing, dt), 0.0);
             row.gap = std::max(row.gap, 0.0) + (1.0 + kSpare) * closed;
         }
+    }
+}
+
+}  // namespace
+
+void foreseeBlows(const World& world, const StepSettings& settings, double dt,
+                  const std::vector<Held>& held, const GapBlock& block, GapScratch& scratch)
+{
+    std::vector<Foreseen> foreseen(block.pairs.size());
+    forPairs(block, [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        foreseen[pair.place] = foresee(world, dt, held, pair, scratch);
+    });
+    const std::vector<double> struckAt = momentsOfBlows(dt, foreseen, block, scratch);
+    std::vector<char> isTurned(block.bodies.size() + 1, 0);
+    forEach(block.bodies.size(), kShortWork, [&](std::size_t n) {
+        const BodyId id = block.bodies[n];
+        GapBody& body = scratch.bodies[id];
+        const double t = struckAt[n + 1];
+        if (t >= dt || t * body.spin.norm() <= kTurnsOn) return;
+        if (!held[n + 1].acceleration.isZero(0.0) || !held[n + 1].turning.isZero(0.0)) return;
+        turnUntil(world, settings, t, id, body);
+        isTurned[n + 1] = 1;
+    });
+    forPairs(block, [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        const Foreseen& seen = foreseen[pair.place];
+        if (seen.passes || seen.blowAt != kNotKnown ||
+            isTurned[scratch.placeInBlock[pair.bodies.a]] ||
+            isTurned[scratch.placeInBlock[pair.bodies.b]])
+            settleRows(dt, held, pair, seen, scratch);
     });
 }
 

@@ -20,26 +20,6 @@ constexpr double kMostWay = 1e-3;
 constexpr double kSpeedUp = 1.1;
 constexpr double kWayMore = 0.1 * kMostWay;  // as a share of the smaller body
 
-/// A corner is a point of its body and a face a plane of the other, so that their contact is the
-/// one that would be found; where two edges cross it is as good as the turn is small.
-void takeAlong(const BodyMove& a, const BodyMove& b, const Vec3& bFromABefore, const Vec3& bFromA,
-               GapContact& contact)
-{
-    const Vec3 half = 0.5 * contact.gap * contact.normal;
-    const Vec3 onA = a.turn * (contact.rA + half);
-    const Vec3 onB = b.turn * (contact.rA - half - bFromABefore) + bFromA;
-    const Vec3 withA = a.turn * contact.normal, withB = b.turn * contact.normal;
-    const FeatureKind kind = kindOf(contact.feature);
-    contact.normal = kind == FeatureKind::cornerOfA   ? withB
-                     : kind == FeatureKind::cornerOfB ? withA
-                                                      : Vec3((withA + withB).normalized());
-    contact.gap = contact.normal.dot(onA - onB);
-    const Vec3 halfNow = 0.5 * contact.gap * contact.normal;
-    contact.rA = kind == FeatureKind::cornerOfA   ? Vec3(onA - halfNow)
-                 : kind == FeatureKind::cornerOfB ? Vec3(onB + halfNow)
-                                                  : Vec3(0.5 * (onA + onB));
-}
-
 /// The place of a round contact is no point of its bodies: it stays below what rolls, and if it
 /// went along it would push that on.
 bool isRound(const GapContact& contact)
@@ -111,8 +91,8 @@ bool takeContactsAlong(const World& world, const GapScratch& scratch, double rea
     if (way > kMostWay * smallerRadius(world, pair.bodies.a, pair.bodies.b)) return false;
     if (std::any_of(pair.contacts.begin(), pair.contacts.end(), isRound)) return false;
     const Vec3 bFromA = world.motion[pair.bodies.b].position - world.motion[pair.bodies.a].position;
-    const Vec3 bFromABefore = bFromA - b.shift + a.shift;
-    for (GapContact& contact : pair.contacts) takeAlong(a, b, bFromABefore, bFromA, contact);
+    const PairMove move{a.turn, b.turn, bFromA - b.shift + a.shift, bFromA};
+    for (GapContact& contact : pair.contacts) contact = movedAlong(contact, move);
     pair.foundWithin -= way;
     pair.isLagged = true;
     pair.depth = deepestOf(pair.contacts);

@@ -151,7 +151,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
     {
         const PhaseTimer timer(seconds, Phase::collision);
         const std::vector<Held> held = heldAsBefore(dt, block, scratch);
-        foreseeBlows(world, dt, held, block, scratch);
+        foreseeBlows(world, settings_, dt, held, block, scratch);
         const std::vector<VelocityLead> trails = trailPlaces(world, block, scratch);
         resolveImpacts(settings_, dt, held, block, scratch);
         takeBack(trails, scratch);

@@ -72,7 +72,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
     for (GapBlock& block : scratch.blocks) {
         buildRows(world, settings, kStep, block, scratch);
         const std::vector<Held> held = heldAsBefore(kStep, block, scratch);
-        foreseeBlows(world, kStep, held, block, scratch);
+        foreseeBlows(world, settings, kStep, held, block, scratch);
         resolveImpacts(settings, kStep, held, block, scratch);
         findLevels(kStep, block, scratch);
         addForcesToGaps(kStep, block, scratch);
