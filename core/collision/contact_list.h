@@ -88,6 +88,9 @@ public:
     /// there, its edges ended in that corner and crossed nothing, and a fifth of a millimetre at
     /// the far side of the ring was taken for all there was. An edge that pokes through the sharp
     /// edge of a prism by its last millimetre sank as deep: its corner was out on the other side.
+    /// So does an edge inside that tells no way out: prisms locked 14 % of their size deep while
+    /// nothing was told, as nothing of a tip that had come out behind an edge showed that it did
+    /// not leave by a face.
     void finish()
     {
         // A round part that touches elsewhere has nothing to say, if that place is known.

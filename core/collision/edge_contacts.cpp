@@ -52,6 +52,19 @@ bool isNear(const Shape& shape, const Vec3& place, double reach)
     return shape.distance.value(place) < reach;
 }
 
+/// Whether an edge of the first comes within `reach` of the second.
+bool comesWithin(const RelativePair& pair, const ConvexEdge& edge, double reach)
+{
+    constexpr double kLeastStep = 0.01;  // of the edge
+    const Vec3 start = pair * edge.start, direction = pair.rotation * edge.direction;
+    for (double along = 0.0; along <= edge.length;) {
+        const double apart = pair.second.distance.value(start + along * direction);
+        if (apart < reach) return true;
+        along += std::max(apart - reach, kLeastStep * edge.length);
+    }
+    return false;
+}
+
 /// Whether the lines of two edges that overlap are nearest where these are, or not far past an end
 /// of them. Of an edge that goes on straight the next piece speaks there. The edges themselves must
 /// be where edges that touch are looked for: near the other body, and not outside each other.
@@ -85,15 +98,26 @@ bool crossesInNotch(const RelativePair& pair, const Crossing& at)
            isHollow(pair.second, at.onSecond, at.beyondSecond);
 }
 
-/// Where an edge is deepest that crosses another `-gap` inside along n: how far from the crossing,
-/// and its height above the nearer of the faces beside the other.
+/// How far from where it crosses an edge, `-gap` inside along n, a line is deepest under the nearer
+/// of the faces beside that edge: where it goes down under one face no faster than it comes up from
+/// the other.
+double placeOfDip(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3& direction)
+{
+    const Vec3 &face0 = edge.faceNormal[0], &face1 = edge.faceNormal[1];
+    const double slope0 = direction.dot(face0), slope1 = direction.dot(face1);
+    if (slope0 * slope1 >= 0.0) return 0.0;
+    return gap * n.dot(face1 - face0) / (slope0 - slope1);
+}
+
+/// Where an edge that crosses another is taken to be deepest: how far from the crossing, and its
+/// height above the nearer of the faces beside the other.
 struct Dip {
     double along, height;  // [m]
 };
 
-/// Mostly that is at the crossing. Beside an edge sharper than square it is not: there the line
-/// that crosses is still outside, and enters some way off, where it goes down under one face no
-/// faster than it comes up from the other. The line begins `before` the crossing and ends `after`.
+/// For what touches that is at the crossing. Beside an edge sharper than square it is not: there
+/// the line that crosses is still outside, and enters some way off. The line begins `before` the
+/// crossing and ends `after`.
 Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3& direction,
                   double before, double after)
 {
@@ -102,7 +126,7 @@ Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3&
     const double slope0 = direction.dot(face0), slope1 = direction.dot(face1);
     if (std::max(height0, height1) <= 0.0 || slope0 * slope1 >= 0.0)
         return {0.0, std::min(0.0, std::max(height0, height1))};
-    const double along = std::clamp((height1 - height0) / (slope0 - slope1), -std::max(before, 0.0),
+    const double along = std::clamp(placeOfDip(edge, n, gap, direction), -std::max(before, 0.0),
                                     std::max(after, 0.0));
     return {along, std::min(0.0, std::max(height0 + along * slope0, height1 + along * slope1))};
 }
@@ -123,6 +147,17 @@ Sunk sunkBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const Conve
     const double onEdge = std::clamp(dip.along, -along, ofFirst.length - along);
     const double value = pair.second.distance.value(onFirst + onEdge * direction);
     return {value <= 0.5 * dip.height + rounding, value < reach, value};
+}
+
+/// How high above the surface of the second the edge of the first is, which crosses one of the
+/// second `-gap` inside along n, where it would be deepest in a wedge [m].
+double heightBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
+                    const Vec3& onFirst, const Vec3& n, double gap, double along)
+{
+    const Vec3 direction = pair.rotation * ofFirst.direction;
+    const double dip = placeOfDip(ofSecond, n, gap, direction);
+    const double onEdge = std::clamp(dip, -along, ofFirst.length - along);
+    return pair.second.distance.value(onFirst + onEdge * direction);
 }
 
 /// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a
@@ -235,18 +270,20 @@ FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_
     const Vec3 onSecond = back * at->onSecond, nBack = back.rotation * -n;
     const Sunk first = sunkBeside(pair, a, b, at->onFirst, n, gap, at->alongFirst, reach);
     const Sunk second = sunkBeside(back, b, a, onSecond, nBack, gap, at->alongSecond, reach);
-    if (!(first.isAsDeep && second.isNear) && !(second.isAsDeep && first.isNear) &&
-        !comesInFlush(pair, a, b, at->onFirst, n, -gap)) {
-        return {};
-    }
-    if (leavesByFace(pair, a, b, at->onFirst, n, -gap) ||
-        leavesByFace(back, b, a, onSecond, nBack, -gap)) {
-        return {};
-    }
-    if (!isPast) return {FeatureContact{at->onFirst, n, gap}, {}};
-    // Where the lines cross is outside: the edges are less deep than their lines.
-    const double deepest = std::min(first.gap, second.gap);
+    const bool areSunk = (first.isAsDeep && second.isNear) || (second.isAsDeep && first.isNear) ||
+                         comesInFlush(pair, a, b, at->onFirst, n, -gap);
+    const bool areWhatOverlaps = areSunk && !leavesByFace(pair, a, b, at->onFirst, n, -gap) &&
+                                 !leavesByFace(back, b, a, onSecond, nBack, -gap);
+    if (areWhatOverlaps && !isPast) return {FeatureContact{at->onFirst, n, gap}, {}};
+    // Otherwise how deep their lines are means little. What of them is inside is inside all the
+    // same; the other must be where edges that touch are looked for.
+    const double ofA =
+        std::min(first.gap, heightBeside(pair, a, b, at->onFirst, n, gap, at->alongFirst));
+    const double ofB =
+        std::min(second.gap, heightBeside(back, b, a, onSecond, nBack, gap, at->alongSecond));
+    const double deepest = std::min(ofA, ofB);
     if (deepest >= -sharpness) return {};
+    if (!(ofA < ofB ? comesWithin(back, b, reach) : comesWithin(pair, a, reach))) return {};
     return {{}, FeatureContact{at->onFirst, n, std::max(gap, deepest)}};
 }
 

@@ -20,8 +20,8 @@ inline constexpr double kPastEnds = 5.0;
 /// What two edges are to each other.
 struct FacedEdges {
     std::optional<FeatureContact> contact;
-    /// If not, as though they were one: they lie in each other, and the nearest places of their
-    /// lines are past the end of one.
+    /// If not, as though they were one: one lies in the other body, but where their lines are
+    /// nearest is past the end of one, or tells no way out. Only as deep as it lies there.
     std::optional<FeatureContact> unsupported;
 };
 

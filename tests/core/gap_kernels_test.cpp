@@ -137,27 +137,25 @@ TEST(NearFeatures, WhatStarsInEachOtherRememberChangesNoContact)
     EXPECT_GT(skipped, 1000u);
 }
 
-/// The smallest gap of all corners and all pairs of edges, asked one after the other [m].
+/// The smallest gap of all corners and all pairs of edges, asked one after the other; of what is
+/// unsupported only where nothing about as deep is told [m].
 double smallestGap(const RelativePair& pair, double reach, double sharpness)
 {
-    double smallest = reach;
-    const auto face = [&](const RelativePair& way) {
-        for (const std::int32_t corner : way.first.features.corners()) {
-            const FacedCorner faced = faceCorner(way, corner, reach, sharpness);
-            for (const auto& contact : {faced.contact, faced.unsupported})
-                if (contact) smallest = std::min(smallest, contact->gap);
-        }
+    double smallest = reach, unsupported = std::numeric_limits<double>::infinity();
+    const auto take = [&](const auto& faced) {
+        if (faced.contact) smallest = std::min(smallest, faced.contact->gap);
+        if (faced.unsupported) unsupported = std::min(unsupported, faced.unsupported->gap);
     };
-    face(pair);
-    face(pair.reversed());
-    for (std::int32_t a = 0; a < std::ssize(pair.first.features.edges()); ++a) {
-        for (std::int32_t b = 0; b < std::ssize(pair.second.features.edges()); ++b) {
-            const FacedEdges faced = faceEdges(pair, a, b, reach, sharpness);
-            for (const auto& contact : {faced.contact, faced.unsupported})
-                if (contact) smallest = std::min(smallest, contact->gap);
-        }
+    for (const RelativePair& way : {pair, pair.reversed()}) {
+        for (const std::int32_t corner : way.first.features.corners())
+            take(faceCorner(way, corner, reach, sharpness));
     }
-    return smallest;
+    for (std::int32_t a = 0; a < std::ssize(pair.first.features.edges()); ++a) {
+        for (std::int32_t b = 0; b < std::ssize(pair.second.features.edges()); ++b)
+            take(faceEdges(pair, a, b, reach, sharpness));
+    }
+    const bool isSpokenFor = smallest < std::min(unsupported + sharpness, 0.0);
+    return isSpokenFor ? smallest : std::min(smallest, unsupported);
 }
 
 TEST(NearFeatures, TheNearestOfAllFeaturesIsAmongThoseLookedAt)
