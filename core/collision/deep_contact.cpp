@@ -2,6 +2,10 @@
 // signed distance.
 #include "core/collision/deep_contact.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace scree {
 namespace {
 
@@ -39,6 +43,16 @@ FeatureContact ballOfFirst(const RelativePair& pair)
     return {c - r * normal, normal, phi.value - r};
 }
 
+/// Until the ball of the first is deep, by whichever value of the field says so first [m].
+double wayOfFirst(const RelativePair& pair)
+{
+    const Vec3 c = pair * pair.first.innerBall.centre;
+    const double most = (1.0 - kDeep) * pair.first.innerBall.radius;
+    const double grid = pair.second.distance.gridValue(c);
+    const double low = pair.second.distance.lowerBound(c, grid);
+    return low - std::abs(grid - low) - most;
+}
+
 }  // namespace
 
 std::optional<DeepContact> findDeepContact(const RelativePair& pair, const RelativePair& back)
@@ -50,6 +64,12 @@ std::optional<DeepContact> findDeepContact(const RelativePair& pair, const Relat
     const double radius = (isOfFirst ? pair.first : pair.second).innerBall.radius;
     if (deeper.gap >= -kDeep * radius || radius == 0.0) return std::nullopt;
     return DeepContact{deeper, isOfFirst, deeper.gap <= -radius};
+}
+
+double wayToDeepContact(const RelativePair& pair, const RelativePair& back)
+{
+    if (pair.first.isPlane || pair.second.isPlane) return std::numeric_limits<double>::infinity();
+    return std::min(wayOfFirst(pair), wayOfFirst(back));
 }
 
 }  // namespace scree

@@ -24,4 +24,8 @@ struct DeepContact {
 /// `pair` and `back` are the two ways to look at two shapes. Planes have no far side.
 std::optional<DeepContact> findDeepContact(const RelativePair& pair, const RelativePair& back);
 
+/// Where there is none: a way that points of the bodies must have moved, added up, before there can
+/// be one [m].
+double wayToDeepContact(const RelativePair& pair, const RelativePair& back);
+
 }  // namespace scree

@@ -179,6 +179,11 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     if (deep && deep->speaksAlone) return deep->contact.gap;
     const double least = deep ? deep->contact.gap : std::numeric_limits<double>::infinity();
     const Vec3 out = deep ? contacts.back().normal : Vec3(Vec3::Zero());
+    // Features can be far while one body lies well inside the other: then its ball may be next.
+    const auto farAt = [&](double apart) {
+        const double far = std::min(least, apart - bulge);
+        return far > 0.0 ? std::min(far, wayToDeepContact(pair, back)) : far;
+    };
 
     // See what is near, and remember nothing of what is not.
     const bool isNew = !memory_ || memory_->isStaleAt(pair, reach);
@@ -186,14 +191,14 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     if (!memory_) {
         // Most pairs whose boxes meet are far apart: a few spheres say how far.
         const double apart = apartAtLeast(pair, back);
-        if (apart > far) return std::min(least, apart - bulge);
+        if (apart > far) return farAt(apart);
         memory_ = std::make_unique<FeatureMemory>();
     }
     if (isNew) {
         const double apart = memory_->look(pair, back, reach);
         if (apart > far) {
             memory_.reset();
-            return std::min(least, apart - bulge);
+            return farAt(apart);
         }
     }
 
@@ -206,7 +211,7 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     if (deep) dropContrary(out, contacts, known);
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? ways.worldFromA : ways.worldFromB, smaller);
-    return std::min(least, memory_->farFor(pair) - bulge);
+    return farAt(memory_->farFor(pair));
 }
 
 void NearFeatures::prefetch() const

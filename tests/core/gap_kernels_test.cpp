@@ -112,17 +112,18 @@ TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)
     EXPECT_GT(skipped, 20u);
 }
 
-/// Deep in each other, edges cross past their ends and far from where they are.
-TEST(NearFeatures, WhatStarsInEachOtherRememberChangesNoContact)
+/// Deep in each other, edges cross past their ends and far from where they are; and prisms that no
+/// feature tells of any more had been passed over until after their balls should have spoken.
+TEST(NearFeatures, WhatStarsAndPrismsInEachOtherRememberChangesNoContact)
 {
-    const auto star = starShape();
+    const std::array shapes = {starShape(), prismShape(), splinterShape()};
     std::size_t contacts = 0, skipped = 0;
     for (std::uint64_t run = 0; run < 12000; ++run) {
         const double apart = 0.15 + 0.4 * randomUnit(7, run, 18);
         const Pose a{apart * signedUnits(run, 0).normalized(),
                      exponentialMap(3.0 * signedUnits(run, 3))};
         const Pose b{Vec3::Zero(), exponentialMap(3.0 * signedUnits(run, 6))};
-        Walk walk{{star.get(), star.get(), a, b},
+        Walk walk{{shapes[run % 3].get(), shapes[run / 2 % 3].get(), a, b},
                   5e-4 * signedUnits(run, 9),
                   1e-3 * signedUnits(run, 12),
                   5e-4 * signedUnits(run, 15)};
