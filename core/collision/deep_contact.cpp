@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace scree {
 namespace {
@@ -43,11 +42,13 @@ FeatureContact ballOfFirst(const RelativePair& pair)
     return {c - r * normal, normal, phi.value - r};
 }
 
-/// Until the ball of the first is deep, by whichever value of the field says so first [m].
-double wayOfFirst(const RelativePair& pair)
+/// Until the ball of the first is deep, by whichever value of the field says so first; or `far`
+/// [m].
+double wayOfFirst(const RelativePair& pair, double far)
 {
     const Vec3 c = pair * pair.first.innerBall.centre;
     const double most = (1.0 - kDeep) * pair.first.innerBall.radius;
+    if (c.norm() - pair.second.boundingRadius - most >= far) return far;
     const double grid = pair.second.distance.gridValue(c);
     const double low = pair.second.distance.lowerBound(c, grid);
     return low - std::abs(grid - low) - most;
@@ -66,10 +67,10 @@ std::optional<DeepContact> findDeepContact(const RelativePair& pair, const Relat
     return DeepContact{deeper, isOfFirst, deeper.gap <= -radius};
 }
 
-double wayToDeepContact(const RelativePair& pair, const RelativePair& back)
+double wayToDeepContact(const RelativePair& pair, const RelativePair& back, double far)
 {
-    if (pair.first.isPlane || pair.second.isPlane) return std::numeric_limits<double>::infinity();
-    return std::min(wayOfFirst(pair), wayOfFirst(back));
+    if (pair.first.isPlane || pair.second.isPlane) return far;
+    return std::min({far, wayOfFirst(pair, far), wayOfFirst(back, far)});
 }
 
 }  // namespace scree

@@ -25,7 +25,7 @@ struct DeepContact {
 std::optional<DeepContact> findDeepContact(const RelativePair& pair, const RelativePair& back);
 
 /// Where there is none: a way that points of the bodies must have moved, added up, before there can
-/// be one [m].
-double wayToDeepContact(const RelativePair& pair, const RelativePair& back);
+/// be one, or `far` if that is shorter [m].
+double wayToDeepContact(const RelativePair& pair, const RelativePair& back, double far);
 
 }  // namespace scree

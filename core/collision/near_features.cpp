@@ -182,7 +182,7 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     // Features can be far while one body lies well inside the other: then its ball may be next.
     const auto farAt = [&](double apart) {
         const double far = std::min(least, apart - bulge);
-        return far > 0.0 ? std::min(far, wayToDeepContact(pair, back)) : far;
+        return far > 0.0 ? wayToDeepContact(pair, back, far) : far;
     };
 
     // See what is near, and remember nothing of what is not.
