@@ -68,7 +68,8 @@ void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
     if (row.movesB) applyCoupleTo(b, -couple);
 }
 
-/// What pulls a body throughout the step, and how far that does not move it if nothing stops it.
+/// What pulls a body throughout the step, and how far that does not move it: in the whole step if
+/// nothing stops it, else until it was hit.
 void addForces(double dt, GapBody& body)
 {
     body.velocityBefore = body.velocity;
@@ -78,9 +79,9 @@ void addForces(double dt, GapBody& body)
     body.velocity += dt * body.pull;
     body.spin += dt * turning;
     body.angularImpulse += dt * body.torque;
-    if (body.isStopped) return;
-    body.shift -= 0.5 * dt * dt * body.pull;
-    body.turn -= 0.5 * dt * dt * turning;
+    const double fallen = body.isStopped ? body.hitAt : dt;
+    body.shift -= 0.5 * fallen * fallen * body.pull;
+    body.turn -= 0.5 * fallen * fallen * turning;
 }
 
 /// Resistance to rolling and spinning: a couple that stops relative spin, as far as the normal
