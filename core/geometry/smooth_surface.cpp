@@ -36,6 +36,12 @@ constexpr double kHollow = -1e-6;  // sine of how far an edge may sag inward; fo
 constexpr double kBendsBothWays = 1e-6, kBends = 1e-3;
 /// Sine of how far the way that is faced may lie off the normals of a surface that bends one way.
 constexpr double kTilt = 0.3;
+/// The same of one that faces the end of such a surface itself: for rounding.
+constexpr double kLeansOver = 1e-6;
+/// Sine of how far a line along the axis of a side may lie off that.
+constexpr double kAlong = 1e-2;
+/// Facets that a search across a side passes, two for each strip of it.
+constexpr int kMostAcross = 8;
 
 /// How the surface curves away along an edge: over places of the edge with weights p and q of its
 /// ends, the smooth surface lies this times p q above it [m].
@@ -247,10 +253,98 @@ SmoothSurface::Search SmoothSurface::findFacing(std::int32_t& triangle, const Ve
         if (std::abs(facetAt(next).normals.determinant()) <= kBendsBothWays) {
             // The side of a capsule bends one way only: it is faced where it ends.
             const auto onEdge = facingEdge(facet.normals, leaving, direction);
-            if (!onEdge) return Search::notRound;
+            if (!onEdge) return Search::onSide;
             place = placeAt(facet, onEdge->weights, onEdge->change);
+            const Vec3 beyond = facet.points.col((leaving + 1) % 3) - facet.points.col(leaving);
+            const Vec3 out =
+                facet.normals.col((leaving + 1) % 3).cross(facet.normals.col((leaving + 2) % 3));
+            place.isPastEnd = out.dot(direction) * out.dot(beyond) >
+                              kLeansOver * std::abs(out.dot(beyond)) * out.norm();
             return Search::found;
         }
+        triangle = next;
+    }
+    return Search::elsewhere;
+}
+
+std::optional<SmoothSurface::SideFacet> SmoothSurface::sideFacetAt(std::int32_t triangle) const
+{
+    if (!isRound_[triangle]) return {};
+    const Facet facet = facetAt(triangle);
+    if (std::abs(facet.normals.determinant()) > kBendsBothWays) return {};
+    int beside = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 change = facet.normals.col((k + 1) % 3) - facet.normals.col((k + 2) % 3);
+        if (change.norm() >= least) continue;
+        least = change.norm();
+        beside = k;
+    }
+    const Vec3 out = facet.normals.col((beside + 1) % 3).cross(facet.normals.col(beside));
+    const Vec3 line = facet.points.col((beside + 2) % 3) - facet.points.col((beside + 1) % 3);
+    if (out.norm() < kBends || out.cross(line).norm() > kAlong * out.norm() * line.norm())
+        return {};
+    return SideFacet{facet, out.normalized(), beside};
+}
+
+std::optional<Vec3> SmoothSurface::axisOf(std::int32_t triangle) const
+{
+    const std::optional<SideFacet> side = sideFacetAt(triangle);
+    if (!side) return {};
+    return side->axis;
+}
+
+std::int32_t SmoothSurface::sideAtEdge(std::int32_t vertex, std::int32_t other) const
+{
+    std::int32_t found = -1;
+    for (std::int32_t i = fanStart_[vertex]; i < fanStart_[vertex + 1]; ++i) {
+        if (!(mesh_.triangles.col(fan_[i]).array() == other).any()) continue;
+        if (!sideFacetAt(fan_[i])) return -1;
+        if (found < 0) found = fan_[i];
+    }
+    return found;
+}
+
+SmoothSurface::Search SmoothSurface::findAcross(std::int32_t& triangle, const Vec3& direction,
+                                                RoundPlace& place) const
+{
+    for (int step = 0; step <= kMostAcross; ++step) {
+        const std::optional<SideFacet> side = sideFacetAt(triangle);
+        if (!side) return Search::elsewhere;
+        const int k = side->beside, one = (k + 1) % 3, other = (k + 2) % 3;
+        Mat3 frame;
+        frame.col(0) = side->normalOfLine();
+        frame.col(1) = side->facet.normals.col(k);
+        frame.col(2) = side->axis;
+        const Mat3 inverse = frame.inverse();
+        const double sum = (inverse.row(0) + inverse.row(1)).dot(direction);
+        if (!(sum > 0.0)) return Search::elsewhere;
+        const double beside = inverse.row(1).dot(direction) / sum;
+        if (beside >= kOnEdge && beside <= 1.0 - kOnEdge) {
+            Vec3 weights;
+            Mat3 change;
+            weights[k] = beside;
+            weights[one] = weights[other] = 0.5 * (1.0 - beside);
+            change.row(k) = inverse.row(1) / sum;
+            change.row(one) = change.row(other) = 0.5 * inverse.row(0) / sum;
+            place = placeAt(side->facet, weights, change);
+            return Search::found;
+        }
+        if (beside < 0.0) {
+            triangle = beyond_[triangle][k];
+            continue;
+        }
+        // Past the corner beside the line: the facet that has its line there.
+        std::int32_t next = -1;
+        double nearest = -1.0;
+        for (const int across : {one, other}) {
+            const std::optional<SideFacet> there = sideFacetAt(beyond_[triangle][across]);
+            const double same = there ? there->normalOfLine().dot(frame.col(1)) : -1.0;
+            if (same <= nearest) continue;
+            nearest = same;
+            next = beyond_[triangle][across];
+        }
+        if (next < 0) return Search::elsewhere;
         triangle = next;
     }
     return Search::elsewhere;
