@@ -65,11 +65,12 @@ TEST(RoundContacts, MeshedBallsTouchOnceOnTheLineOfTheirCentresHoweverTheyAreTur
 /// Of a capsule along y, or of a ball: the points that are nearer than the radius to its segment.
 struct Stick {
     double radius, height;
+    int sectors = 0, rings = 0;
 
     std::shared_ptr<const Shape> mesh() const
     {
-        return buildMeshShape(
-            "stick", height > 0.0 ? makeCapsule(radius, height, 48, 12) : makeSphere(radius, 3));
+        return buildMeshShape("stick", height > 0.0 ? makeCapsule(radius, height, sectors, rings)
+                                                    : makeSphere(radius, 3));
     }
 };
 
@@ -95,7 +96,7 @@ Pose bodyAt(const Shape& shape, const Pose& worldFromAsset)
 // Told of the facets of their sides, they met up to 10 degrees off, at up to ten places.
 TEST(RoundContacts, CapsulesAndBallsTouchOnceOnTheLineBetweenTheirAxesAtSidesAndEnds)
 {
-    const std::vector<Stick> sticks{{0.5, 0.0}, {0.2, 1.0}, {0.5, 3.0}};
+    const std::vector<Stick> sticks{{0.5, 0.0}, {0.2, 1.0, 20, 5}, {0.5, 3.0, 48, 12}};
     std::vector<std::shared_ptr<const Shape>> shapes;
     for (const Stick& stick : sticks) shapes.push_back(stick.mesh());
     int apart = 0;
@@ -115,7 +116,7 @@ TEST(RoundContacts, CapsulesAndBallsTouchOnceOnTheLineBetweenTheirAxesAtSidesAnd
             contactsOf(*shapes[i], bodyAt(*shapes[i], a), *shapes[j], bodyAt(*shapes[j], b), 4e-3);
         ASSERT_EQ(contacts.size(), 1u) << draw;
         EXPECT_LT((contacts[0].normal - line).norm(), 1e-4) << draw;
-        EXPECT_NEAR(contacts[0].gap, gap, 5e-5) << draw;
+        EXPECT_NEAR(contacts[0].gap, gap, 1e-4) << draw;  // of facets up to 3 mm deep
     }
     EXPECT_GE(apart, 500);
 }
