@@ -41,6 +41,9 @@ constexpr double kSettleWait = 6.0, kSettleTime = 1.5;
 /// long again. Calmed like the others, a block on a slope barely steeper than friction holds was
 /// 6 cm from its place after 10 s, not half a metre.
 constexpr double kGoesOn = 0.45;
+/// As long as it goes by this share of its size in that time: cubes that settled by less than that
+/// kept a heap of a thousand awake for a second longer.
+constexpr double kCreeps = 4e-3;
 
 /// What does not balance of the forces on a body, as a share of those of its contacts: below the
 /// first it may fall asleep, above the second it wakes. What sleeps for good hardly changes the
@@ -112,7 +115,7 @@ bool goesOn(const World& world, BodyId body, double time, const Stay& since)
     const Vec3 speedOfTurn = radius * angularVelocity(motion, world.mass[body]);
     const double along = way.dot(motion.velocity) + turn.dot(speedOfTurn);
     const double speeds = motion.velocity.squaredNorm() + speedOfTurn.squaredNorm();
-    return along >= kGoesOn * time * speeds;
+    return time * std::sqrt(speeds) >= kCreeps * radius && along >= kGoesOn * time * speeds;
 }
 
 /// A ring that leans on two others and rocks loses next to nothing at each swing: nothing in a
