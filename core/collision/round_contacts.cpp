@@ -24,10 +24,13 @@ constexpr double kLargestTurn = 0.2;
 /// nearer. A sine, for rounding.
 constexpr double kStrictly = 1e-6;
 
-/// Of the triangle that is nearest to a place.
-std::int32_t nearestVertex(const Shape& shape, const Vec3& place)
+/// Sine of the angle between the axes of two sides below which they lie along each other.
+constexpr double kParallel = 1e-2;
+
+/// Of a triangle the one that is nearest to a place.
+std::int32_t nearestVertex(const Shape& shape, std::int32_t triangle, const Vec3& place)
 {
-    const auto corners = shape.mesh.triangles.col(shape.rays.closestTriangle(place));
+    const auto corners = shape.mesh.triangles.col(triangle);
     const auto distance = [&](int k) {
         return (shape.mesh.points.col(corners[k]) - place).squaredNorm();
     };
@@ -54,11 +57,12 @@ public:
             isRound_ = true;
             place_ = {translation, 0.0, shape.distance.solid()->half().x() * Mat3::Identity()};
         } else if (shape.smooth.hasRoundFacets()) {
-            facet_ = shape.smooth.roundFacetAt(vertexNear(near), rotation.transpose() * outward);
+            findFacet(rotation.transpose() * (near - translation), rotation.transpose() * outward);
         }
         if (facet_ < 0 && part.kind == Kind::corner) rim_ = shape.rims.atCorner(part.index);
         if (facet_ < 0 && part.kind == Kind::edge) rim_ = shape.rims.ofEdge(part.index);
         isRound_ = isRound_ || isRoundMesh();
+        if (isSide_) axis_ = rotation * *shape.smooth.axisOf(facet_);
         if (isRound_) return;
         place_ = {near, 0.0, Mat3::Zero()};
         if (part.kind == Kind::edge) axis_ = rotation * edge().direction;
@@ -66,8 +70,10 @@ public:
 
     bool isRound() const { return isRound_; }
     bool isRoundMesh() const { return facet_ >= 0 || rim_ >= 0; }
+    /// Round about an axis; n stays across it.
+    bool isSide() const { return isSide_; }
     bool isFlat() const { return !isRound_ && part_.kind == Kind::face; }
-    /// Of a sharp edge; n stays across it.
+    /// Of a side or a sharp edge; n stays across it.
     const std::optional<Vec3>& axis() const { return axis_; }
     const RoundPlace& place() const { return place_; }
 
@@ -79,8 +85,9 @@ public:
             return Search::found;
         }
         const Vec3 own = rotation_.transpose() * outward;
-        const Search search = rim_ >= 0 ? shape_.rims.findFacing(rim_, own, place_)
-                                        : shape_.smooth.findFacing(facet_, own, place_);
+        const Search search = isSide_     ? shape_.smooth.findAcross(facet_, own, place_)
+                              : rim_ >= 0 ? shape_.rims.findFacing(rim_, own, place_)
+                                          : shape_.smooth.findFacing(facet_, own, place_);
         place_.point = rotation_ * place_.point + translation_;
         place_.advance = rotation_ * place_.advance * rotation_.transpose();
         return search;
@@ -90,6 +97,12 @@ public:
     bool isNearest(const Vec3& outward, const Vec3& other) const
     {
         const Vec3 inward = -(rotation_.transpose() * outward);
+        if (isSide_) {
+            const Vec3 opposite = other - outward.dot(other - place_.point) * outward;
+            const Vec3 here = rotation_.transpose() * (opposite - translation_);
+            return shape_.smooth.axisOf(shape_.rays.closestTriangle(here)).has_value();
+        }
+        if (place_.isPastEnd) return false;
         if (isRound_ || part_.kind == Kind::face) return true;
         if (part_.kind == Kind::corner)
             return shape_.features.cornerSupports(part_.index, inward, kStrictly);
@@ -106,11 +119,21 @@ public:
 private:
     const ConvexEdge& edge() const { return shape_.features.edges()[part_.index]; }
 
-    std::int32_t vertexNear(const Vec3& near) const
+    /// All in the frame of the shape.
+    void findFacet(const Vec3& near, const Vec3& outward)
     {
-        if (part_.kind == Kind::corner) return part_.index;
-        if (part_.kind == Kind::edge) return edge().ends[0];
-        return nearestVertex(shape_, rotation_.transpose() * (near - translation_));
+        std::int32_t vertex = part_.index;
+        if (part_.kind == Kind::edge) {
+            vertex = edge().ends[0];
+            facet_ = shape_.smooth.sideAtEdge(vertex, edge().ends[1]);
+        } else if (part_.kind == Kind::face) {
+            facet_ = shape_.rays.closestTriangle(near);
+            vertex = nearestVertex(shape_, facet_, near);
+        }
+        const auto isOfSide = [&] { return facet_ >= 0 && shape_.smooth.axisOf(facet_); };
+        if (part_.kind == Kind::corner || !isOfSide())
+            facet_ = shape_.smooth.roundFacetAt(vertex, outward);
+        isSide_ = isOfSide();
     }
 
     const Shape& shape_;
@@ -118,7 +141,7 @@ private:
     const Mat3& rotation_;
     const Vec3& translation_;
     std::int32_t facet_ = -1, rim_ = -1;  // the one or the other where a mesh is round
-    bool isRound_ = false;
+    bool isRound_ = false, isSide_ = false;
     RoundPlace place_;
     std::optional<Vec3> axis_;
 };
@@ -149,7 +172,7 @@ Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const Featu
     const Vec3& n = contact.normal;
     Side& round = first.isRound() ? first : second;
     const Search search = round.turnTo(first.isRound() ? Vec3(-n) : n);
-    if (search == Search::notRound) return {};
+    if (search == Search::notRound || search == Search::onSide) return {};
     if (search == Search::elsewhere) return {Result::elsewhere};
     const RoundPlace& place = round.place();
     const Vec3 onFlat = first.isRound() ? Vec3(contact.point - contact.gap * n) : contact.point;
@@ -168,6 +191,23 @@ Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const Featu
     return {Result::rounded, {first.isRound() ? smooth : foot, n, gap}};
 }
 
+/// Two sides that cross: n is across both axes.
+Rounding betweenSides(Side& first, Side& second, const FeatureContact& contact)
+{
+    const Vec3 &a = *first.axis(), &b = *second.axis();
+    const Vec3 across = a.cross(b);
+    if (across.norm() < kParallel) return {};
+    const Vec3 n = (across.dot(contact.normal) > 0.0 ? across : Vec3(-across)).normalized();
+    if (first.turnTo(-n) != Search::found || second.turnTo(n) != Search::found)
+        return {Result::elsewhere};
+    const RoundPlace &x = first.place(), &y = second.place();
+    const Vec3 between = y.point - x.point;
+    const Vec3 onX = x.point + b.cross(n).dot(between) / b.cross(n).dot(a) * a;
+    if (!first.isNearest(-n, onX) || !second.isNearest(n, onX)) return {Result::elsewhere};
+    const double apart = -n.dot(between);
+    return {Result::rounded, {onX - x.bulge * n, n, apart - x.bulge - y.bulge}};
+}
+
 }  // namespace
 
 Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
@@ -177,6 +217,9 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
     Side first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
     Side second(pair.second, ofSecond, kUnturned, kUnmoved, contact.point - contact.gap * n, n);
     if (!first.isRoundMesh() && !second.isRoundMesh()) return {};
+    if (first.isSide() && second.isSide()) return betweenSides(first, second, contact);
+    // To what is sharp or flat a side is its facets: a pole holds rings as well so.
+    if ((first.isSide() && !second.isRound()) || (second.isSide() && !first.isRound())) return {};
     if (first.isFlat() || second.isFlat()) return onFlat(pair, first, second, contact);
 
     const std::optional<Vec3>& axis = first.axis() ? first.axis() : second.axis();
@@ -185,7 +228,7 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
     for (int turn = 0; turn < kMostTurns; ++turn) {
         const Search ofX = first.turnTo(-n), ofY = second.turnTo(n);
         if (ofX == Search::notRound || ofY == Search::notRound) return {};
-        if (ofX == Search::elsewhere || ofY == Search::elsewhere) return {Result::elsewhere};
+        if (ofX != Search::found || ofY != Search::found) return {Result::elsewhere};
         const RoundPlace &x = first.place(), &y = second.place();
         const Vec3 between = x.point - y.point;
         const double apart = n.dot(between);
@@ -200,7 +243,7 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
             n = (n + *change).normalized();
             continue;
         }
-        const Vec3 onX = second.isRound() && !first.isRound() ? Vec3(y.point + apart * n) : x.point;
+        const Vec3 onX = first.axis() ? Vec3(y.point + apart * n) : x.point;
         if (!first.isNearest(-n, y.point) || !second.isNearest(n, x.point))
             return {Result::elsewhere};
         return {Result::rounded,
@@ -218,7 +261,7 @@ std::optional<Vec3> placeOnRim(const Shape& shape, const Vec3& near, const Vec3&
     if (shape.distance.solid()) {  // has no rays, and few vertices
         (shape.mesh.points.colwise() - near).colwise().squaredNorm().minCoeff(&vertex);
     } else {
-        vertex = nearestVertex(shape, near);
+        vertex = nearestVertex(shape, shape.rays.closestTriangle(near), near);
     }
     std::int32_t rim = shape.rims.atCorner(vertex);
     RoundPlace place;

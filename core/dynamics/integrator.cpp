@@ -59,14 +59,11 @@ bool isLetGo(const World& world, const BodyInfo& body)
 void letGo(World& world, BodyId body)
 {
     constexpr double kJustBefore = 1e-4;  // of a frame
-    const double moment = kJustBefore * world.frameDuration;
-    const Pose before = world.scriptedPose(body, world.time(-moment));
-    const Pose now = world.scriptedPose(body, world.time());
-    BodyMotion& motion = world.motion[body];
-    motion.velocity = (now.position - before.position) / moment;
-    const Quat turn = now.orientation * before.orientation.conjugate();
-    motion.angularMomentum =
-        momentumOfSpin(motion, world.mass[body], rotationVector(turn) / moment);
+    const ScriptedMotion motion =
+        scriptedMotion(world, body, -kJustBefore * world.frameDuration, 0.0);
+    world.motion[body].velocity = motion.velocity;
+    world.motion[body].angularMomentum =
+        momentumOfSpin(world.motion[body], world.mass[body], motion.spin);
 }
 
 }  // namespace
@@ -88,6 +85,16 @@ Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& veloci
         turn -= 0.5 * dt * dt * (inverseInertia * w.cross(angularMomentum));
     }
     return {position, rotated(now.orientation, turn)};
+}
+
+ScriptedMotion scriptedMotion(const World& world, BodyId body, double from, double to)
+{
+    const Pose before = world.scriptedPose(body, world.time(from));
+    const Pose after = world.scriptedPose(body, world.time(to));
+    const Quat turn = after.orientation * before.orientation.conjugate();
+    const double time = to - from;
+    return {before.position, (after.position - before.position) / time,
+            rotationVector(turn) / time};
 }
 
 void aimKeyedBodies(World& world, double dt)

@@ -13,6 +13,16 @@ namespace scree {
 Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& velocity,
                  const Vec3& angularMomentum, OrientationUpdate update, double dt);
 
+struct ScriptedMotion {
+    Vec3 place, velocity, spin;  ///< [m], [m/s] there, [rad/s]
+
+    Vec3 at(const Vec3& x) const { return velocity + spin.cross(x - place); }
+};
+
+/// How a script moves a body between two times, told from the beginning of this step: the mean,
+/// about where the body is at first.
+ScriptedMotion scriptedMotion(const World& world, BodyId body, double from, double to);
+
 /// Gives keyed bodies the velocities that take them where their scripts are after dt: differences
 /// over the step, so that what they carry neither lags nor sinks.  [A54]
 void aimKeyedBodies(World& world, double dt);

@@ -9,6 +9,8 @@
 #include "core/collision/near_features.h"
 #include "core/dynamics/forces.h"
 #include "core/dynamics/impulse.h"
+#include "core/dynamics/integrator.h"
+#include "core/math/rotation.h"
 
 namespace scree {
 namespace {
@@ -32,6 +34,16 @@ constexpr double kFarInAFrame = 0.5;
 /// that ring, so that a tower takes as long to fall as it should.
 constexpr double kNearby = 0.05;
 constexpr double kSettleWait = 6.0, kSettleTime = 1.5;
+
+/// But not what goes on and on, however slowly: what has come at least this share of what it would
+/// have in kSettleWait with the velocity it has. What speeds up evenly from rest has come half of
+/// that by then, and what rocks comes back; with a quarter a plank that rocked on a ball took as
+/// long again. Calmed like the others, a block on a slope barely steeper than friction holds was
+/// 6 cm from its place after 10 s, not half a metre.
+constexpr double kGoesOn = 0.45;
+/// As long as it goes by this share of its size in that time: cubes that settled by less than that
+/// kept a heap of a thousand awake for a second longer.
+constexpr double kCreeps = 4e-3;
 
 /// What does not balance of the forces on a body, as a share of those of its contacts: below the
 /// first it may fall asleep, above the second it wakes. What sleeps for good hardly changes the
@@ -93,13 +105,27 @@ void goOn(const World& world, BodyId body, double share, Stay& stay)
     }
 }
 
+/// Whether a body moves on from where it was, and has for as long as that.
+bool goesOn(const World& world, BodyId body, double time, const Stay& since)
+{
+    const BodyMotion& motion = world.motion[body];
+    const double radius = world.shapeOf(body).boundingRadius;
+    const Vec3 way = motion.position - since.position;
+    const Vec3 turn = radius * rotationVector(motion.orientation * since.orientation.conjugate());
+    const Vec3 speedOfTurn = radius * angularVelocity(motion, world.mass[body]);
+    const double along = way.dot(motion.velocity) + turn.dot(speedOfTurn);
+    const double speeds = motion.velocity.squaredNorm() + speedOfTurn.squaredNorm();
+    return time * std::sqrt(speeds) >= kCreeps * radius && along >= kGoesOn * time * speeds;
+}
+
 /// A ring that leans on two others and rocks loses next to nothing at each swing: nothing in a
 /// world of rigid bodies takes that energy, and one such ring keeps a whole heap awake.
 void settle(World& world, BodyId body, double acceleration, const Stay& nearby)
 {
     if (acceleration == 0.0) return;
     const double unit = unitOfTime(world, body, acceleration);
-    if (nearby.frames * world.frameDuration < kSettleWait * unit) return;
+    const double wait = kSettleWait * unit;
+    if (nearby.frames * world.frameDuration < wait || goesOn(world, body, wait, nearby)) return;
     const double kept = 1.0 / (1.0 + world.frameDuration / (kSettleTime * unit));
     world.motion[body].velocity *= kept;
     world.motion[body].angularMomentum *= kept;

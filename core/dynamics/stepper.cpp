@@ -12,14 +12,15 @@
 #include "core/dynamics/gap_blocks.h"
 #include "core/dynamics/gap_bounce.h"
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_layout.h"
 #include "core/dynamics/gap_lead.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
-#include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_push_out.h"
+#include "core/dynamics/gap_riders.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
@@ -209,6 +210,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
     {
         const PhaseTimer timer(report.seconds, Phase::contact);
         report.contactImpulses = countImpulses(scratch);
+        letRidersGo(world, dt, scratch);
     }
     for (const GapImpact& impact : scratch.impacts)
         countImpulse(report.collisionImpulses, impact.kind);

@@ -17,6 +17,10 @@ namespace {
 /// surface. Beyond, as on a ring of ten points around its tube (36°), a facet lies flat on the
 /// ground and holds the body: taken for round it would roll off.
 constexpr double kFineFacet = 0.93969262078590838;
+/// The same across the longest edge of a facet, 20°·√2: half a square that turns by 20° each way is
+/// cut along its diagonal. Measured as the others are it made the ends of a capsule of 18° a side
+/// coarse, while its side was not, and blows there went 10° off.
+constexpr double kFineDiagonal = 0.88052;
 
 constexpr int kMostSteps = 3;  // triangles  [A40]
 
@@ -36,6 +40,12 @@ constexpr double kHollow = -1e-6;  // sine of how far an edge may sag inward; fo
 constexpr double kBendsBothWays = 1e-6, kBends = 1e-3;
 /// Sine of how far the way that is faced may lie off the normals of a surface that bends one way.
 constexpr double kTilt = 0.3;
+/// The same of one that faces the end of such a surface itself: for rounding.
+constexpr double kLeansOver = 1e-6;
+/// Sine of how far a line along the axis of a side may lie off that.
+constexpr double kAlong = 1e-2;
+/// Facets that a search across a side passes, two for each strip of it.
+constexpr int kMostAcross = 8;
 
 /// How the surface curves away along an edge: over places of the edge with weights p and q of its
 /// ends, the smooth surface lies this times p q above it [m].
@@ -175,14 +185,20 @@ void SmoothSurface::findRoundFacets()
         const Facet facet = facetAt(f);
         bool isRound = true;
         double most = 0.0;
+        Vec3 lengths, turns;  // cosines of these
         for (int k = 0; k < 3; ++k) {
             const int next = (k + 1) % 3;
             const Vec3 along = facet.points.col(next) - facet.points.col(k);
             const double sagging = sag(along, facet.normals.col(next) - facet.normals.col(k));
-            isRound = isRound && sagging >= kHollow * along.norm() &&
-                      facet.normals.col(k).dot(facet.normals.col(next)) >= kFineFacet;
+            isRound = isRound && sagging >= kHollow * along.norm();
             most = std::max(most, sagging);
+            lengths[k] = along.norm();
+            turns[k] = facet.normals.col(k).dot(facet.normals.col(next));
         }
+        int longest = 0;
+        lengths.maxCoeff(&longest);
+        for (int k = 0; k < 3; ++k)
+            isRound = isRound && turns[k] >= (k == longest ? kFineDiagonal : kFineFacet);
         if (!isRound) continue;
         isRound_[f] = 1;
         bulge_ = std::max(bulge_, most / 3.0);  // products of weights add up to a third at most
@@ -247,10 +263,98 @@ SmoothSurface::Search SmoothSurface::findFacing(std::int32_t& triangle, const Ve
         if (std::abs(facetAt(next).normals.determinant()) <= kBendsBothWays) {
             // The side of a capsule bends one way only: it is faced where it ends.
             const auto onEdge = facingEdge(facet.normals, leaving, direction);
-            if (!onEdge) return Search::notRound;
+            if (!onEdge) return Search::onSide;
             place = placeAt(facet, onEdge->weights, onEdge->change);
+            const Vec3 beyond = facet.points.col((leaving + 1) % 3) - facet.points.col(leaving);
+            const Vec3 out =
+                facet.normals.col((leaving + 1) % 3).cross(facet.normals.col((leaving + 2) % 3));
+            place.isPastEnd = out.dot(direction) * out.dot(beyond) >
+                              kLeansOver * std::abs(out.dot(beyond)) * out.norm();
             return Search::found;
         }
+        triangle = next;
+    }
+    return Search::elsewhere;
+}
+
+std::optional<SmoothSurface::SideFacet> SmoothSurface::sideFacetAt(std::int32_t triangle) const
+{
+    if (!isRound_[triangle]) return {};
+    const Facet facet = facetAt(triangle);
+    if (std::abs(facet.normals.determinant()) > kBendsBothWays) return {};
+    int beside = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 change = facet.normals.col((k + 1) % 3) - facet.normals.col((k + 2) % 3);
+        if (change.norm() >= least) continue;
+        least = change.norm();
+        beside = k;
+    }
+    const Vec3 out = facet.normals.col((beside + 1) % 3).cross(facet.normals.col(beside));
+    const Vec3 line = facet.points.col((beside + 2) % 3) - facet.points.col((beside + 1) % 3);
+    if (out.norm() < kBends || out.cross(line).norm() > kAlong * out.norm() * line.norm())
+        return {};
+    return SideFacet{facet, out.normalized(), beside};
+}
+
+std::optional<Vec3> SmoothSurface::axisOf(std::int32_t triangle) const
+{
+    const std::optional<SideFacet> side = sideFacetAt(triangle);
+    if (!side) return {};
+    return side->axis;
+}
+
+std::int32_t SmoothSurface::sideAtEdge(std::int32_t vertex, std::int32_t other) const
+{
+    std::int32_t found = -1;
+    for (std::int32_t i = fanStart_[vertex]; i < fanStart_[vertex + 1]; ++i) {
+        if (!(mesh_.triangles.col(fan_[i]).array() == other).any()) continue;
+        if (!sideFacetAt(fan_[i])) return -1;
+        if (found < 0) found = fan_[i];
+    }
+    return found;
+}
+
+SmoothSurface::Search SmoothSurface::findAcross(std::int32_t& triangle, const Vec3& direction,
+                                                RoundPlace& place) const
+{
+    for (int step = 0; step <= kMostAcross; ++step) {
+        const std::optional<SideFacet> side = sideFacetAt(triangle);
+        if (!side) return Search::elsewhere;
+        const int k = side->beside, one = (k + 1) % 3, other = (k + 2) % 3;
+        Mat3 frame;
+        frame.col(0) = side->normalOfLine();
+        frame.col(1) = side->facet.normals.col(k);
+        frame.col(2) = side->axis;
+        const Mat3 inverse = frame.inverse();
+        const double sum = (inverse.row(0) + inverse.row(1)).dot(direction);
+        if (!(sum > 0.0)) return Search::elsewhere;
+        const double beside = inverse.row(1).dot(direction) / sum;
+        if (beside >= kOnEdge && beside <= 1.0 - kOnEdge) {
+            Vec3 weights;
+            Mat3 change;
+            weights[k] = beside;
+            weights[one] = weights[other] = 0.5 * (1.0 - beside);
+            change.row(k) = inverse.row(1) / sum;
+            change.row(one) = change.row(other) = 0.5 * inverse.row(0) / sum;
+            place = placeAt(side->facet, weights, change);
+            return Search::found;
+        }
+        if (beside < 0.0) {
+            triangle = beyond_[triangle][k];
+            continue;
+        }
+        // Past the corner beside the line: the facet that has its line there.
+        std::int32_t next = -1;
+        double nearest = -1.0;
+        for (const int across : {one, other}) {
+            const std::optional<SideFacet> there = sideFacetAt(beyond_[triangle][across]);
+            const double same = there ? there->normalOfLine().dot(frame.col(1)) : -1.0;
+            if (same <= nearest) continue;
+            nearest = same;
+            next = beyond_[triangle][across];
+        }
+        if (next < 0) return Search::elsewhere;
         triangle = next;
     }
     return Search::elsewhere;

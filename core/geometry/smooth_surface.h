@@ -19,6 +19,8 @@ struct RoundPlace {
     Vec3 point;    ///< on its facet [m]
     double bulge;  ///< how far the smooth surface lies above the facet there, that way [m]
     Mat3 advance;  ///< what it moves by when that way turns [m/rad]
+    /// It is where a side begins that bends one way only, and the way leans over that.
+    bool isPastEnd = false;
 };
 
 class SmoothSurface {
@@ -45,16 +47,33 @@ public:
     /// Of the round facets around a vertex the one to begin a search with; −1 when there is none.
     std::int32_t roundFacetAt(std::int32_t vertex, const Vec3& direction) const;
 
-    enum class Search { found, elsewhere, notRound };
+    enum class Search { found, elsewhere, onSide, notRound };
     /// Walks from a round facet to the one that faces `direction` (unit), and stays there for the
-    /// next search. `elsewhere`: it is more than a few facets away; `notRound`: between lies a
-    /// facet that is not round, or the surface does not bend.
+    /// next search. `elsewhere`: it is more than a few facets away; `onSide`: between lies a side
+    /// that bends one way only; `notRound`: a facet that is not round, or the surface does not
+    /// bend.
     Search findFacing(std::int32_t& triangle, const Vec3& direction, RoundPlace& place) const;
+
+    /// The axis (unit) of a facet that bends about one only, as the side of a capsule does; nothing
+    /// of any other.
+    std::optional<Vec3> axisOf(std::int32_t triangle) const;
+    /// One of the two facets beside an edge of the mesh if both are such; −1 if not.
+    std::int32_t sideAtEdge(std::int32_t vertex, std::int32_t other) const;
+    /// As findFacing on such a side, for a direction across its axis: the place is any along that.
+    Search findAcross(std::int32_t& triangle, const Vec3& direction, RoundPlace& place) const;
 
 private:
     struct Facet {
         Mat3 points, normals;  // columns by corner
     };
+    /// A facet of a side: two corners on a line along the axis, and one beside it.
+    struct SideFacet {
+        Facet facet;
+        Vec3 axis;
+        int beside;
+        Vec3 normalOfLine() const { return facet.normals.col((beside + 1) % 3); }
+    };
+    std::optional<SideFacet> sideFacetAt(std::int32_t triangle) const;
     Facet facetAt(std::int32_t triangle) const;
     RoundPlace placeAt(const Facet& facet, const Vec3& weights, const Mat3& change) const;
     void findRoundNormals();

@@ -114,6 +114,33 @@ TEST(GapForesight, BallsHitEachOtherAlongTheLineTheyHaveThen)
     }
 }
 
+TEST(GapForesight, BallsHitTheSideOfACapsuleAcrossItsAxis)
+{
+    constexpr double kSpeed = 4.0;
+    const auto capsule = buildMeshShape("capsule", makeCapsule(0.5, 3.0, 64, 24));
+    for (const bool isMesh : {false, true}) {
+        const auto ball = isMesh ? buildMeshShape("ball", makeSphere(0.3, 3)) : exactSphere(0.3);
+        for (const double degrees : {5.0, 20.0, 33.0, 46.0, 60.0}) {
+            const double cut = degrees * kPi / 180.0;
+            World world;
+            const MaterialId material = addMaterial(world, 0.0, 0.8);
+            BodyDefinition target;
+            target.name = "target";
+            target.shape = world.addShape(capsule);
+            target.material = material;
+            target.kind = BodyKind::fixed;
+            world.addBody(target);
+            addBody(world, ball, material, {{-2.0, 0.7, 0.8 * std::sin(cut)}, Quat::Identity()},
+                    1.0, {kSpeed, 0.0, 0.0});
+            run(world, 0.0, 0.6);
+            const Vec3 blow = world.motion[1].velocity - Vec3(kSpeed, 0.0, 0.0);
+            const Vec3 across(-std::cos(cut), 0.0, std::sin(cut));
+            EXPECT_LE((blow - 1.8 * kSpeed * std::cos(cut) * across).norm(), 1e-3 * kSpeed)
+                << degrees << (isMesh ? " mesh" : "");
+        }
+    }
+}
+
 /// What slides without friction over four blocks, each `lower` than the one before, at a speed.
 World overSeams(std::shared_ptr<const Shape> shape, const Quat& orientation, double lower,
                 double speed)

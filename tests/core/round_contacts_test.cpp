@@ -62,6 +62,65 @@ TEST(RoundContacts, MeshedBallsTouchOnceOnTheLineOfTheirCentresHoweverTheyAreTur
     }
 }
 
+/// Of a capsule along y, or of a ball: the points that are nearer than the radius to its segment.
+struct Stick {
+    double radius, height;
+    int sectors = 0, rings = 0;
+
+    std::shared_ptr<const Shape> mesh() const
+    {
+        return buildMeshShape("stick", height > 0.0 ? makeCapsule(radius, height, sectors, rings)
+                                                    : makeSphere(radius, 3));
+    }
+};
+
+/// From the axis of B to that of A, where these are nearest.
+Vec3 shortestBetween(const Stick& a, const Pose& worldFromA, const Stick& b, const Pose& worldFromB)
+{
+    const Vec3 u = a.height * (worldFromA.orientation * Vec3::UnitY());
+    const Vec3 v = b.height * (worldFromB.orientation * Vec3::UnitY());
+    const Vec3 apart = worldFromA.position - worldFromB.position;
+    double s = 0.0, t = 0.0;  // places along the axes, from the middle, as shares of their lengths
+    for (int i = 0; i < 200; ++i) {
+        if (b.height > 0.0) t = std::clamp(v.dot(apart + s * u) / v.squaredNorm(), -0.5, 0.5);
+        if (a.height > 0.0) s = std::clamp(u.dot(t * v - apart) / u.squaredNorm(), -0.5, 0.5);
+    }
+    return apart + s * u - t * v;
+}
+
+Pose bodyAt(const Shape& shape, const Pose& worldFromAsset)
+{
+    return worldFromAsset * inverse(shape.bodyFromAsset);
+}
+
+// Told of the facets of their sides, they met up to 10 degrees off, at up to ten places.
+TEST(RoundContacts, CapsulesAndBallsTouchOnceOnTheLineBetweenTheirAxesAtSidesAndEnds)
+{
+    const std::vector<Stick> sticks{{0.5, 0.0}, {0.2, 1.0, 20, 5}, {0.5, 3.0, 48, 12}};
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    for (const Stick& stick : sticks) shapes.push_back(stick.mesh());
+    int apart = 0;
+    for (std::uint64_t draw = 0; draw < 600; ++draw) {
+        const std::size_t i = draw % 3, j = 1 + draw / 3 % 2;
+        const double gap = 2e-3 * randomUnit(42, draw, 0);
+        const double reach = sticks[i].radius + sticks[j].radius;
+        Pose a{3.0 * signedUnits(draw, 0), exponentialMap(3.0 * signedUnits(draw, 3))};
+        const Pose b{Vec3::Zero(), exponentialMap(3.0 * signedUnits(draw, 6))};
+        const Vec3 between = shortestBetween(sticks[i], a, sticks[j], b);
+        if (between.norm() < reach) continue;
+        ++apart;
+        // The line between them stays where it is while they come together along it.
+        const Vec3 line = between.normalized();
+        a.position -= between - (reach + gap) * line;
+        const std::vector<GapContact> contacts =
+            contactsOf(*shapes[i], bodyAt(*shapes[i], a), *shapes[j], bodyAt(*shapes[j], b), 4e-3);
+        ASSERT_EQ(contacts.size(), 1u) << draw;
+        EXPECT_LT((contacts[0].normal - line).norm(), 1e-4) << draw;
+        EXPECT_NEAR(contacts[0].gap, gap, 1e-4) << draw;  // of facets up to 3 mm deep
+    }
+    EXPECT_GE(apart, 500);
+}
+
 double distanceToBox(const Vec3& p, const Vec3& half)
 {
     return (p.cwiseAbs() - half).cwiseMax(0.0).norm();
