@@ -74,7 +74,7 @@ void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
 }
 
 /// What pulls a body throughout the step, and how far that does not move it: in the whole step if
-/// nothing stops it, else until it was hit.
+/// nothing stops it, else until it was hit, if nothing bore it.
 void addForces(double dt, GapBody& body)
 {
     body.velocityBefore = body.velocity;
@@ -84,7 +84,7 @@ void addForces(double dt, GapBody& body)
     body.velocity += dt * body.pull;
     body.spin += dt * turning;
     body.angularImpulse += dt * body.torque;
-    const double fallen = body.isStopped ? body.hitAt : dt;
+    const double fallen = !body.isStopped ? dt : body.isHeld ? 0.0 : body.hitAt;
     body.shift -= 0.5 * fallen * fallen * body.pull;
     body.turn -= 0.5 * fallen * fallen * turning;
 }
@@ -260,10 +260,12 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
         }
     });
     for (std::size_t n = 0; n < stops.size(); ++n) {
-        if (!stops[n]) continue;
-        const BodyPair bodies = scratch.pairs[block.pairs[n]].bodies;
-        for (const BodyId body : {bodies.a, bodies.b}) {
-            if (scratch.placeInBlock[body] > 0) scratch.bodies[body].isStopped = true;
+        const GapPair& pair = scratch.pairs[block.pairs[n]];
+        for (const BodyId id : {pair.bodies.a, pair.bodies.b}) {
+            if (scratch.placeInBlock[id] == 0) continue;
+            GapBody& body = scratch.bodies[id];
+            body.isStopped = body.isStopped || stops[n];
+            body.isHeld = body.isHeld || pair.isCarried;
         }
     }
     forEach(block.bodies.size(), kShortWork,
