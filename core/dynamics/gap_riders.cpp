@@ -15,9 +15,6 @@ namespace {
 /// not been carried.
 constexpr double kAlongWith = 0.5;
 
-/// How long before a moment the velocity of a script is taken just then, in frames.
-constexpr double kJustBefore = 1e-4;
-
 /// In how many halvings of the step it is found when a rider leaves.
 constexpr int kCuts = 20;
 

@@ -58,7 +58,6 @@ bool isLetGo(const World& world, const BodyInfo& body)
 /// was swung round left 7 degrees off at one step a frame.  [A55]
 void letGo(World& world, BodyId body)
 {
-    constexpr double kJustBefore = 1e-4;  // of a frame
     const ScriptedMotion motion =
         scriptedMotion(world, body, -kJustBefore * world.frameDuration, 0.0);
     world.motion[body].velocity = motion.velocity;

@@ -13,6 +13,9 @@ namespace scree {
 Pose predictPose(const BodyMotion& now, const BodyMass& mass, const Vec3& velocity,
                  const Vec3& angularMomentum, OrientationUpdate update, double dt);
 
+/// How long before a moment the velocity of a script is taken just then, in frames.
+inline constexpr double kJustBefore = 1e-4;
+
 struct ScriptedMotion {
     Vec3 place, velocity, spin;  ///< [m], [m/s] there, [rad/s]
 
