@@ -22,6 +22,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/gap_levels.h"
 #include "core/math/rotation.h"
 
 namespace scree {

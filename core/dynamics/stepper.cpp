@@ -20,6 +20,7 @@
 #include "core/dynamics/gap_motion.h"
 #include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_push_out.h"
+#include "core/dynamics/gap_shock.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"

@@ -15,6 +15,7 @@
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/gap_search.h"
+#include "core/dynamics/gap_shock.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
