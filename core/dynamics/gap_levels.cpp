@@ -38,6 +38,7 @@ void findLevels(double dt, const GapBlock& block, GapScratch& scratch)
     std::vector<char> isFixed(block.bodies.size() + 1, 0);
     isFixed[0] = 1;
     std::vector<SupportEdge> edges;
+    edges.reserve(2 * block.pairs.size());
     for (const std::size_t i : block.pairs) {
         const GapPair& pair = scratch.pairs[i];
         const BodyId a = scratch.placeInBlock[pair.bodies.a];

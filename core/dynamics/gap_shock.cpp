@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/base/groups.h"
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_levels.h"
@@ -18,8 +19,9 @@ constexpr int kLevelSweeps = 30;
 
 /// A row that closes this share of the smaller body past zero in a step calls for shock: where the
 /// sweeps could have solved the problem to the end, and where they had to stop.
-constexpr double kWellBelow = 0.1;  // share of the visible that a level of shock may leave
 constexpr double kVisibleWhenSolved = 1e-5, kVisibleInHeaps = 1e-3;
+/// What a level of shock may leave of that, as a share.
+constexpr double kWellBelow = 0.1;
 
 /// The bodies of a level's rows that its solve must not move, as they were.
 class PinnedBodies {
@@ -184,54 +186,51 @@ std::vector<std::size_t> pairsToShake(const World& world, const StepSettings& se
     return pairs;
 }
 
-std::vector<std::size_t> rowsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs)
+/// Fills `rows` with those of the pairs.
+void collectRows(const GapScratch& scratch, std::span<const std::size_t> pairs,
+                 std::vector<std::size_t>& rows)
 {
-    std::vector<std::size_t> rows;
-    for (const std::size_t i : pairs) {
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r)
-            rows.push_back(r);
-    }
-    return rows;
+    rows.clear();
+    forRows(scratch, pairs, [&](std::size_t r) { rows.push_back(r); });
 }
 
 /// Sorted within each level.
-std::vector<std::vector<std::size_t>> pairsByLevel(const GapScratch& scratch,
-                                                   std::vector<std::size_t> pairs)
+void groupByLevel(const GapScratch& scratch, std::span<const std::size_t> pairs, Groups& byLevel)
 {
-    std::sort(pairs.begin(), pairs.end());
-    std::vector<std::vector<std::size_t>> byLevel;
-    for (const std::size_t i : pairs) {
-        const auto level =
-            static_cast<std::size_t>(levelOf(scratch.levels, scratch.pairs[i].bodies));
-        if (byLevel.size() <= level) byLevel.resize(level + 1);
-        byLevel[level].push_back(i);
-    }
-    return byLevel;
+    thread_local std::vector<std::size_t> sorted;
+    sorted.assign(pairs.begin(), pairs.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto level = [&](std::size_t i) {
+        return static_cast<std::size_t>(levelOf(scratch.levels, scratch.pairs[i].bodies));
+    };
+    std::size_t levels = 0;
+    for (const std::size_t i : pairs) levels = std::max(levels, level(i) + 1);
+    byLevel.sort(sorted, levels, level);
 }
 
-/// Rows of a level that share bodies.
-struct Cluster {
-    const GapIsland* island;
-    std::vector<std::size_t> rows;
-};
-
-/// Solves the rows of a cluster beside bodies that are pinned, if one closes visibly. The rows keep
-/// their impulses. False when nothing was to be done.
-bool shake(const World& world, const StepSettings& settings, double dt, const Cluster& cluster,
-           GapScratch& scratch)
+/// Solves the rows of pairs that share bodies beside bodies that are pinned, if one closes visibly.
+/// The rows keep their impulses. False when nothing was to be done.
+bool shake(const World& world, const StepSettings& settings, double dt,
+           std::span<const std::size_t> pairs, GapScratch& scratch)
 {
-    const auto& [island, rows] = cluster;
+    struct Remembered {
+        Vec3 impulse, couple;
+    };
+    thread_local std::vector<std::size_t> rows;
+    thread_local std::vector<Remembered> remembered;
+    collectRows(scratch, pairs, rows);
+    const GapIsland& island = scratch.islands[scratch.pairs[pairs.front()].island];
     const bool closes = std::any_of(rows.begin(), rows.end(), [&](std::size_t r) {
-        return closesVisibly(world, settings, dt, scratch, *island, scratch.rows[r]);
+        return closesVisibly(world, settings, dt, scratch, island, scratch.rows[r]);
     });
     if (!closes) return false;
-    std::vector<GapRow> remembered;
+    remembered.clear();
     double enough = solvedEnough(settings, dt);
     for (const std::size_t r : rows) {
         GapRow& row = scratch.rows[r];
-        remembered.push_back(row);
+        remembered.push_back({row.impulse, row.couple});
         prepareRow(scratch.bodies, row);
-        enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, *island, row));
+        enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, island, row));
     }
     const LevelMotion before(scratch, rows);
     solveRows(scratch, rows, enough);
@@ -254,10 +253,13 @@ bool shake(const World& world, const StepSettings& settings, double dt, const Cl
 void handWeightDown(const StepSettings& settings, double dt, const GapIsland& island,
                     GapScratch& scratch)
 {
-    const std::vector<std::vector<std::size_t>> byLevel = pairsByLevel(scratch, island.pairs);
+    thread_local Groups byLevel;
+    groupByLevel(scratch, island.pairs, byLevel);
     PinnedBodies pinned(scratch);
+    thread_local std::vector<std::size_t> rows;
+    thread_local std::vector<char> wasPinnedA, wasPinnedB;
     for (std::size_t level = byLevel.size(); level-- > 0;) {
-        const std::vector<std::size_t> rows = rowsOf(scratch, byLevel[level]);
+        collectRows(scratch, byLevel[level], rows);
         const auto pin = [&](BodyId body) {
             GapBody& b = scratch.bodies[body];
             if (b.inverseMass == 0.0 || scratch.levels.level[body] == static_cast<int>(level))
@@ -275,7 +277,8 @@ void handWeightDown(const StepSettings& settings, double dt, const GapIsland& is
             prepareRow(scratch.bodies, scratch.rows[r]);
         }
         solveRows(scratch, rows, solvedEnough(settings, dt));
-        std::vector<char> wasPinnedA, wasPinnedB;
+        wasPinnedA.clear();
+        wasPinnedB.clear();
         for (std::size_t r : rows) {
             wasPinnedA.push_back(pinned.isPinned(scratch.rows[r].a));
             wasPinnedB.push_back(pinned.isPinned(scratch.rows[r].b));
@@ -309,31 +312,28 @@ void handWeightDown(const StepSettings& settings, double dt, const GapBlock& blo
 void propagateShockUp(const World& world, const StepSettings& settings, double dt,
                       const GapBlock& block, GapScratch& scratch)
 {
-    const std::vector<std::vector<std::size_t>> byLevel =
-        pairsByLevel(scratch, pairsToShake(world, settings, dt, block, scratch));
+    Groups byLevel, clusters;
+    groupByLevel(scratch, pairsToShake(world, settings, dt, block, scratch), byLevel);
     PinnedBodies pinned(scratch);
+    std::vector<char> isShaken;
     for (std::size_t level = 0; level < byLevel.size(); ++level) {
-        const std::vector<std::size_t>& pairs = byLevel[level];
-        for (const std::size_t i : pairs) {
+        for (const std::size_t i : byLevel[level]) {
             for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
                 if (scratch.levels.isSupported[body] &&
                     scratch.levels.level[body] != static_cast<int>(level))
                     pinned.pin(body);
             }
         }
-        std::vector<Cluster> clusters;
-        for (const std::vector<std::size_t>& cluster : pairsByBodies(scratch, pairs))
-            clusters.push_back({&scratch.islands[scratch.pairs[cluster.front()].island],
-                                rowsOf(scratch, cluster)});
-        std::vector<char> isShaken(clusters.size());
+        groupByBodies(scratch, byLevel[level], clusters);
+        isShaken.assign(clusters.size(), 0);
         forEach(clusters.size(), 4, [&](std::size_t c) {
             isShaken[c] = shake(world, settings, dt, clusters[c], scratch);
         });
         pinned.release();
         for (std::size_t c = 0; c < clusters.size(); ++c) {
             if (!isShaken[c]) continue;
-            for (const std::size_t r : clusters[c].rows)
-                prepareRow(scratch.bodies, scratch.rows[r]);
+            forRows(scratch, clusters[c],
+                    [&](std::size_t r) { prepareRow(scratch.bodies, scratch.rows[r]); });
         }
     }
 }

@@ -12,13 +12,13 @@
 #include "core/dynamics/gap_blocks.h"
 #include "core/dynamics/gap_bounce.h"
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_layout.h"
 #include "core/dynamics/gap_lead.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
-#include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_shock.h"
 #include "core/dynamics/gap_unseen.h"
@@ -151,7 +151,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
     // never mistaken for what has just landed.
     {
         const PhaseTimer timer(seconds, Phase::collision);
-        const std::vector<Held> held = heldAsBefore(dt, block, scratch);
+        const std::vector<Held>& held = heldAsBefore(dt, block, scratch);
         foreseeBlows(world, settings_, dt, held, block, scratch);
         const std::vector<VelocityLead> trails = trailPlaces(world, block, scratch);
         resolveImpacts(settings_, dt, held, block, scratch);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -72,7 +71,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
     addForcesToOthers(kStep, scratch);
     for (GapBlock& block : scratch.blocks) {
         buildRows(world, settings, kStep, block, scratch);
-        const std::vector<Held> held = heldAsBefore(kStep, block, scratch);
+        const std::vector<Held>& held = heldAsBefore(kStep, block, scratch);
         foreseeBlows(world, settings, kStep, held, block, scratch);
         resolveImpacts(settings, kStep, held, block, scratch);
         findLevels(kStep, block, scratch);
