@@ -1,3 +1,7 @@
+// Two methods share the loop over a frame. stepFoundPairs is the paper's step, phase by phase
+// [GBF03 “Time Integration”]. stepGaps is the same pipeline on contacts that are known before they
+// touch: a step is laid out and solved, in the scratch alone, until nobody is woken by it nor runs
+// into what was not looked at; then everything moves at once.
 #include "core/dynamics/stepper.h"
 
 #include <algorithm>
