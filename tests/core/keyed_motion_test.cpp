@@ -2,12 +2,9 @@
 // verify.  [A54, A55]
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "core/diagnostics/state_hash.h"
-#include "core/dynamics/integrator.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
 
