@@ -2,7 +2,6 @@
 #include "render/hidden_bodies.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree {
 namespace {

@@ -11,8 +11,12 @@ namespace scree {
 /// Of 0 … count − 1, each alone at first; the lowest member stands for its set.
 class DisjointSets {
 public:
-    explicit DisjointSets(std::size_t count) : parent_(count)
+    explicit DisjointSets(std::size_t count = 0) { begin(count); }
+
+    /// Forgets all and begins anew, in the same memory.
+    void begin(std::size_t count)
     {
+        parent_.resize(count);
         std::iota(parent_.begin(), parent_.end(), std::size_t{0});
     }
     std::size_t find(std::size_t x)

@@ -16,6 +16,7 @@
 
 namespace scree {
 
+/// One of the places where a ball touches.
 struct BallContact {
     /// What of the other surface it is: a triangle and 0, or the two ends of an edge, or a corner
     /// twice, corners counted from 1.
@@ -23,6 +24,7 @@ struct BallContact {
     FeatureContact contact;
 };
 
+/// Whether a shape is an exact sphere.
 bool isBall(const Shape& shape);
 
 /// Of the first shape, an exact ball, all contacts with gaps below `reach` [m], ordered by place.

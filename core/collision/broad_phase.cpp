@@ -69,6 +69,11 @@ void mergeTail(std::vector<Item>& items, std::size_t middle)
     std::inplace_merge(items.begin(), tail, items.end());
 }
 
+void appendAll(std::span<const std::vector<BodyPair>> lists, std::vector<BodyPair>& all)
+{
+    for (const std::vector<BodyPair>& list : lists) all.insert(all.end(), list.begin(), list.end());
+}
+
 }  // namespace
 
 const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxes,
@@ -89,28 +94,34 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
         });
         pairMoved();
     }
-    found_.resize((meetings_.size() + kMeetingsTogether - 1) / kMeetingsTogether);
-    forEach(found_.size(), 1, [&](std::size_t part) {
+    const auto found = foundBy((meetings_.size() + kMeetingsTogether - 1) / kMeetingsTogether);
+    forEach(found.size(), 1, [&](std::size_t part) {
         const std::size_t begin = part * kMeetingsTogether;
         const std::size_t end = std::min(begin + kMeetingsTogether, meetings_.size());
         // Which of them overlap cannot be guessed: no branch.
-        std::vector<BodyPair>& found = found_[part];
-        found.resize(kMeetingsTogether);
+        std::vector<BodyPair>& overlapping = found[part];
+        overlapping.resize(kMeetingsTogether);
         std::size_t count = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            found[count] = meetings_[i];
+            overlapping[count] = meetings_[i];
             count += boxes[meetings_[i].a].overlaps(boxes[meetings_[i].b]);
         }
-        found.resize(count);
-        std::erase_if(found, [&](const BodyPair& pair) {
+        overlapping.resize(count);
+        std::erase_if(overlapping, [&](const BodyPair& pair) {
             const bool isOne = isAsked.empty() || isAsked[pair.a] || isAsked[pair.b];
             return !isOne || !counts(pair);
         });
     });
     pairs_.clear();
-    for (const std::vector<BodyPair>& found : found_)
-        pairs_.insert(pairs_.end(), found.begin(), found.end());
+    appendAll(found, pairs_);
     return pairs_;
+}
+
+/// A list for each of so many parts of a search. Those of a larger search keep their memory.
+std::span<std::vector<BodyPair>> BroadPhase::foundBy(std::size_t parts)
+{
+    if (found_.size() < parts) found_.resize(parts);
+    return std::span(found_).first(parts);
 }
 
 /// Lists the bodies that are asked, and those that no longer are where they have been entered;
@@ -132,24 +143,22 @@ bool BroadPhase::areFew(const std::vector<Aabb>& boxes, std::span<const char> is
 void BroadPhase::pairFew(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass,
                          const Filter& counts)
 {
-    found_.resize(asked_.size());
+    const auto found = foundBy(asked_.size());
     forEach(asked_.size(), 1, [&](std::size_t n) {
         const BodyId asked = asked_[n];
-        std::vector<BodyPair>& found = found_[n];
-        found.clear();
+        found[n].clear();
         const auto meetBoxOf = [&](BodyId other) {
             if (other == asked || !boxes[asked].overlaps(boxes[other])) return;
             if (!mass[asked].isMovable() && !mass[other].isMovable()) return;
             const BodyPair pair{std::min(asked, other), std::max(asked, other)};
-            if (counts(pair)) found.push_back(pair);
+            if (counts(pair)) found[n].push_back(pair);
         };
         for (const BodyId other : large_) meetBoxOf(other);
         for (const BodyId other : outgrown_) meetBoxOf(other);
         forThoseWithin(boxes[asked], meetBoxOf);
     });
     pairs_.clear();
-    for (const std::vector<BodyPair>& found : found_)
-        pairs_.insert(pairs_.end(), found.begin(), found.end());
+    appendAll(found, pairs_);
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
@@ -258,15 +267,14 @@ void BroadPhase::pairMoved()
         while (i > 0 && i < entries_.size() && entries_[i].cell == entries_[i - 1].cell) ++i;
         return std::min(i, entries_.size());
     };
-    found_.resize((entries_.size() + kEntriesTogether - 1) / kEntriesTogether);
-    forEach(found_.size(), 1, [&](std::size_t part) {
-        found_[part].clear();
+    const auto found = foundBy((entries_.size() + kEntriesTogether - 1) / kEntriesTogether);
+    forEach(found.size(), 1, [&](std::size_t part) {
+        found[part].clear();
         pairInCells(firstOfCell(part * kEntriesTogether),
-                    firstOfCell((part + 1) * kEntriesTogether), found_[part]);
+                    firstOfCell((part + 1) * kEntriesTogether), found[part]);
     });
     const std::size_t stay = meetings_.size();
-    for (const std::vector<BodyPair>& found : found_)
-        meetings_.insert(meetings_.end(), found.begin(), found.end());
+    appendAll(found, meetings_);
     pairLarge(meetings_);
     mergeTail(meetings_, stay);
 }

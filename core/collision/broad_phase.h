@@ -42,6 +42,7 @@ private:
         BodyId body;
         friend auto operator<=>(const Entry&, const Entry&) = default;
     };
+    std::span<std::vector<BodyPair>> foundBy(std::size_t parts);
     bool areFew(const std::vector<Aabb>& boxes, std::span<const char> isAsked);
     void pairFew(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass,
                  const Filter& counts);

@@ -1,5 +1,5 @@
 // Of the many places where two bodies lie flat on each other those that matter: a ring on the floor
-// has thirty-two, and eight hold it as well.  [Macklin 2020; algorithm 14]
+// has thirty-two, and eight hold it as well.  [MEM20; algorithm 14]
 #pragma once
 
 #include <cstddef>

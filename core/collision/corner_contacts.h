@@ -20,7 +20,8 @@ struct FacedCorner {
 };
 
 /// A corner of the first shape and the surface of the second, which are in contact when nearer than
-/// `reach`: only when they are, so that a corner known to be farther away need not be asked about.
+/// `reach` [m]: only when they are, so that a corner known to be farther away need not be asked
+/// about. Nearer than `sharpness` to an edge, the faces beside it decide the normal [m].
 FacedCorner faceCorner(const RelativePair& pair, std::int32_t corner, double reach,
                        double sharpness);
 

@@ -11,6 +11,7 @@
 
 namespace scree {
 
+/// One of the sides of a crease that a corner touches.
 struct CreaseContact {
     FeatureContact contact;
     std::int32_t side;  ///< 2 × index of the crease in the second shape, plus which of its faces

@@ -12,14 +12,15 @@ namespace scree {
 
 /// An edge seen from the field: fixed lattice points, so that skipping some never changes the rest.
 struct EdgeInField {
-    Vec3 start, alongStep;  // one lattice step
-    int steps;              // lattice points 0 … steps, the ends are vertices
-    double stepLength;
+    Vec3 start, alongStep;  ///< one lattice step [m]
+    int steps;              ///< lattice points 0 … steps, the ends are vertices
+    double stepLength;      ///< [m]
 
     Vec3 at(double t) const { return start + t * alongStep; }
     double length() const { return stepLength * steps; }
 };
 
+/// `pose`: of the samples, seen from the field.
 EdgeInField placeEdge(const SurfaceSamples& samples, std::int32_t edge,
                       const FieldFromSamples& pose, const KnownField& field);
 

@@ -185,25 +185,13 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         return far > 0.0 ? wayToDeepContact(pair, back, far) : far;
     };
 
-    // See what is near, and remember nothing of what is not.
     const bool isNew = !memory_ || memory_->isStaleAt(pair, reach);
-    const double far = reach + lookAhead(pair, reach);
-    if (!memory_) {
-        // Most pairs whose boxes meet are far apart: a few spheres say how far.
-        const double apart = apartAtLeast(pair, back);
-        if (apart > far) return farAt(apart);
-        memory_ = std::make_unique<FeatureMemory>();
-    }
     if (isNew) {
-        const double apart = memory_->look(pair, back, reach);
-        if (apart > far) {
-            memory_.reset();
-            return farAt(apart);
-        }
+        const double apart = look(pair, back, reach);
+        if (!memory_) return farAt(apart);
     }
 
-    // Tell of it, in an order of the shapes: of places that say the same the first one gives its
-    // id.
+    // In an order of the shapes: of places that say the same the first one gives its id.
     faceCorners(pair, FeatureKind::cornerOfA, ways.ofA, reach, *memory_, list);
     faceCorners(back, FeatureKind::cornerOfB, ways.ofB, reach, *memory_, list);
     touchEdges(pair, ways.ofA, reach, isNew, *memory_, list);
@@ -212,6 +200,26 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? ways.worldFromA : ways.worldFromB, smaller);
     return farAt(memory_->farFor(pair));
+}
+
+double NearFeatures::look(const RelativePair& pair, const RelativePair& back, double reach)
+{
+    const double far = reach + lookAhead(pair, reach);
+    // Most pairs whose boxes meet are far apart: a few spheres say how far.
+    if (!memory_) {
+        const double apart = apartAtLeast(pair, back);
+        if (apart > far) return apart;
+    }
+    // So are most of the others that are looked at for the first time.
+    thread_local FeatureMemory seen;
+    const double apart = seen.look(pair, back, reach);
+    if (apart > far)
+        memory_.reset();
+    else if (memory_)
+        *memory_ = seen;
+    else
+        memory_ = std::make_unique<FeatureMemory>(seen);
+    return apart;
 }
 
 void NearFeatures::prefetch() const

@@ -19,6 +19,7 @@
 namespace scree {
 
 class FeatureMemory;
+struct RelativePair;
 
 /// Lower bound of the distance between two bodies, from a few spheres around their features [m];
 /// far below zero where these overlap.
@@ -46,6 +47,10 @@ public:
     void prefetchLists() const;
 
 private:
+    /// Looks at all features and remembers those that may come within reach, or nothing where all
+    /// are far. Answers how far apart the bodies are at least [m].
+    double look(const RelativePair& pair, const RelativePair& back, double reach);
+
     std::unique_ptr<FeatureMemory> memory_;  // none while everything is far
 };
 

@@ -5,9 +5,10 @@
 
 namespace scree {
 
+/// Turns points of the body that is sampled into the frame of the one whose field is asked.
 struct FieldFromSamples {
     Mat3 rotation;
-    Vec3 translation;
+    Vec3 translation;  ///< [m]
 
     Vec3 operator*(const Vec3& p) const { return rotation * p + translation; }
     /// From the field's frame back to that of the samples.

@@ -10,7 +10,7 @@ namespace scree {
 
 /// What two surfaces are to each other.
 struct PairSurface {
-    double friction, restitution;
+    double friction, restitution;  ///< [-]
     RollingFriction rolling;
 };
 

@@ -9,11 +9,9 @@
 // bounce.  [A26]
 #include "core/dynamics/collision_pass.h"
 
-#include <algorithm>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/contact_point.h"
-#include "core/dynamics/integrator.h"
 
 namespace scree {
 namespace {

@@ -19,7 +19,7 @@ struct ContactPoint {
     Vec3 u;  ///< relative velocity [m/s]
 };
 
-/// Which of two configurations of a pair gives a contact its geometry.
+/// The configurations of a pair that a contact is told in.
 struct ContactFrames {
     const PlacedPair& geometry;   ///< points, levers and normal are taken here
     const PlacedPair& now;        ///< where the bodies are
@@ -40,7 +40,8 @@ struct PairInertia {
     PassInertia passA, passB;
 };
 
-/// An approach slower than this is none: rounding, far below what gravity adds in a step.  [A29]
+/// An approach slower than this is none: rounding, far below what gravity adds in a step [m/s].
+/// [A29]
 double slowestApproach(const StepSettings& settings, double dt);
 
 /// Takes u from the bodies' present velocities; point and normal stay.

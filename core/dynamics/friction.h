@@ -11,10 +11,11 @@
 
 namespace scree {
 
+/// What became of friction at an impulse; `fallback`: neither sticking nor sliding would do.
 enum class FrictionCase { none, sticking, sliding, fallback };
 
 struct ContactImpulse {
-    Vec3 impulse = Vec3::Zero();
+    Vec3 impulse = Vec3::Zero();  ///< on A [N s]
     FrictionCase kind = FrictionCase::none;
 };
 
@@ -24,7 +25,7 @@ struct ContactImpulse {
 ContactImpulse contactImpulse(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double e,
                               double mu, FrictionFallback fallback = FrictionFallback::blend);
 
-/// Change of kinetic energy by impulse j: u·j + ½ jᵀKj.
+/// Change of kinetic energy by impulse j: u·j + ½ jᵀKj [J].
 double workOf(const Vec3& impulse, const Mat3& collisionMatrix, const Vec3& u);
 
 /// Adds one impulse of this kind to the counts.

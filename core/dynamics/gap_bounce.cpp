@@ -23,8 +23,8 @@ class IslandImpacts {
 public:
     IslandImpacts(ImpactState& state, const GapIsland& island, bool mayCut) : state_(state)
     {
-        if (mayCut && island.rowCount >= kRowsWorthACut)
-            parts_ = partsOf(state.scratch, island.pairs);
+        if (mayCut)
+            parts_ = partsOf(state.scratch, island, roomForParts_);
         else
             parts_[0] = island.pairs;
         isCut_ = !parts_[1].empty();
@@ -59,13 +59,13 @@ private:
     /// A blow runs along a row of touching bodies whichever way it lies.
     void sweepThereAndBack()
     {
-        inHalves([](ImpactVisits& visits, const std::vector<std::size_t>& pairs) {
+        inHalves([](ImpactVisits& visits, std::span<const std::size_t> pairs) {
             for (const std::size_t i : pairs) visits.visit(i);
         });
-        const std::vector<std::size_t>& across = parts_[2];
+        const std::span<const std::size_t> across = parts_[2];
         for (const std::size_t i : across) whole_.visit(i);
         for (std::size_t p = across.size(); p-- > 0;) whole_.visit(across[p]);
-        inHalves([](ImpactVisits& visits, const std::vector<std::size_t>& pairs) {
+        inHalves([](ImpactVisits& visits, std::span<const std::size_t> pairs) {
             for (std::size_t p = pairs.size(); p-- > 0;) visits.visit(pairs[p]);
         });
     }
@@ -92,6 +92,7 @@ private:
     ImpactVisits whole_{state_, ImpactVisits::Of::all};
     std::array<ImpactVisits, 2> halves_{
         {{state_, ImpactVisits::Of::half}, {state_, ImpactVisits::Of::half}}};
+    std::vector<std::size_t> roomForParts_;
     PairParts parts_;
     bool isCut_ = false, isOver_ = false;
 };

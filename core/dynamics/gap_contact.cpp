@@ -18,6 +18,7 @@
 #include "core/dynamics/gap_lanes.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_press.h"
+#include "core/dynamics/gap_shock.h"
 
 namespace scree {
 namespace {

@@ -3,7 +3,7 @@
 // [GBF03 “Contact”, “Shock Propagation”], [A39–A48; algorithm 14.1]
 #pragma once
 
-#include "core/dynamics/gap_levels.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 

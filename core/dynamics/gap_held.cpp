@@ -2,15 +2,12 @@
 
 namespace scree {
 
-std::vector<Held> heldAsBefore(double dt, const GapBlock& block, const GapScratch& scratch)
+const std::vector<Held>& heldAsBefore(double dt, GapBlock& block, const GapScratch& scratch)
 {
-    struct OfPair {
-        Vec3 impulse = Vec3::Zero(), turnOfA = Vec3::Zero(), turnOfB = Vec3::Zero();  // on A, on B
-    };
-    std::vector<OfPair> ofPairs(block.pairs.size());
+    block.heldByPairs.assign(block.pairs.size(), {});
     forPairs(block, [&](std::size_t p) {
         const GapPair& pair = scratch.pairs[p];
-        OfPair& sum = ofPairs[pair.place];
+        HeldByPair& sum = block.heldByPairs[pair.place];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
             if (row.impulse.x() == 0.0) continue;
@@ -20,11 +17,12 @@ std::vector<Held> heldAsBefore(double dt, const GapBlock& block, const GapScratc
             sum.turnOfB -= row.rB.cross(impulse) + row.couple;
         }
     });
-    std::vector<Held> held(block.bodies.size() + 1);
+    std::vector<Held>& held = block.held;
+    held.assign(block.bodies.size() + 1, {});
     forIslands(scratch, block, [&](std::size_t i) {
         for (const std::size_t p : scratch.islands[i].pairs) {
             const GapRow& any = scratch.rows[scratch.pairs[p].begin];
-            const OfPair& sum = ofPairs[scratch.pairs[p].place];
+            const HeldByPair& sum = block.heldByPairs[scratch.pairs[p].place];
             if (any.movesA) {
                 Held& a = held[scratch.placeInBlock[any.a]];
                 a.acceleration += sum.impulse;

@@ -7,13 +7,8 @@
 
 namespace scree {
 
-/// What accelerates a body beside what pulls it.
-struct Held {
-    Vec3 acceleration = Vec3::Zero(), turning = Vec3::Zero();  ///< [m/s²], [rad/s²]
-};
-
 /// Per place of a body in the block, if all that carried it in the last step does so again: rows
-/// begin with the impulses that are remembered.
-std::vector<Held> heldAsBefore(double dt, const GapBlock& block, const GapScratch& scratch);
+/// begin with the impulses that are remembered. Fills block.held.
+const std::vector<Held>& heldAsBefore(double dt, GapBlock& block, const GapScratch& scratch);
 
 }  // namespace scree

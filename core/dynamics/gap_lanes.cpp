@@ -73,11 +73,7 @@ void GapLanes::inHalves(const Work& work)
 
 void GapLanes::build(const GapScratch& scratch, const GapIsland& island)
 {
-    PairParts parts;
-    if (island.rowCount < kRowsWorthACut)
-        parts[0] = island.pairs;
-    else
-        parts = partsOf(scratch, island.pairs);
+    const PairParts parts = partsOf(scratch, island, roomForParts_);
     resistsRolling_ = anyResistsSpin(scratch, island);
     beginsAnew_ = true;
     collectBodies(scratch, parts);
@@ -91,7 +87,7 @@ void GapLanes::collectBodies(const GapScratch& scratch, const PairParts& parts)
     for (std::size_t i = 1; i < idOf_.size(); ++i) placeOf_[idOf_[i]] = 0;
     placeOf_.resize(scratch.bodies.size(), 0);
     idOf_.assign(1, -1);
-    const auto collect = [&](const std::vector<std::size_t>& pairs, bool movable) {
+    const auto collect = [&](std::span<const std::size_t> pairs, bool movable) {
         for (const std::size_t i : pairs) {
             for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
                 const bool isMovable = scratch.bodies[body].inverseMass > 0.0;
@@ -106,7 +102,7 @@ void GapLanes::collectBodies(const GapScratch& scratch, const PairParts& parts)
         collect(parts[part], true);
         sections_[part].endBody = idOf_.size();
     }
-    for (const std::vector<std::size_t>& pairs : parts) collect(pairs, false);
+    for (std::span<const std::size_t> pairs : parts) collect(pairs, false);
     bodies_.assign(idOf_.size(), {});
     ways_.resize(idOf_.size());
     firstFree_.assign(idOf_.size(), 0);
@@ -116,7 +112,7 @@ void GapLanes::collectBodies(const GapScratch& scratch, const PairParts& parts)
     }
 }
 
-void GapLanes::layOut(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
+void GapLanes::layOut(const GapScratch& scratch, std::span<const std::size_t> pairs,
                       Section& section)
 {
     schedule(scratch, pairs, section);
@@ -155,7 +151,7 @@ std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest, Section
 
 /// The rows of every pair go into batches after those of the pairs before it that share a body with
 /// it: the outcome of a sweep is that of visiting the pairs one by one.
-void GapLanes::schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
+void GapLanes::schedule(const GapScratch& scratch, std::span<const std::size_t> pairs,
                         Section& section)
 {
     section.batches.clear();

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/dynamics/gap_pairs.h"
@@ -102,9 +103,8 @@ private:
     template <class Work>
     void inHalves(const Work& work);
     void collectBodies(const GapScratch& scratch, const PairParts& parts);
-    void layOut(const GapScratch& scratch, const std::vector<std::size_t>& pairs, Section& section);
-    void schedule(const GapScratch& scratch, const std::vector<std::size_t>& pairs,
-                  Section& section);
+    void layOut(const GapScratch& scratch, std::span<const std::size_t> pairs, Section& section);
+    void schedule(const GapScratch& scratch, std::span<const std::size_t> pairs, Section& section);
     std::int32_t batchFor(std::size_t rows, std::int32_t earliest, Section& section) const;
     void goOn(const Section& section);
     template <bool kRolls>
@@ -127,6 +127,7 @@ private:
     static void apply(const Row& row, const Batch& batch, const Lanes3& change, Motion& motion);
 
     bool resistsRolling_ = false;
+    std::vector<std::size_t> roomForParts_;
     // The bodies of the island, section by section, then what cannot be moved. Idle lanes have the
     // first, which is none.
     std::vector<LaneBody> bodies_;

@@ -1,6 +1,7 @@
 #include "core/dynamics/gap_pairs.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -52,16 +53,20 @@ void sortInHalves(std::vector<Item>& items, const Before& before)
 /// In the order of the first of their pairs.
 void cutIntoIslands(GapScratch& scratch)
 {
-    std::vector<std::size_t> all(scratch.pairs.size());
+    thread_local std::vector<std::size_t> all;
+    thread_local Groups together;
+    all.resize(scratch.pairs.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    scratch.islands.clear();
-    for (std::vector<std::size_t>& pairs : pairsByBodies(scratch, all)) {
-        const std::size_t index = scratch.islands.size();
-        GapIsland& island = scratch.islands.emplace_back();
-        island.pairs = std::move(pairs);
+    groupByBodies(scratch, all, together);
+    scratch.islands.resize(together.size());
+    for (std::size_t n = 0; n < together.size(); ++n) {
+        GapIsland& island = scratch.islands[n];
+        island.pairs.assign(together[n].begin(), together[n].end());
+        island.rowCount = 0;
+        island.isRemembered = island.isKept = false;
         for (const std::size_t i : island.pairs) {
             GapPair& pair = scratch.pairs[i];
-            pair.island = index;
+            pair.island = n;
             island.rowCount += pair.end - pair.begin;
         }
     }
@@ -91,6 +96,7 @@ void cutInTwo(const GapIsland& island, GapScratch& scratch)
     const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
     const auto place = [&](BodyId body) -> const Vec3& { return scratch.seenAt[body].position; };
     std::vector<BodyId> bodies;
+    bodies.reserve(2 * island.pairs.size());
     Aabb box;
     for (const std::size_t i : island.pairs) {
         for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
@@ -151,14 +157,14 @@ void orderPairs(const World& world, const StepSettings& settings, GapScratch& sc
         scratch.order.insert(scratch.order.end(), island.pairs.begin(), island.pairs.end());
 }
 
-std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
-                                                    const std::vector<std::size_t>& pairs)
+void groupByBodies(const GapScratch& scratch, std::span<const std::size_t> pairs, Groups& together)
 {
     const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
     // Few bodies of a large world may be in these pairs: what is done for each is done for those.
     thread_local std::vector<std::int32_t> placeOf;
+    thread_local std::vector<BodyId> met;
     placeOf.resize(scratch.bodies.size(), -1);
-    std::vector<BodyId> met;
+    met.clear();
     for (const std::size_t i : pairs) {
         for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
             if (!isMovable(body) || placeOf[body] >= 0) continue;
@@ -166,37 +172,54 @@ std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
             met.push_back(body);
         }
     }
-    DisjointSets sets(met.size());
+    thread_local DisjointSets sets;
+    sets.begin(met.size());
     for (const std::size_t i : pairs) {
         const auto [a, b] = scratch.pairs[i].bodies;
         if (isMovable(a) && isMovable(b)) sets.join(placeOf[a], placeOf[b]);
     }
-    std::vector<std::int32_t> listOf(met.size(), -1);
-    std::vector<std::vector<std::size_t>> together;
-    for (const std::size_t i : pairs) {
+
+    // Number the sets as they are met, and sort by these numbers.
+    constexpr std::size_t kNone = ~std::size_t{0};
+    thread_local std::vector<std::size_t> groupOf;  // of the lowest of a set
+    groupOf.assign(met.size(), kNone);
+    std::size_t count = 0;
+    const auto lowestOf = [&](std::size_t i) {
         const auto [a, b] = scratch.pairs[i].bodies;
-        if (!isMovable(a) && !isMovable(b)) continue;
-        std::int32_t& list = listOf[sets.find(placeOf[isMovable(a) ? a : b])];
-        if (list < 0) {
-            list = static_cast<std::int32_t>(together.size());
-            together.emplace_back();
-        }
-        together[list].push_back(i);
+        return isMovable(a) || isMovable(b) ? sets.find(placeOf[isMovable(a) ? a : b]) : kNone;
+    };
+    for (const std::size_t i : pairs) {
+        const std::size_t lowest = lowestOf(i);
+        if (lowest != kNone && groupOf[lowest] == kNone) groupOf[lowest] = count++;
     }
+    together.sort(pairs, count, [&](std::size_t i) {
+        const std::size_t lowest = lowestOf(i);
+        return lowest == kNone ? count : groupOf[lowest];
+    });
     for (const BodyId body : met) placeOf[body] = -1;
-    return together;
 }
 
-PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs)
+PairParts partsOf(const GapScratch& scratch, const GapIsland& island,
+                  std::vector<std::size_t>& room)
 {
-    PairParts parts;
-    for (const std::size_t i : pairs) parts[scratch.pairs[i].part].push_back(i);
-    return parts;
+    if (island.rowCount < kRowsWorthACut) return {island.pairs};
+    room.clear();
+    room.reserve(island.pairs.size());
+    std::array<std::size_t, 4> begin{};
+    for (int part = 0; part < 3; ++part) {
+        std::ranges::copy_if(island.pairs, std::back_inserter(room),
+                             [&](std::size_t i) { return scratch.pairs[i].part == part; });
+        begin[part + 1] = room.size();
+    }
+    const std::span<const std::size_t> all = room;
+    return {all.subspan(begin[0], begin[1] - begin[0]), all.subspan(begin[1], begin[2] - begin[1]),
+            all.subspan(begin[2])};
 }
 
 std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island)
 {
     std::vector<BodyId> movers;
+    movers.reserve(2 * island.pairs.size());
     for (const std::size_t i : island.pairs) {
         for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
             if (scratch.bodies[body].inverseMass > 0.0) movers.push_back(body);

@@ -3,15 +3,17 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
+#include "core/base/groups.h"
 #include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 
 /// Pairs of one half of the bodies, of the other, and those that join the halves. Two threads may
 /// work on the halves at once, and one on the rest before or after them.
-using PairParts = std::array<std::vector<std::size_t>, 3>;
+using PairParts = std::array<std::span<const std::size_t>, 3>;
 
 /// Below this many rows a cut costs more than a second thread gains.
 constexpr std::size_t kRowsWorthACut = 1000;
@@ -24,13 +26,14 @@ void layPairs(const World& world, GapScratch& scratch);
 /// where they are large.
 void orderPairs(const World& world, const StepSettings& settings, GapScratch& scratch);
 
-/// Those of the pairs together that share movable bodies, directly or through others; pairs without
-/// any are left out. In the order of the first of each.
-std::vector<std::vector<std::size_t>> pairsByBodies(const GapScratch& scratch,
-                                                    const std::vector<std::size_t>& pairs);
+/// Groups those of the pairs together that share movable bodies, directly or through others; pairs
+/// without any are left out. In the order of the first of each.
+void groupByBodies(const GapScratch& scratch, std::span<const std::size_t> pairs, Groups& together);
 
-/// The pairs by their parts, in their order.
-PairParts partsOf(const GapScratch& scratch, const std::vector<std::size_t>& pairs);
+/// The pairs of an island by their parts, in their order: in `room` where it is cut, and otherwise
+/// all in the first, where they are.
+PairParts partsOf(const GapScratch& scratch, const GapIsland& island,
+                  std::vector<std::size_t>& room);
 
 /// The bodies of an island that can be moved, sorted.
 std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island);

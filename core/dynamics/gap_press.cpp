@@ -2,8 +2,8 @@
 //
 // Sweeps over a contradiction add about m U to every impulse each time, and the next step begins
 // with what this one found. Two balls in a straight line under a plate that came down at 1 m/s
-// carried three million times their momentum after a hundred steps, and friction and the last bit of
-// their direction threw them at 700 m/s. A cap of their speeds did not hold: what was left grew
+// carried three million times their momentum after a hundred steps, and friction and the last bit
+// of their direction threw them at 700 m/s. A cap of their speeds did not hold: what was left grew
 // again in every step.
 #include "core/dynamics/gap_press.h"
 
@@ -34,14 +34,6 @@ struct Press {
     double impulse = 0.0;  // the sum of theirs along the normals [N s]
     int rows = 0;          // that have one
 };
-
-template <class Visit>
-void forRows(const GapScratch& scratch, const GapIsland& island, const Visit& visit)
-{
-    for (const std::size_t i : island.pairs) {
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) visit(r);
-    }
-}
 
 Press pressOn(const GapScratch& scratch, const GapIsland& island)
 {
@@ -93,7 +85,7 @@ bool isPressed(const StepSettings& settings, double dt, const GapScratch& scratc
         massOf(scratch, moversOf(scratch, island)) * (press.speed + dt * settings.gravity.norm());
     if (press.impulse <= kPressed * momentum) return false;
     double closing = 0.0;
-    forRows(scratch, island, [&](std::size_t r) {
+    forRows(scratch, island.pairs, [&](std::size_t r) {
         const GapRow& row = scratch.rows[r];
         const Vec3 u = velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
         closing = std::max(closing, row.target - u.dot(row.normal));
@@ -111,12 +103,12 @@ void solvePressed(double dt, const GapIsland& island, GapScratch& scratch)
         body.velocity = body.velocityBefore + dt * body.pull;
         body.spin = body.spinBefore + dt * (body.inverseInertia * body.torque);
     }
-    forRows(scratch, island, [&](std::size_t r) {
+    forRows(scratch, island.pairs, [&](std::size_t r) {
         scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
     });
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
         double residual = 0.0;
-        forRows(scratch, island, [&](std::size_t r) {
+        forRows(scratch, island.pairs, [&](std::size_t r) {
             residual = std::max(residual, visitYielding(yield, scratch.rows[r], scratch));
         });
         if (residual <= kEnough * press.speed) break;

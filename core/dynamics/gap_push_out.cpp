@@ -20,8 +20,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "core/dynamics/gap_levels.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -133,11 +133,7 @@ std::int64_t displace(World& world, std::vector<Displacement>& displacements)
 class DeepPass {
 public:
     DeepPass(World& world, const StepSettings& settings, GapScratch& scratch)
-        : world_(world),
-          settings_(settings),
-          scratch_(scratch),
-          isLookedAt_(scratch.nearPairs.size(), 0),
-          isPushed_(scratch.bodies.size(), 0)
+        : world_(world), settings_(settings), scratch_(scratch)
     {
     }
 
@@ -145,6 +141,7 @@ public:
     {
         findDeepPairs();
         if (reach_ == 0.0) return {};
+        isPushed_.assign(scratch_.bodies.size(), 0);
         std::vector<std::vector<std::size_t>> byLevel;
         for (std::size_t i = 0; i < scratch_.nearPairs.size(); ++i) {
             const auto level =
@@ -163,7 +160,10 @@ public:
     }
 
     /// Whether the rows of a pair have been dealt with.
-    bool isLookedAt(const GapPair& pair) const { return isLookedAt_[pair.near] != 0; }
+    bool isLookedAt(const GapPair& pair) const
+    {
+        return !isLookedAt_.empty() && isLookedAt_[pair.near] != 0;
+    }
 
 private:
     struct RowToPush {
@@ -189,6 +189,7 @@ private:
                 const double opened = shiftAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
                 const double depth = -row.gap - std::max(opened, 0.0);
                 if (!isDeep(pair.bodies, depth) || (!row.movesA && !row.movesB)) continue;
+                isLookedAt_.resize(scratch_.nearPairs.size(), 0);
                 isLookedAt_[pair.near] = 1;
                 reach_ = std::max(reach_, depth);
                 deepest = std::max(deepest, depth);
@@ -276,18 +277,28 @@ private:
     GapScratch& scratch_;
     PushOutTally tally_;
     double reach_ = 0.0;  // of contacts that pushes may close: the deepest overlap [m]
+    // Most steps find nothing deep, and then these are empty.
     std::vector<char> isLookedAt_, isPushed_;  // per near pair; per body
-    std::vector<double> left_;                 // per near pair, if any is deep: as of RowToPush
+    std::vector<double> left_;                 // per near pair: as of RowToPush
     std::vector<GapContact> contacts_;
     std::vector<RowToPush> rows_;
     std::vector<RowPush> pushes_;
     std::vector<Displacement> displacements_;
 };
 
+/// What the pass below fills, kept from step to step.
+struct ShallowPushes {
+    std::vector<double> wanted;                  // separation per row; 0: none [m]
+    std::array<std::vector<RowPush>, 3> pushes;  // by the parts of the pairs
+    std::vector<Displacement> displacements;     // per body
+};
+
 /// What steps leave: a share of it.
 PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratch& scratch)
 {
-    std::vector<double> wanted(scratch.rows.size(), 0.0);
+    thread_local ShallowPushes kept;
+    auto& [wanted, pushes, displacements] = kept;  // of this thread, filled by all
+    wanted.assign(scratch.rows.size(), 0.0);
     forPairs(scratch, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
         if (deep.isLookedAt(pair)) return;
@@ -297,7 +308,7 @@ PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratc
             wanted[r] = kShare * std::max(excessOf(world, row, gap), 0.0);
         }
     });
-    std::array<std::vector<RowPush>, 3> pushes;  // by the parts of the pairs
+    for (std::vector<RowPush>& ofPart : pushes) ofPart.clear();
     for (const std::size_t i : scratch.order) {
         const GapPair& pair = scratch.pairs[i];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
@@ -306,7 +317,7 @@ PushOutTally separateShallow(World& world, const DeepPass& deep, const GapScratc
     }
     const std::size_t count = pushes[0].size() + pushes[1].size() + pushes[2].size();
     if (count == 0) return {};
-    std::vector<Displacement> displacements(scratch.bodies.size());
+    displacements.assign(scratch.bodies.size(), {});
     for (int n = 0; n < kSweeps; ++n) {
         forEach(pushes[1].empty() ? 1 : 2, 1,
                 [&](std::size_t half) { sweep(scratch, 0.0, pushes[half], displacements); });

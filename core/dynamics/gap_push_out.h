@@ -2,7 +2,7 @@
 // [GBF03 “Shock Propagation”, last paragraph], [A52; algorithm 14.1]
 #pragma once
 
-#include "core/dynamics/gap_levels.h"
+#include "core/dynamics/gap_scratch.h"
 #include "core/dynamics/push_out.h"
 
 namespace scree {

@@ -39,20 +39,20 @@ struct GapRow {
     BodyId a, b;
     bool movesA, movesB;  ///< whether its impulses act on the body: not on what cannot be moved,
                           ///< nor on one that the other's group does not move
-    bool isUnmovedA, isUnmovedB;  ///< by its group
-    bool wasHit;                  ///< by an impact of this step
-    bool isOfBlow;                ///< has the arms and the normal of the moment it is hit
-    Vec3 rA, rB;                  ///< contact point from either centre, world [m]
-    Vec3 normal;                  ///< from B to A
-    double gap;                   ///< [m]
-    Vec3 impulse;                 ///< along normal, tangent and second tangent, on A [N s]
-    Vec3 tangent;                 ///< the second tangent is normal × tangent
-    double friction, restitution;
-    double target;  ///< normal velocity that closes the gap within the step [m/s], ≤ 0
-    double inverseNormalMass;
-    double frictionMass[3];          ///< inverse of the tangential 2×2 block: tt, ts, ss
-    double slideMass;                ///< 1 / largest eigenvalue of that block
-    double normalIntoFriction[2];    ///< tangential velocities by a unit normal impulse
+    bool isUnmovedA, isUnmovedB;   ///< by its group
+    bool wasHit;                   ///< by an impact of this step
+    bool isOfBlow;                 ///< has the arms and the normal of the moment it is hit
+    Vec3 rA, rB;                   ///< contact point from either centre, world [m]
+    Vec3 normal;                   ///< from B to A
+    double gap;                    ///< [m]
+    Vec3 impulse;                  ///< along normal, tangent and second tangent, on A [N s]
+    Vec3 tangent;                  ///< the second tangent is normal × tangent
+    double friction, restitution;  ///< [-]
+    double target;             ///< normal velocity that closes the gap within the step [m/s], ≤ 0
+    double inverseNormalMass;  ///< normal velocity by a unit normal impulse [1/kg]
+    double frictionMass[3];    ///< inverse of the tangential 2×2 block: tt, ts, ss [kg]
+    double slideMass;          ///< 1 / largest eigenvalue of that block [kg]
+    double normalIntoFriction[2];    ///< tangential velocities by a unit normal impulse [1/kg]
     double rollingArm, spinningArm;  ///< lever arms of the resistance to rolling and spinning [m]
     double rollResponse;             ///< spin across the normal by a unit couple while friction
                                      ///< holds the place, at most [1/(kg m²)]
@@ -87,13 +87,13 @@ inline bool sticks(const GapRow& row)
     return row.impulse.y() * row.impulse.y() + row.impulse.z() * row.impulse.z() < limit * limit;
 }
 
-/// Relative velocity of the two surfaces at a row, A's against B's.
+/// Relative velocity of the two surfaces at a row, A's against B's [m/s].
 inline Vec3 velocityAt(const GapRow& row, const GapBody& a, const GapBody& b)
 {
     return a.velocity + a.spin.cross(row.rA) - b.velocity - b.spin.cross(row.rB);
 }
 
-/// What the shifts of the two bodies add to the gap.
+/// What the shifts of the two bodies add to the gap [m].
 inline double shiftAt(const GapRow& row, const GapBody& a, const GapBody& b)
 {
     return row.normal.dot(a.shift + a.turn.cross(row.rA) - b.shift - b.turn.cross(row.rB));
@@ -108,7 +108,7 @@ inline PassInertia inertiaOf(const GapBody& body, bool moves)
     return moves ? PassInertia{body.inverseMass, body.inverseInertia} : PassInertia{};
 }
 
-/// How a couple between the bodies changes their relative spin.
+/// How a couple between the bodies changes their relative spin [1/(kg m²)].
 inline Mat3 coupleResponse(const GapRow& row, const GapBody& a, const GapBody& b)
 {
     Mat3 response = Mat3::Zero();

@@ -61,12 +61,25 @@ struct GapIsland {
     bool isKept = false;        ///< as an earlier attempt at the step has solved it
 };
 
+/// What accelerates a body beside what pulls it: gap_held.h.
+struct Held {
+    Vec3 acceleration = Vec3::Zero(), turning = Vec3::Zero();  ///< [m/s²], [rad/s²]
+};
+
+/// The part of a pair in it.
+struct HeldByPair {
+    Vec3 impulse = Vec3::Zero();                          ///< on A [N s]
+    Vec3 turnOfA = Vec3::Zero(), turnOfB = Vec3::Zero();  ///< [kg m²/s]
+};
+
 /// Islands that are solved in one go.
 struct GapBlock {
     std::vector<std::size_t> islands;  ///< indices into GapScratch::islands
     std::vector<std::size_t> pairs;    ///< all of theirs, sorted
     std::vector<BodyId> bodies;        ///< those of these that can be moved
     std::size_t rowCount = 0;
+    std::vector<HeldByPair> heldByPairs;  ///< by their places
+    std::vector<Held> held;               ///< by the places of bodies, from 1
     std::vector<GapImpact> impacts;
     bool isAtItsCap = false;  ///< impacts were left when their loops ended
 };
@@ -95,6 +108,16 @@ struct BodyMove {
     bool hasMoved = false;      ///< by as little as a bit
 };
 
+/// Whom a step, as solved, takes where it has not looked: gap_unseen.h. Per body.
+struct GapUnseen {
+    std::vector<double> change;   ///< of the velocity it was looked for with [m/s]
+    std::vector<char> isStruck;   ///< so that it ends visibly elsewhere
+    std::vector<char> isFaster;   ///< leaves the box that it was looked for in
+    std::vector<Aabb> boxes;      ///< that nobody leaves
+    std::vector<char> isMet;      ///< per pair that was asked about
+    std::vector<BodyPair> pairs;  ///< that run visibly into each other
+};
+
 struct GapScratch {
     BroadPhase broadPhase;
     std::vector<Aabb> boxes;
@@ -113,7 +136,8 @@ struct GapScratch {
     std::vector<char> looksFar;
     std::vector<char> hasNews;       ///< per body: this step has not yet found all that is near it
     std::vector<std::size_t> toAsk;  ///< the near pairs that this look is about
-    int attempt = 0;                 ///< at a step, of all
+    GapUnseen unseen;
+    int attempt = 0;  ///< at a step, of all
     std::vector<GapBody> bodies;
     std::vector<GapPair> pairs;      ///< sorted by bodies
     std::vector<GapRow> rows;        ///< of each pair together; what is between them bears nothing
@@ -170,6 +194,15 @@ template <class Work>
 void forIslands(const GapScratch& scratch, const GapBlock& block, const Work& work)
 {
     forIslands(scratch, block.islands, block.rowCount, work);
+}
+
+/// Calls visit(r) for the rows of some pairs, one after the other.
+template <class Visit>
+void forRows(const GapScratch& scratch, std::span<const std::size_t> pairs, const Visit& visit)
+{
+    for (const std::size_t i : pairs) {
+        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) visit(r);
+    }
 }
 
 /// Fetches the contacts of a pair that follows the i-th soon, for loops that read them.

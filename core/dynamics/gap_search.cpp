@@ -2,7 +2,6 @@
 #include "core/dynamics/gap_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -11,7 +10,6 @@
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_pace.h"
 #include "core/dynamics/impulse.h"
-#include "core/dynamics/integrator.h"
 #include "core/dynamics/sleep.h"
 
 namespace scree {

@@ -43,7 +43,8 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
     const double within =
         farthestApproach(world, bodies, motionOf(bodyA, dt), motionOf(bodyB, dt)) - visible;
     if (within <= seen) return false;
-    std::vector<GapContact> contacts;
+    thread_local std::vector<GapContact> contacts;
+    contacts.clear();
     near.findContacts(placePair(world, bodies), within, contacts);
     const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
     return std::any_of(contacts.begin(), contacts.end(), [&](const GapContact& contact) {
@@ -58,49 +59,44 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
     });
 }
 
-/// Whom the step has given another velocity than it was looked for with, so that it ends visibly
-/// elsewhere.
-struct Struck {
-    std::vector<double> change;  ///< per body [m/s]
-    std::vector<char> isStruck;
-    bool isAny = false;
-};
-
-Struck findStruck(const World& world, const GapScratch& scratch, double dt)
+bool isAny(const std::vector<char>& flags)
 {
-    Struck struck{std::vector<double>(world.bodyCount(), 0.0),
-                  std::vector<char>(world.bodyCount(), 0)};
+    return std::ranges::find(flags, 1) != flags.end();
+}
+
+/// Marks whom the step has given another velocity than it was looked for with, so that it ends
+/// visibly elsewhere. Answers whether there is anybody.
+bool findStruck(const World& world, double dt, GapScratch& scratch)
+{
+    GapUnseen& unseen = scratch.unseen;
+    unseen.change.assign(world.bodyCount(), 0.0);
+    unseen.isStruck.assign(world.bodyCount(), 0);
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) return;
         const double visible = kVisible * world.shapeOf(body).boundingRadius;
-        struck.change[i] = changeOf(world, scratch, body, dt);
-        struck.isStruck[i] = dt * (struck.change[i] - scratch.gain[i]) > visible;
+        unseen.change[i] = changeOf(world, scratch, body, dt);
+        unseen.isStruck[i] = dt * (unseen.change[i] - scratch.gain[i]) > visible;
     });
-    struck.isAny = std::ranges::find(struck.isStruck, 1) != struck.isStruck.end();
-    return struck;
+    return isAny(unseen.isStruck);
 }
 
-/// Who leaves the box that it was looked for in, and the boxes that nobody leaves.
-struct Faster {
-    std::vector<char> isFaster;
-    std::vector<Aabb> boxes;
-    bool isAny = false;
-};
-
-Faster findFaster(const World& world, const GapScratch& scratch, double dt)
+/// Marks who leaves the box that it was looked for in, and makes boxes that nobody leaves. Answers
+/// whether there is anybody.
+bool findFaster(const World& world, double dt, GapScratch& scratch)
 {
-    Faster faster{std::vector<char>(world.bodyCount(), 0), scratch.boxes};
+    GapUnseen& unseen = scratch.unseen;
+    unseen.isFaster.assign(world.bodyCount(), 0);
+    unseen.boxes = scratch.boxes;
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) return;
         const double gained = paceOf(world, scratch, body, dt).fastest(dt) -
                               scratch.paces[i].fastest(dt) - scratch.gain[i];
-        faster.isFaster[i] = dt * gained > kVisible * world.shapeOf(body).boundingRadius;
-        if (faster.isFaster[i]) faster.boxes[i] = faster.boxes[i].grown(dt * gained);
+        unseen.isFaster[i] = dt * gained > kVisible * world.shapeOf(body).boundingRadius;
+        if (unseen.isFaster[i]) unseen.boxes[i] = unseen.boxes[i].grown(dt * gained);
     });
-    faster.isAny = std::ranges::find(faster.isFaster, 1) != faster.isFaster.end();
-    return faster;
+    return isAny(unseen.isFaster);
 }
 
 bool isSolvedAnew(const GapScratch& scratch, BodyPair bodies)
@@ -108,61 +104,64 @@ bool isSolvedAnew(const GapScratch& scratch, BodyPair bodies)
     return scratch.isSolvedAnew[bodies.a] || scratch.isSolvedAnew[bodies.b];
 }
 
-/// Those that run visibly into what they were not looked at for.
-std::vector<BodyPair> findUnseen(const World& world, const Struck& struck, double dt,
-                                 GapScratch& scratch)
+/// Adds the near pairs that run visibly into each other at gaps they were not looked at for.
+void findUnseenAmongNear(const World& world, double dt, GapScratch& scratch)
 {
-    std::vector<BodyPair> unseen;
-    if (!struck.isAny) return unseen;
-
-    std::vector<NearPair>& known = scratch.nearPairs;
-    std::vector<char> isMet(known.size(), 0);
-    forEach(known.size(), kShortWork, [&](std::size_t i) {
-        NearPair& pair = known[i];
-        if (!struck.isStruck[pair.bodies.a] && !struck.isStruck[pair.bodies.b]) return;
+    GapUnseen& unseen = scratch.unseen;
+    std::vector<NearPair>& near = scratch.nearPairs;
+    unseen.isMet.assign(near.size(), 0);
+    forEach(near.size(), kShortWork, [&](std::size_t i) {
+        NearPair& pair = near[i];
+        if (!unseen.isStruck[pair.bodies.a] && !unseen.isStruck[pair.bodies.b]) return;
         if (!isSolvedAnew(scratch, pair.bodies)) return;
         const double seen =
             std::max(pair.foundWithin, pair.farUntil - odometerOf(scratch, pair.bodies));
-        isMet[i] = runsIntoUnseen(world, scratch, pair.bodies, dt, seen, pair.near);
+        unseen.isMet[i] = runsIntoUnseen(world, scratch, pair.bodies, dt, seen, pair.near);
     });
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        if (isMet[i]) unseen.push_back(known[i].bodies);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        if (unseen.isMet[i]) unseen.pairs.push_back(near[i].bodies);
     }
+}
 
-    const Faster faster = findFaster(world, scratch, dt);
-    if (!faster.isAny) return unseen;
-    const std::vector<BodyPair>& pairs = scratch.broadPhase.findPairs(
-        faster.boxes, world.mass,
+/// Adds those of others, of whom one leaves its box.
+void findUnseenBeyondBoxes(const World& world, double dt, GapScratch& scratch)
+{
+    GapUnseen& unseen = scratch.unseen;
+    const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(
+        unseen.boxes, world.mass,
         [&](BodyPair pair) {
             return isMovedPair(world, scratch, pair) && isSolvedAnew(scratch, pair);
         },
-        faster.isFaster);
-    isMet.assign(pairs.size(), 0);
-    forEach(pairs.size(), 4, [&](std::size_t i) {
-        if (std::ranges::binary_search(known, pairs[i], {}, &NearPair::bodies)) return;
+        unseen.isFaster);
+    unseen.isMet.assign(found.size(), 0);
+    forEach(found.size(), 4, [&](std::size_t i) {
+        if (std::ranges::binary_search(scratch.nearPairs, found[i], {}, &NearPair::bodies)) return;
         NearFeatures ofNone;
-        isMet[i] = runsIntoUnseen(world, scratch, pairs[i], dt, 0.0, ofNone);
+        unseen.isMet[i] = runsIntoUnseen(world, scratch, found[i], dt, 0.0, ofNone);
     });
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (isMet[i]) unseen.push_back(pairs[i]);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (unseen.isMet[i]) unseen.pairs.push_back(found[i]);
     }
-    return unseen;
 }
 
 }  // namespace
 
 bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
 {
-    const Struck struck = findStruck(world, scratch, dt);
-    const std::vector<BodyPair> unseen = findUnseen(world, struck, dt, scratch);
+    GapUnseen& unseen = scratch.unseen;
+    unseen.pairs.clear();
+    if (findStruck(world, dt, scratch)) {
+        findUnseenAmongNear(world, dt, scratch);
+        if (findFaster(world, dt, scratch)) findUnseenBeyondBoxes(world, dt, scratch);
+    }
     scratch.isSolvedAnew.assign(world.bodyCount(), 0);
-    for (const BodyPair& pair : unseen) {
+    for (const BodyPair& pair : unseen.pairs) {
         for (const BodyId body : {pair.a, pair.b}) {
-            scratch.gain[body] = std::max(scratch.gain[body], struck.change[body]);
+            scratch.gain[body] = std::max(scratch.gain[body], unseen.change[body]);
             scratch.looksFar[body] = 1;
         }
     }
-    return !unseen.empty();
+    return !unseen.pairs.empty();
 }
 
 }  // namespace scree

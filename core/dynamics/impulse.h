@@ -12,8 +12,8 @@ namespace scree {
 /// The inertia a pass works with: world axes. Without inverse mass the body cannot be moved in this
 /// pass; the inverse inertia of a keyed one then only tells how it spins.
 struct PassInertia {
-    double inverseMass = 0.0;
-    Mat3 inverseInertia = Mat3::Zero();  // world
+    double inverseMass = 0.0;            ///< [1/kg]
+    Mat3 inverseInertia = Mat3::Zero();  ///< world [1/(kg m²)]
 
     bool isMovable() const { return inverseMass > 0.0; }
 
@@ -35,7 +35,7 @@ inline PassInertia fixedIf(bool isFixed, PassInertia inertia)
     return inertia;
 }
 
-/// Zero for a body that cannot be moved.
+/// K of one body [1/kg]; zero for one that cannot be moved. That of a pair is the sum.
 inline Mat3 collisionMatrix(const PassInertia& inertia, const Vec3& r)
 {
     if (!inertia.isMovable()) return Mat3::Zero();
@@ -44,14 +44,14 @@ inline Mat3 collisionMatrix(const PassInertia& inertia, const Vec3& r)
            rStar.transpose() * inertia.inverseInertia * rStar;
 }
 
-/// `inverseInertia` must be the body's own, even when a pass has frozen it: freezing forbids
-/// change, not motion.
+/// Of the point at r, world [m/s]. `inverseInertia` must be the body's own, even when a pass has
+/// frozen it: freezing forbids change, not motion.
 inline Vec3 pointVelocity(const BodyMotion& motion, const Mat3& inverseInertia, const Vec3& r)
 {
     return motion.velocity + Vec3(inverseInertia * motion.angularMomentum).cross(r);
 }
 
-/// Does nothing to a body that cannot be moved.
+/// `impulse` [N s] at r. Does nothing to a body that cannot be moved.
 inline void applyImpulse(BodyMotion& motion, const PassInertia& inertia, const Vec3& r,
                          const Vec3& impulse)
 {

@@ -4,8 +4,6 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/contact_point.h"

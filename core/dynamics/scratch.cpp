@@ -1,7 +1,6 @@
 #include "core/dynamics/scratch.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/integrator.h"

@@ -144,7 +144,9 @@ double alphaPerSafety(Method method)
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
                       double remaining, const StepScratch& scratch)
 {
-    std::vector<Outlook> outlooks(world.bodyCount());
+    thread_local std::vector<Outlook> kept;
+    std::vector<Outlook>& outlooks = kept;  // of this thread, filled by all
+    outlooks.resize(world.bodyCount());
     forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
         outlooks[b] = outlookOf(world, static_cast<BodyId>(b), remaining);
     });

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "core/diagnostics/step_observer.h"
-#include "core/dynamics/gap_levels.h"
+#include "core/dynamics/contact_graph.h"
+#include "core/dynamics/gap_scratch.h"
 #include "core/dynamics/scratch.h"
 
 namespace scree {

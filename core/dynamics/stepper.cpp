@@ -1,3 +1,7 @@
+// Two methods share the loop over a frame. stepFoundPairs is the paper's step, phase by phase
+// [GBF03 “Time Integration”]. stepGaps is the same pipeline on contacts that are known before they
+// touch: a step is laid out and solved, in the scratch alone, until nobody is woken by it nor runs
+// into what was not looked at; then everything moves at once.
 #include "core/dynamics/stepper.h"
 
 #include <algorithm>
@@ -21,6 +25,7 @@
 #include "core/dynamics/gap_motion.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_riders.h"
+#include "core/dynamics/gap_shock.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
@@ -151,7 +156,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
     // never mistaken for what has just landed.
     {
         const PhaseTimer timer(seconds, Phase::collision);
-        const std::vector<Held> held = heldAsBefore(dt, block, scratch);
+        const std::vector<Held>& held = heldAsBefore(dt, block, scratch);
         foreseeBlows(world, settings_, dt, held, block, scratch);
         const std::vector<VelocityLead> trails = trailPlaces(world, block, scratch);
         resolveImpacts(settings_, dt, held, block, scratch);

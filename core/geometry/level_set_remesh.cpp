@@ -15,8 +15,6 @@
 #include "core/base/parallel.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/mesh_repair.h"
-#include "core/geometry/surface_rays.h"
-#include "core/geometry/triangle_distance.h"
 #include "core/geometry/winding_number.h"
 #include "core/math/point_box.h"
 

@@ -4,7 +4,6 @@
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace scree {

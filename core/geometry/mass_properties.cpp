@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <array>
-#include <cmath>
 
 #include "core/base/error.h"
 

@@ -2,7 +2,6 @@
 #include "core/geometry/mesh_crossings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <tuple>

@@ -2,7 +2,6 @@
 #include "core/geometry/round_rims.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree {
 namespace {

@@ -85,7 +85,7 @@ int WindingNumber::build(int begin, int end)
     return index;
 }
 
-// Van Oosterom and Strackee 1983.
+// [OS83]
 double WindingNumber::solidAngle(int triangle, const Vec3& point) const
 {
     const Vec3 a = mesh_.points.col(mesh_.triangles(0, triangle)) - point;

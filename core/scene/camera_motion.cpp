@@ -2,7 +2,6 @@
 #include "core/scene/camera_motion.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/math/rotation.h"
 

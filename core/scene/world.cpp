@@ -8,6 +8,39 @@
 #include "core/base/error.h"
 
 namespace scree {
+namespace {
+
+/// That of a body that is not static [kg/m³].
+double densityOf(const BodyDefinition& definition, const Shape& shape, const Material& material)
+{
+    const double volume = shape.unitMass.volume;
+    const double density = definition.mass ? *definition.mass / volume : material.density;
+    if (shape.isPlane || !(density * volume > 0.0)) {
+        throw Error(ErrorKind::badInput,
+                    "body '" + definition.name + "' is not static but " +
+                        (shape.isPlane ? "a plane has no mass" : "its mass is not positive"));
+    }
+    return density;
+}
+
+BodyInfo describe(const BodyDefinition& definition, double freeInverseMass)
+{
+    BodyInfo described;
+    described.name = definition.name;
+    described.shape = definition.shape;
+    described.material = definition.material;
+    described.kind = definition.kind;
+    described.freeInverseMass = freeInverseMass;
+    described.groups = definition.groups;
+    described.force = definition.force;
+    described.torque = definition.torque;
+    described.script = definition.script;
+    described.keyedFrom = definition.keyedFrom;
+    described.keyedUntil = definition.keyedUntil;
+    return described;
+}
+
+}  // namespace
 
 ShapeId World::addShape(std::shared_ptr<const Shape> shape)
 {
@@ -36,16 +69,9 @@ BodyId World::addBody(const BodyDefinition& definition)
 
     BodyMass inertia;
     if (definition.kind != BodyKind::fixed) {
-        const double density = definition.mass ? *definition.mass / shape.unitMass.volume
-                                               : materials_[definition.material].density;
-        const double weight = density * shape.unitMass.volume;
-        if (shape.isPlane || !(weight > 0.0)) {
-            throw Error(ErrorKind::badInput,
-                        "body '" + definition.name + "' is not static but " +
-                            (shape.isPlane ? "a plane has no mass" : "its mass is not positive"));
-        }
+        const double density = densityOf(definition, shape, materials_[definition.material]);
         const Vec3 moments = density * shape.unitMass.moments;
-        inertia.inverseMass = 1.0 / weight;
+        inertia.inverseMass = 1.0 / (density * shape.unitMass.volume);
         inertia.inverseInertia = moments.cwiseInverse();
         state.velocity = definition.velocity;
         const Mat3 rotation = state.orientation.toRotationMatrix();
@@ -62,19 +88,7 @@ BodyId World::addBody(const BodyDefinition& definition)
     motion.push_back(state);
     mass.push_back(inertia);
     bornAt.push_back(definition.birth ? kUnborn : 0);
-    BodyInfo described;
-    described.name = definition.name;
-    described.shape = definition.shape;
-    described.material = definition.material;
-    described.kind = definition.kind;
-    described.freeInverseMass = inertia.inverseMass;
-    described.groups = definition.groups;
-    described.force = definition.force;
-    described.torque = definition.torque;
-    described.script = definition.script;
-    described.keyedFrom = definition.keyedFrom;
-    described.keyedUntil = definition.keyedUntil;
-    info.push_back(std::move(described));
+    info.push_back(describe(definition, inertia.inverseMass));
     order.push_back(id);
     if (definition.kind == BodyKind::keyed) {
         SCREE_CHECK(definition.script, definition.name);

@@ -12,6 +12,7 @@
 #include "core/diagnostics/state_hash.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
+#include "tests/support/broken_run.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -116,21 +117,12 @@ TEST(Determinism, AnIslandThatThreadsShareHasTheBitsOfOneThread)
 
 TEST(Determinism, StoppingBetweenSubStepsAndGoingOnElsewhereChangesNothing)
 {
-    World unbroken = makeTumble(), broken = makeTumble();
+    World unbroken = makeTumble();
     Stepper stepper(experimentSettings());
     for (int f = 0; f < 20; ++f) stepper.advanceFrame(unbroken, 1.0 / 24.0);
 
     int stops = 0;
-    while (broken.clock.frame < 20) {
-        // Only what a checkpoint holds goes on: motion, order, clock, in a fresh world.
-        World fresh = makeTumble();
-        fresh.motion = broken.motion;
-        fresh.order = broken.order;
-        fresh.clock = broken.clock;
-        broken = fresh;
-        Stepper another(experimentSettings());
-        stops += !another.advanceFrame(broken, 1.0 / 24.0, [] { return true; }).finished;
-    }
+    const World broken = runBroken(makeTumble, experimentSettings(), 20, stops);
     EXPECT_GT(stops, 20);
     EXPECT_EQ(stateHash(broken), stateHash(unbroken));
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/gap_search.h"
+#include "core/dynamics/gap_shock.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
@@ -71,7 +71,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
     addForcesToOthers(kStep, scratch);
     for (GapBlock& block : scratch.blocks) {
         buildRows(world, settings, kStep, block, scratch);
-        const std::vector<Held> held = heldAsBefore(kStep, block, scratch);
+        const std::vector<Held>& held = heldAsBefore(kStep, block, scratch);
         foreseeBlows(world, settings, kStep, held, block, scratch);
         resolveImpacts(settings, kStep, held, block, scratch);
         findLevels(kStep, block, scratch);

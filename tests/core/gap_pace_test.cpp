@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/dynamics/gap_pace.h"
 #include "tests/support/draw.h"

@@ -2,13 +2,11 @@
 // verify.  [A54, A55]
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "core/diagnostics/state_hash.h"
-#include "core/dynamics/integrator.h"
 #include "core/dynamics/stepper.h"
+#include "tests/support/broken_run.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -204,7 +202,7 @@ World makeHandOver()
 
 TEST(KeyedMotion, StoppingBetweenSubStepsAcrossReleaseAndTakeOverChangesNothing)
 {
-    World unbroken = makeHandOver(), broken = makeHandOver();
+    World unbroken = makeHandOver();
     Stepper stepper(experimentSettings());
     for (int f = 0; f < 14; ++f) {
         stepper.advanceFrame(unbroken, 1.0 / 24.0);
@@ -215,15 +213,7 @@ TEST(KeyedMotion, StoppingBetweenSubStepsAcrossReleaseAndTakeOverChangesNothing)
     EXPECT_EQ(unbroken.info[1].kind, BodyKind::dynamic);
     EXPECT_EQ(unbroken.info[4].kind, BodyKind::dynamic);
     int stops = 0;
-    while (broken.clock.frame < 14) {
-        World fresh = makeHandOver();
-        fresh.motion = broken.motion;
-        fresh.order = broken.order;
-        fresh.clock = broken.clock;
-        broken = fresh;
-        Stepper another(experimentSettings());
-        stops += !another.advanceFrame(broken, 1.0 / 24.0, [] { return true; }).finished;
-    }
+    const World broken = runBroken(makeHandOver, experimentSettings(), 14, stops);
     EXPECT_GT(stops, 14);
     EXPECT_EQ(stateHash(broken), stateHash(unbroken));
 }

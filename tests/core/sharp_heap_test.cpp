@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "core/collision/near_features.h"
 #include "core/dynamics/stepper.h"

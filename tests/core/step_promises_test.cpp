@@ -1,7 +1,6 @@
 // What the phases of a step promise each other: one prediction, one graph, a full report.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numeric>
 #include <set>
 

@@ -1,0 +1,341 @@
+// Both passes solve one level at a time beside bodies that are pinned: those of other levels, which
+// are held as if they could not give way.
+#include "core/dynamics/gap_shock.h"
+
+#include <algorithm>
+#include <span>
+
+#include "core/base/groups.h"
+#include "core/base/parallel.h"
+#include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_levels.h"
+#include "core/dynamics/gap_pairs.h"
+
+namespace scree {
+namespace {
+
+/// Sweeps up and down over the rows of one level; its rows are few and near each other.
+constexpr int kLevelSweeps = 30;
+
+/// A row that closes this share of the smaller body past zero in a step calls for shock: where the
+/// sweeps could have solved the problem to the end, and where they had to stop.
+constexpr double kVisibleWhenSolved = 1e-5, kVisibleInHeaps = 1e-3;
+/// What a level of shock may leave of that, as a share.
+constexpr double kWellBelow = 0.1;
+
+/// The bodies of a level's rows that its solve must not move, as they were.
+class PinnedBodies {
+public:
+    explicit PinnedBodies(GapScratch& scratch) : scratch_(scratch), isPinned_(flags())
+    {
+        if (isPinned_.size() < scratch.bodies.size()) isPinned_.resize(scratch.bodies.size(), 0);
+    }
+    bool isPinned(BodyId body) const { return isPinned_[body] != 0; }
+    /// What cannot be moved needs no pin; other threads look at it too.
+    void pin(BodyId body)
+    {
+        GapBody& b = scratch_.bodies[body];
+        if (isPinned_[body] || b.inverseMass == 0.0) return;
+        isPinned_[body] = 1;
+        pinned_.push_back({body, b});
+        b.inverseMass = 0.0;
+        b.inverseInertia.setZero();
+    }
+    void release()
+    {
+        for (const Pinned& pinned : pinned_) {
+            scratch_.bodies[pinned.body] = pinned.before;
+            isPinned_[pinned.body] = 0;
+        }
+        pinned_.clear();
+    }
+
+private:
+    struct Pinned {
+        BodyId body;
+        GapBody before;
+    };
+    /// Of this thread, all clear between two uses: most islands pin few of many bodies.
+    static std::vector<char>& flags()
+    {
+        thread_local std::vector<char> flags;
+        return flags;
+    }
+    GapScratch& scratch_;
+    std::vector<Pinned> pinned_;
+    std::vector<char>& isPinned_;
+};
+
+/// The motion of the bodies that a solve may move, so that it can be undone. Pinned bodies
+/// are as heavy as the world: what is wedged between two of them that close cannot obey both, and
+/// each sweep throws it harder. More than twice the energy there was and that of a step's fall is
+/// such a throw.
+class LevelMotion {
+public:
+    LevelMotion(const GapScratch& scratch, const std::vector<std::size_t>& rows)
+    {
+        std::vector<BodyId> movers;
+        for (std::size_t r : rows) {
+            const GapRow& row = scratch.rows[r];
+            if (row.movesA) movers.push_back(row.a);
+            if (row.movesB) movers.push_back(row.b);
+        }
+        std::sort(movers.begin(), movers.end());
+        movers.erase(std::unique(movers.begin(), movers.end()), movers.end());
+        for (BodyId body : movers) {
+            const GapBody& b = scratch.bodies[body];
+            before_.push_back({body, b.velocity, b.spin, b.inverseInertia.inverse()});
+        }
+        energy_ = energy(scratch);
+    }
+
+    bool isThrown(const GapScratch& scratch, double dt) const
+    {
+        double fall = 0.0;
+        for (const Before& before : before_) {
+            const GapBody& b = scratch.bodies[before.body];
+            fall += 0.5 * (dt * b.pull).squaredNorm() / b.inverseMass;
+        }
+        return energy(scratch) > 2.0 * energy_ + fall;
+    }
+
+    void restore(GapScratch& scratch) const
+    {
+        for (const Before& before : before_) {
+            scratch.bodies[before.body].velocity = before.velocity;
+            scratch.bodies[before.body].spin = before.spin;
+        }
+    }
+
+private:
+    struct Before {
+        BodyId body;
+        Vec3 velocity, spin;
+        Mat3 inertia;
+    };
+    double energy(const GapScratch& scratch) const
+    {
+        double sum = 0.0;
+        for (const Before& before : before_) {
+            const GapBody& b = scratch.bodies[before.body];
+            sum += 0.5 *
+                   (b.velocity.squaredNorm() / b.inverseMass + b.spin.dot(before.inertia * b.spin));
+        }
+        return sum;
+    }
+
+    std::vector<Before> before_;
+    double energy_ = 0.0;  // [J]
+};
+
+void solveRows(GapScratch& scratch, const std::vector<std::size_t>& rows, double enough)
+{
+    for (int sweep = 0; sweep < kLevelSweeps; ++sweep) {
+        double residual = 0.0;
+        const auto visit = [&](std::size_t r) {
+            GapRow& row = scratch.rows[r];
+            if (!row.movesA && !row.movesB) return;  // one is pinned, and the other unmoved by it
+            residual =
+                std::max(residual, visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]));
+        };
+        for (std::size_t r : rows) visit(r);
+        for (std::size_t i = rows.size(); i-- > 0;) visit(rows[i]);
+        if (residual < enough) break;
+    }
+}
+
+double solvedEnough(const StepSettings& settings, double dt)
+{
+    return 1e-9 * settings.gravity.norm() * dt;
+}
+
+/// Speed at which a row closes visibly within a step, beyond its target [m/s].
+double visibleSpeed(const World& world, const StepSettings& settings, double dt,
+                    const GapIsland& island, const GapRow& row)
+{
+    const double visible = isHeap(settings, island) ? kVisibleInHeaps : kVisibleWhenSolved;
+    return visible * smallerRadius(world, row.a, row.b) / dt;
+}
+
+bool closesVisibly(const World& world, const StepSettings& settings, double dt,
+                   const GapScratch& scratch, const GapIsland& island, const GapRow& row)
+{
+    const double u = velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
+    return row.target - u > visibleSpeed(world, settings, dt, island, row);
+}
+
+/// The pairs of those islands of a block of which a row still closes visibly.
+std::vector<std::size_t> pairsToShake(const World& world, const StepSettings& settings, double dt,
+                                      const GapBlock& block, const GapScratch& scratch)
+{
+    std::vector<char> pairCloses(block.pairs.size());
+    forPairs(block, [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
+        pairCloses[pair.place] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
+            return closesVisibly(world, settings, dt, scratch, scratch.islands[pair.island], row);
+        });
+    });
+    std::vector<std::size_t> pairs;
+    for (const std::size_t island : block.islands) {
+        const std::vector<std::size_t>& all = scratch.islands[island].pairs;
+        if (std::ranges::any_of(all,
+                                [&](std::size_t i) { return pairCloses[scratch.pairs[i].place]; }))
+            pairs.insert(pairs.end(), all.begin(), all.end());
+    }
+    return pairs;
+}
+
+/// Fills `rows` with those of the pairs.
+void collectRows(const GapScratch& scratch, std::span<const std::size_t> pairs,
+                 std::vector<std::size_t>& rows)
+{
+    rows.clear();
+    forRows(scratch, pairs, [&](std::size_t r) { rows.push_back(r); });
+}
+
+/// Sorted within each level.
+void groupByLevel(const GapScratch& scratch, std::span<const std::size_t> pairs, Groups& byLevel)
+{
+    thread_local std::vector<std::size_t> sorted;
+    sorted.assign(pairs.begin(), pairs.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto level = [&](std::size_t i) {
+        return static_cast<std::size_t>(levelOf(scratch.levels, scratch.pairs[i].bodies));
+    };
+    std::size_t levels = 0;
+    for (const std::size_t i : pairs) levels = std::max(levels, level(i) + 1);
+    byLevel.sort(sorted, levels, level);
+}
+
+/// Solves the rows of pairs that share bodies beside bodies that are pinned, if one closes visibly.
+/// The rows keep their impulses. False when nothing was to be done.
+bool shake(const World& world, const StepSettings& settings, double dt,
+           std::span<const std::size_t> pairs, GapScratch& scratch)
+{
+    struct Remembered {
+        Vec3 impulse, couple;
+    };
+    thread_local std::vector<std::size_t> rows;
+    thread_local std::vector<Remembered> remembered;
+    collectRows(scratch, pairs, rows);
+    const GapIsland& island = scratch.islands[scratch.pairs[pairs.front()].island];
+    const bool closes = std::any_of(rows.begin(), rows.end(), [&](std::size_t r) {
+        return closesVisibly(world, settings, dt, scratch, island, scratch.rows[r]);
+    });
+    if (!closes) return false;
+    remembered.clear();
+    double enough = solvedEnough(settings, dt);
+    for (const std::size_t r : rows) {
+        GapRow& row = scratch.rows[r];
+        remembered.push_back({row.impulse, row.couple});
+        prepareRow(scratch.bodies, row);
+        enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, island, row));
+    }
+    const LevelMotion before(scratch, rows);
+    solveRows(scratch, rows, enough);
+    const bool isThrown = before.isThrown(scratch, dt);
+    if (isThrown) before.restore(scratch);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        GapRow& row = scratch.rows[rows[i]];
+        const Vec3 withShock = row.worldImpulse(), coupleWithShock = row.couple;
+        row.impulse = remembered[i].impulse;
+        row.couple = remembered[i].couple;
+        if (isThrown) continue;
+        const Vec3 extra = withShock - row.worldImpulse();
+        const Vec3 extraCouple = coupleWithShock - row.couple;
+        if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra) + extraCouple;
+        if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra) + extraCouple;
+    }
+    return true;
+}
+
+void handWeightDown(const StepSettings& settings, double dt, const GapIsland& island,
+                    GapScratch& scratch)
+{
+    thread_local Groups byLevel;
+    groupByLevel(scratch, island.pairs, byLevel);
+    PinnedBodies pinned(scratch);
+    thread_local std::vector<std::size_t> rows;
+    thread_local std::vector<char> wasPinnedA, wasPinnedB;
+    for (std::size_t level = byLevel.size(); level-- > 0;) {
+        collectRows(scratch, byLevel[level], rows);
+        const auto pin = [&](BodyId body) {
+            GapBody& b = scratch.bodies[body];
+            if (b.inverseMass == 0.0 || scratch.levels.level[body] == static_cast<int>(level))
+                return;
+            pinned.pin(body);
+            b.velocity = b.velocityBefore;
+            b.spin = b.spinBefore;
+        };
+        for (std::size_t r : rows) {
+            pin(scratch.rows[r].a);
+            pin(scratch.rows[r].b);
+        }
+        for (std::size_t r : rows) {
+            scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
+            prepareRow(scratch.bodies, scratch.rows[r]);
+        }
+        solveRows(scratch, rows, solvedEnough(settings, dt));
+        wasPinnedA.clear();
+        wasPinnedB.clear();
+        for (std::size_t r : rows) {
+            wasPinnedA.push_back(pinned.isPinned(scratch.rows[r].a));
+            wasPinnedB.push_back(pinned.isPinned(scratch.rows[r].b));
+        }
+        pinned.release();
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            GapRow& row = scratch.rows[rows[i]];
+            prepareRow(scratch.bodies, row);
+            const Vec3 impulse = row.worldImpulse();
+            const auto hand = [&](BodyId body, const Vec3& r, const Vec3& j, const Vec3& couple) {
+                applyTo(scratch.bodies[body], r, j);
+                applyCoupleTo(scratch.bodies[body], couple);
+            };
+            if (wasPinnedA[i] && row.movesA) hand(row.a, row.rA, impulse, row.couple);
+            if (wasPinnedB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);
+        }
+    }
+}
+
+}  // namespace
+
+void handWeightDown(const StepSettings& settings, double dt, const GapBlock& block,
+                    GapScratch& scratch)
+{
+    forIslands(scratch, block, [&](std::size_t i) {
+        const GapIsland& island = scratch.islands[i];
+        if (!island.isRemembered) handWeightDown(settings, dt, island, scratch);
+    });
+}
+
+void propagateShockUp(const World& world, const StepSettings& settings, double dt,
+                      const GapBlock& block, GapScratch& scratch)
+{
+    Groups byLevel, clusters;
+    groupByLevel(scratch, pairsToShake(world, settings, dt, block, scratch), byLevel);
+    PinnedBodies pinned(scratch);
+    std::vector<char> isShaken;
+    for (std::size_t level = 0; level < byLevel.size(); ++level) {
+        for (const std::size_t i : byLevel[level]) {
+            for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+                if (scratch.levels.isSupported[body] &&
+                    scratch.levels.level[body] != static_cast<int>(level))
+                    pinned.pin(body);
+            }
+        }
+        groupByBodies(scratch, byLevel[level], clusters);
+        isShaken.assign(clusters.size(), 0);
+        forEach(clusters.size(), 4, [&](std::size_t c) {
+            isShaken[c] = shake(world, settings, dt, clusters[c], scratch);
+        });
+        pinned.release();
+        for (std::size_t c = 0; c < clusters.size(); ++c) {
+            if (!isShaken[c]) continue;
+            forRows(scratch, clusters[c],
+                    [&](std::size_t r) { prepareRow(scratch.bodies, scratch.rows[r]); });
+        }
+    }
+}
+
+}  // namespace scree
