@@ -38,12 +38,17 @@ constexpr double kShare = 0.97;
 /// How far from the normal a place must be that goes round it, as a share of its arm.
 constexpr double kBeside = 1e-3;
 
-/// How far an arm has gone round n [rad].
-double turnAbout(const Vec3& n, const Vec3& before, const Vec3& after)
+/// `vector` turned about n twice as far as an arm has gone round it. Without an angle: sines of the
+/// C library have other last bits on other processors.
+Vec3 turnedTwice(const Vec3& vector, const Vec3& n, const Vec3& before, const Vec3& after)
 {
     const Vec3 from = before - before.dot(n) * n, to = after - after.dot(n) * n;
-    if (std::min(from.norm(), to.norm()) < kBeside * before.norm()) return 0.0;
-    return std::atan2(n.dot(from.cross(to)), from.dot(to));
+    const double lengths = from.norm() * to.norm();
+    if (std::min(from.norm(), to.norm()) < kBeside * before.norm()) return vector;
+    const double cosine = from.dot(to) / lengths, sine = n.dot(from.cross(to)) / lengths;
+    const double cosineOfTwice = cosine * cosine - sine * sine, sineOfTwice = 2.0 * sine * cosine;
+    return cosineOfTwice * vector + sineOfTwice * n.cross(vector) +
+           (1.0 - cosineOfTwice) * n.dot(vector) * n;
 }
 
 /// What a body that is touched at r from the direction `outward` lacks of the velocity that it has
@@ -63,7 +68,7 @@ Vec3 leadAt(const Shape& shape, const Quat& worldFromBody, const Vec3& w, const 
     if (!then) return Vec3::Zero();
     if (later < 0.0) return w.cross(*then - *now);
     // Where the place goes round, the axis of the spin goes with it.
-    const Vec3 spin = Eigen::AngleAxisd(2.0 * turnAbout(outward, *now, *then), outward) * w;
+    const Vec3 spin = turnedTwice(w, outward, *now, *then);
     then = armAfter(later * spin);
     return then ? Vec3(kShare * spin.cross(*then - *now)) : Vec3(Vec3::Zero());
 }
