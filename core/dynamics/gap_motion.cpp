@@ -234,6 +234,28 @@ PairTurn rememberContacts(const World& world, double dt, GapScratch& scratch, co
     return turn;
 }
 
+/// What blows have given a body [kg m²/s].
+Vec3 struckWith(double dt, const GapBody& body)
+{
+    return body.angularImpulse - dt * body.torque;
+}
+
+/// A body that is struck turns until then as it did: forth with the angular momentum it had, and
+/// back with that it has now, so that the whole step with this ends where it should. By rotation
+/// vectors alone a slab that tumbled over the ground for ten seconds lost a twentieth of its
+/// energy.
+void turnUntilBlow(const StepSettings& settings, double dt, const GapBody& body,
+                   const BodyMass& mass, BodyMotion& motion)
+{
+    const auto turn = [&](const Vec3& angularMomentum, double time) {
+        motion.orientation =
+            predictPose(motion, mass, motion.velocity, angularMomentum, settings.orientation, time)
+                .orientation;
+    };
+    turn(motion.angularMomentum - struckWith(dt, body), body.hitAt);
+    turn(motion.angularMomentum, -body.hitAt);
+}
+
 }  // namespace
 
 void writeVelocities(World& world, double dt, GapScratch& scratch)
@@ -257,28 +279,6 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
     }
     std::swap(world.contactMemory.contacts, scratch.formerContacts);
     world.contactMemory.dt = dt;
-}
-
-/// What blows have given a body [kg m²/s].
-Vec3 struckWith(double dt, const GapBody& body)
-{
-    return body.angularImpulse - dt * body.torque;
-}
-
-/// A body that is struck turns until then as it did: forth with the angular momentum it had, and
-/// back with that it has now, so that the whole step with this ends where it should. By rotation
-/// vectors alone a slab that tumbled over the ground for ten seconds lost a twentieth of its
-/// energy.
-void turnUntilBlow(const StepSettings& settings, double dt, const GapBody& body,
-                   const BodyMass& mass, BodyMotion& motion)
-{
-    const auto turn = [&](const Vec3& angularMomentum, double time) {
-        motion.orientation =
-            predictPose(motion, mass, motion.velocity, angularMomentum, settings.orientation, time)
-                .orientation;
-    };
-    turn(motion.angularMomentum - struckWith(dt, body), body.hitAt);
-    turn(motion.angularMomentum, -body.hitAt);
 }
 
 void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
