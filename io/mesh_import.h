@@ -18,6 +18,7 @@ namespace scree {
 struct ImportedKey {
     double seconds = 0.0;  ///< of the file
     Pose fileFromNode;
+    bool isBetween = false;  ///< the file has none there: where a straight way would stray
 };
 
 /// A node of a file that shows a mesh.
@@ -27,6 +28,8 @@ struct ImportedNode {
     TriMesh mesh;                   ///< in the node's axes, its scale baked
     std::vector<ImportedKey> keys;  ///< in order of time; empty for a node that never moves
     std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
+    std::string lostJoin;           ///< how its samples are joined in the file, if not straight
+    bool isBent = false;            ///< bones or morph targets of the file bend its mesh; lost
 };
 
 /// The angle of view of a camera at one moment.
@@ -43,6 +46,7 @@ struct ImportedCamera {
     double fovDegrees = 35.0;        ///< vertical; of one that zooms the first
     std::vector<ImportedZoom> zoom;  ///< in order of time; empty for one that never zooms
     bool isZoomLost = false;         ///< the file has a zoom that cannot be read
+    std::string lostJoin;            ///< as of a node
 };
 
 struct ImportedFile {

@@ -35,6 +35,7 @@ void appendKeys(std::string& bytes, const std::vector<ImportedKey>& keys)
     for (const ImportedKey& key : keys) {
         appendBytes(bytes, key.seconds);
         appendPose(bytes, key.fileFromNode);
+        appendBytes(bytes, static_cast<std::uint8_t>(key.isBetween));
     }
 }
 
@@ -116,6 +117,8 @@ private:
         node.name = takeText(limits_.nameLength, "letters in a name (--import-name)");
         node.fileFromNode = takePose();
         node.obstacle = takeText(kLongestSentence, "letters in a sentence");
+        node.lostJoin = takeText(kLongestSentence, "letters in a sentence");
+        node.isBent = cursor_.take<std::uint8_t>() != 0;
         takeKeys(node.keys);
 
         TriMesh& mesh = node.mesh;
@@ -150,6 +153,7 @@ private:
             camera.zoom.push_back({seconds, takeFov(camera)});
         }
         camera.isZoomLost = cursor_.take<std::uint8_t>() != 0;
+        camera.lostJoin = takeText(kLongestSentence, "letters in a sentence");
         return camera;
     }
 
@@ -175,7 +179,8 @@ private:
         const std::uint32_t count = takeCount(kMostKeys, "keys");
         for (std::uint32_t i = 0; i < count; ++i) {
             const double seconds = takeMoment(keys);
-            keys.push_back({seconds, takePose()});
+            const Pose pose = takePose();
+            keys.push_back({seconds, pose, cursor_.take<std::uint8_t>() != 0});
         }
     }
 
@@ -202,6 +207,8 @@ std::string encodeImport(const ImportedFile& file)
         appendText(bytes, node.name);
         appendPose(bytes, node.fileFromNode);
         appendText(bytes, node.obstacle);
+        appendText(bytes, node.lostJoin);
+        appendBytes(bytes, static_cast<std::uint8_t>(node.isBent));
         appendKeys(bytes, node.keys);
         appendColumns(bytes, node.mesh.points);
         appendColumns(bytes, node.mesh.triangles);
@@ -219,6 +226,7 @@ std::string encodeImport(const ImportedFile& file)
             appendBytes(bytes, key.fovDegrees);
         }
         appendBytes(bytes, static_cast<std::uint8_t>(camera.isZoomLost));
+        appendText(bytes, camera.lostJoin);
     }
     return bytes;
 }
