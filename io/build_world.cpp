@@ -172,10 +172,18 @@ private:
                 throw Error(ErrorKind::internal,
                             "memory ran out while the shape '" + name + "' was built");
             } catch (const Error& error) {
-                problems_.add(shape.location, error.what(), error.kind());
+                problems_.add(shape.location, error.what() + adviceFor(shape), error.kind());
             }
         }
         return known->second;
+    }
+
+    /// What is wrong with a mesh is told with keys that may help: those of a shape.
+    static std::string adviceFor(const ShotShape& shape)
+    {
+        if (!std::holds_alternative<NodeSpec>(shape.source)) return "";
+        return "; an [[import]] has none of a shape's keys: a node that needs one comes as "
+               "[shape.NAME] file = \"…\", from a file of its own";
     }
 
     std::shared_ptr<const Shape> buildShape(const ShotShape& shape) const
