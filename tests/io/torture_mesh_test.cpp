@@ -318,6 +318,14 @@ TEST(TortureMesh, WrapMakesTheSolidThatTheMeshNearlyBounds)
     }
 }
 
+TEST(TortureMesh, AShellManyTimesAsThickAsItsMeshIsLongIsRefusedAtOnce)
+{
+    // In metres instead of centimetres: it filled the memory for minutes.
+    const std::string message = refusalOf(sheet(4), repairBy(MeshRepair::shell, 100.0));
+    EXPECT_NE(message.find("the shell is thicker than the shape is long"), std::string::npos)
+        << message;
+}
+
 TEST(TortureMesh, AShellGivesASheetItsThickness)
 {
     const double thickness = 0.1;
