@@ -326,6 +326,16 @@ TEST(TortureMesh, AShellManyTimesAsThickAsItsMeshIsLongIsRefusedAtOnce)
         << message;
 }
 
+TEST(TortureMesh, AShapeFlatToTheRoundingOfItsNumbersIsMeasuredInTime)
+{
+    // The search for its largest ball climbed for ever.
+    TriMesh ring = makeTorus(1.0, 0.25, {16, 10});
+    ring.points.row(1) *= 1e-12;
+    ShapeSettings settings;
+    settings.resolution = 32;
+    EXPECT_LT(buildMeshShape("thing", ring, settings)->innerBall.radius, 1e-12);
+}
+
 TEST(TortureMesh, AShellGivesASheetItsThickness)
 {
     const double thickness = 0.1;
