@@ -11,6 +11,7 @@
 #include <set>
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -21,6 +22,7 @@
 #include "io/file_bytes.h"
 #include "io/gltf_reading.h"
 #include "io/keys_between.h"
+#include "io/obj_names.h"
 
 namespace scree {
 namespace {
@@ -39,11 +41,22 @@ public:
     Assimp::IOStream* Open(const char* file, const char* mode) override
     {
         if (std::strpbrk(mode, "wa+") || !isInside(file)) return nullptr;
+        if (!mainText_.empty() && mainFile_ == file) {
+            return new Assimp::MemoryIOStream(
+                reinterpret_cast<const std::uint8_t*>(mainText_.data()), mainText_.size());
+        }
         return DefaultIOSystem::Open(file, mode);
     }
     bool Exists(const char* file) const override
     {
         return isInside(file) && DefaultIOSystem::Exists(file);
+    }
+
+    /// Gives a file this text, whatever the disk has.
+    void replace(const std::string& file, std::string text)
+    {
+        mainFile_ = file;
+        mainText_ = std::move(text);
     }
 
     const std::string& refused() const { return refused_; }
@@ -60,6 +73,7 @@ private:
     }
 
     fs::path folder_;
+    std::string mainFile_, mainText_;
     mutable std::string refused_;
 };
 
@@ -269,7 +283,7 @@ private:
         ImportedNode result;
         result.mesh = meshOf(node, stretches_.of(fileFromNode, parts));
         if (result.mesh.triangles.cols() == 0) return;
-        result.name = node.mName.C_Str();
+        result.name = openedObjName(node.mName.C_Str());
         result.fileFromNode = parts.pose();
         result.isBent = isBent(node);
         readKeys(parts.scale, result);
@@ -529,6 +543,10 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
         throw Error(ErrorKind::badInput, "its header has no end: the file is cut short");
     auto* files = new FolderSystem(fs::weakly_canonical(fs::absolute(path)).parent_path());
     importer.SetIOHandler(files);  // which deletes it
+    if (ending == "obj") {
+        std::string text = readFileBytes(path);
+        if (closeObjNames(text)) files->replace(path, std::move(text));
+    }
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (!files->refused().empty()) {
         throw Error(ErrorKind::badInput,
