@@ -188,9 +188,10 @@ const std::vector<ShotKey> kBodyKeys = {
      .unit = "frame",
      .min = -1000000000,
      .max = 1000000000,
-     .help = "Frame at which the keys take a body over. Until then it is dynamic and starts, at "
-             "rest, at the first of its keys; at this frame it stands on them at once, wherever it "
-             "has got to by then."},
+     .help =
+         "Frame at which the keys take a body over. Until then it is dynamic and starts, at "
+         "rest, at the first of its keys. The picture of this frame is the last that shows where "
+         "it has got to; from there on it stands on its keys, however far they are."},
 };
 
 const std::vector<ShotKey> kForceKeys = {
