@@ -43,7 +43,7 @@ struct ImportedCamera {
     std::string name;                ///< of its node
     Pose fileFromCamera;             ///< of a moving one the first
     std::vector<ImportedKey> keys;   ///< in order of time; empty for one that never moves
-    double fovDegrees = 35.0;        ///< vertical; of one that zooms the first
+    double fovDegrees = 35.0;        ///< vertical; of one that zooms the first; 0: orthographic
     std::vector<ImportedZoom> zoom;  ///< in order of time; empty for one that never zooms
     bool isZoomLost = false;         ///< the file has a zoom that cannot be read
     std::string lostJoin;            ///< as of a node

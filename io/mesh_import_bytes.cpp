@@ -145,22 +145,23 @@ private:
         ImportedCamera camera;
         camera.name = takeText(limits_.nameLength, "letters in a name (--import-name)");
         camera.fileFromCamera = takePose();
-        camera.fovDegrees = takeFov(camera);
+        camera.fovDegrees = cursor_.take<double>();
+        if (camera.fovDegrees != 0.0) requireFov(camera.fovDegrees, camera);
         takeKeys(camera.keys);
         const std::uint32_t count = takeCount(kMostKeys, "keys");
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto seconds = takeMoment(camera.zoom);
-            camera.zoom.push_back({seconds, takeFov(camera)});
+            camera.zoom.push_back({seconds, cursor_.take<double>()});
+            requireFov(camera.zoom.back().fovDegrees, camera);
         }
         camera.isZoomLost = cursor_.take<std::uint8_t>() != 0;
         camera.lostJoin = takeText(kLongestSentence, "letters in a sentence");
         return camera;
     }
 
-    double takeFov(const ImportedCamera& camera)
+    void requireFov(double degrees, const ImportedCamera& camera) const
     {
-        const auto degrees = cursor_.take<double>();
-        if (degrees > 0.0 && degrees < 180.0) return degrees;
+        if (degrees > 0.0 && degrees < 180.0) return;
         refuse("has a camera '" + camera.name + "' without an angle of view");
     }
 

@@ -299,6 +299,13 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     const ImportedCamera* imported =
         chooseCamera(node.find("node"), *node.find("file"), file, path, problems);
     if (!imported) return std::nullopt;
+    if (imported->fovDegrees == 0.0) {
+        const ShotNode* chosen = node.find("node");
+        problems.add(chosen ? chosen->where : node.find("file")->where,
+                     "camera '" + imported->name + "' of '" + path +
+                         "' is orthographic: only perspective ones can be used");
+        return std::nullopt;
+    }
     const Placement placement(shot, file);
     // Between samples it turns steadily, as elsewhere; a key a frame keeps it from cutting corners.
     constexpr KeyInterpolation kSteady = KeyInterpolation::linear;

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/math/rotation.h"
+#include "io/file_bytes.h"
 #include "io/frame_writer.h"
 #include "io/shot_parser.h"
 #include "tests/support/export_scene.h"
@@ -199,6 +200,23 @@ TEST(KeyedImports, SamplesThatTheFileJoinsOtherwiseAreWarnedOf)
         shot.warnings[1].starts_with("s.toml:12:8: the file joins the samples of camera "
                                      "'view' by jumps (STEP)"))
         << shot.warnings[1];
+}
+
+TEST(KeyedImports, AnOrthographicCameraIsInNobodysWayUntilItIsChosen)
+{
+    const test::TemporaryFolder folder;
+    const std::string file = folder / "door.gltf";
+    writeDoor(file);
+    std::string text = readFileBytes(file);
+    const std::string lens =
+        R"("perspective","perspective":{"yfov":0.6,"znear":0.1,"aspectRatio":1})";
+    text.replace(text.find(lens), lens.size(),
+                 R"("orthographic","orthographic":{"xmag":2,"ymag":2,"znear":0.1,"zfar":9})");
+    writeFileBytes(file, text);
+    EXPECT_EQ(parseShotText(shotText(file, "*", ""), "s.toml").bodies.size(), 1u);
+    EXPECT_EQ(test::messageOfShot(shotText(file, "*", "[[camera]]\nfile = \"" + file + "\"\n")),
+              "s.toml:12:8: camera 'view' of '" + file +
+                  "' is orthographic: only perspective ones can be used");
 }
 
 TEST(KeyedImports, AMeshThatOtherProgramsBendIsWarnedOf)
