@@ -37,7 +37,7 @@ struct MeshMaker {
     {
         const ImportedFile file = importFile(s.path, limits);
         const double metres = file.metresPerUnit.value_or(metresPerUnit);
-        return transformed(joinedMesh(file), Pose(), Vec3::Constant(metres));
+        return transformed(joinedMesh(file, s.path), Pose(), Vec3::Constant(metres));
     }
     TriMesh operator()(const NodeSpec& s) const { return *s.mesh; }
 };

@@ -29,6 +29,7 @@ struct ImportedNode {
     std::vector<ImportedKey> keys;  ///< in order of time; empty for a node that never moves
     std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
     std::string lostJoin;           ///< how its samples are joined in the file, if not straight
+    std::string unusable;           ///< why it is no rigid body, if so; it has no mesh then
     bool isBent = false;            ///< bones or morph targets of the file bend its mesh; lost
 };
 
@@ -69,8 +70,15 @@ struct ImportedFile {
 /// not finite.
 ImportedFile importFile(const std::string& path, const ImportLimits& limits = {});
 
-/// All nodes of a file as one mesh, where they stand; triangles without area are still there.
+/// Why a node of a file that is unusable cannot be taken, as a sentence.
+std::string refusalOf(const ImportedNode& node, const std::string& path);
+
+/// All nodes of a file as one mesh, where they stand; triangles without area are still there. None
+/// of them may be unusable.
 TriMesh joinedMesh(const ImportedFile& file);
+
+/// joinedMesh of a file. Throws Error{badInput} when a node is unusable.
+TriMesh joinedMesh(const ImportedFile& file, const std::string& path);
 
 /// joinedMesh of importFile.
 TriMesh importMesh(const std::string& path);

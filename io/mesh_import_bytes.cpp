@@ -118,6 +118,7 @@ private:
         node.fileFromNode = takePose();
         node.obstacle = takeText(kLongestSentence, "letters in a sentence");
         node.lostJoin = takeText(kLongestSentence, "letters in a sentence");
+        node.unusable = takeText(kLongestSentence, "letters in a sentence");
         node.isBent = cursor_.take<std::uint8_t>() != 0;
         takeKeys(node.keys);
 
@@ -209,6 +210,7 @@ std::string encodeImport(const ImportedFile& file)
         appendPose(bytes, node.fileFromNode);
         appendText(bytes, node.obstacle);
         appendText(bytes, node.lostJoin);
+        appendText(bytes, node.unusable);
         appendBytes(bytes, static_cast<std::uint8_t>(node.isBent));
         appendKeys(bytes, node.keys);
         appendColumns(bytes, node.mesh.points);

@@ -197,6 +197,18 @@ void requireMotion(const ShotNode& motion, const ImportedFile& file,
                  "they are");
 }
 
+/// Reports which of the chosen nodes are no rigid bodies.
+void requireBodies(const ShotNode& import, const ImportedFile& file, const std::string& path,
+                   const std::vector<bool>& isChosen, ProblemList& problems)
+{
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+        const ImportedNode& node = file.nodes[i];
+        if (!isChosen[i] || node.unusable.empty()) continue;
+        problems.add(import.find("file")->where,
+                     refusalOf(node, path) + ", or leave it out of 'nodes'");
+    }
+}
+
 /// "'A'", or "'A' and 3 more".
 std::string someOf(const std::vector<std::string>& names)
 {
@@ -262,11 +274,12 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     if (interpolate && !isKeyed) {
         problems.add(interpolate->where, "'interpolate' is for imports with motion = \"keyed\"");
     }
+    requireBodies(node, file, path, isChosen, problems);
     warnOfLosses(node, file, isChosen, isKeyed, problems);
     const Placement placement(shot, file);
     MeshPool pool;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
-        if (!isChosen[i]) continue;
+        if (!isChosen[i] || !file.nodes[i].unusable.empty()) continue;
         const ImportedNode& imported = file.nodes[i];
         PlacedNode placed;
         placed.name = imported.name.empty() ? "node" : plainName(imported.name);
