@@ -303,7 +303,8 @@ const std::vector<ShotKey> kImportKeys = {
      .choices = "smooth|linear",
      .help = "How keyed motion goes from sample to sample. \"linear\", which is taken without this "
              "key, shows what other programs show between samples; \"smooth\" has no jumps of "
-             "speed, for motion that carries bodies."},
+             "speed, for motion that carries bodies, and goes its own way between the file's keys: "
+             "what hangs on a node that turns needs one every few degrees."},
     {.path = "import.start",
      .type = word,
      .byDefault = "\"awake\"",
