@@ -313,7 +313,7 @@ private:
             const Mat3 stretch = pose.orientation.conjugate() * M.topLeftCorner<3, 3>();
             if (!stretch.isApprox(S, kScaleMoves)) {
                 node.keys.clear();
-                node.obstacle = "its scale changes over time";
+                node.obstacle = "its scale changes over time, and bodies are rigid";
                 return;
             }
             node.keys.push_back({fileFromMesh.seconds[i], pose});

@@ -263,14 +263,20 @@ private:
 
     const Channel* channelOf(const aiNode& node) const
     {
-        const std::string name = node.mName.C_Str();
-        const auto channel = channels_.find(name);
-        if (channel == channels_.end()) return nullptr;
-        if (namesakes_.at(name) > 1)
-            throw Error(ErrorKind::badInput, "several nodes are called '" + name +
-                                                 "', and which of them its animation moves "
-                                                 "cannot be told: name them apart");
-        return &channel->second;
+        const auto channel = channels_.find(node.mName.C_Str());
+        return channel == channels_.end() ? nullptr : &channel->second;
+    }
+
+    /// Why the animation of the node or of one above it may mean another; empty when it may not.
+    std::string doubt() const
+    {
+        for (const aiNode* link : chain_) {
+            const std::string name = link->mName.C_Str();
+            if (!channelOf(*link) || namesakes_.at(name) < 2) continue;
+            return "several nodes are called '" + name +
+                   "', and which of them its animation moves cannot be told: name them apart";
+        }
+        return "";
     }
 
     void read(const aiNode& node)
@@ -293,6 +299,7 @@ private:
 
     void read(const aiCamera& camera)
     {
+        if (const std::string why = doubt(); !why.empty()) throw Error(ErrorKind::badInput, why);
         ImportedCamera result;
         result.name = camera.mName.C_Str();
         result.fovDegrees = verticalDegrees(camera);
@@ -395,6 +402,8 @@ private:
 
     void readKeys(const aiVector3D& scale, ImportedNode& result)
     {
+        result.obstacle = doubt();
+        if (!result.obstacle.empty()) return;
         bool keepsScale = true;
         result.keys = keysOf([&](double time) {
             const Parts now(chainAt(time));
@@ -404,7 +413,7 @@ private:
         });
         if (keepsScale) return;
         result.keys.clear();
-        result.obstacle = "its scale changes over time";
+        result.obstacle = "its scale changes over time, and bodies are rigid";
     }
 
     aiMatrix4x4 chainAt(double seconds) const

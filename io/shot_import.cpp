@@ -188,8 +188,7 @@ void requireMotion(const ShotNode& motion, const ImportedFile& file,
         const ImportedNode& node = file.nodes[i];
         anyMoves = anyMoves || !node.keys.empty() || !node.obstacle.empty();
         if (node.obstacle.empty()) continue;
-        problems.add(motion.where, "'" + node.name + "' cannot be keyed: " + node.obstacle +
-                                       ", and bodies are rigid");
+        problems.add(motion.where, "'" + node.name + "' cannot be keyed: " + node.obstacle);
     }
     if (anyMoves) return;
     problems.add(motion.where,
