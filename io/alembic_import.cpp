@@ -112,8 +112,8 @@ private:
         }
         const std::string_view title = metadataValue(object.metadata, "schemaObjTitle");
         if (title.starts_with("AbcGeom_SubD_")) {
-            reader_.refuse("holds the subdivision surface '" + object.name +
-                           "'; export polygon meshes");
+            addUnusable(parentName.empty() ? object.name : parentName,
+                        "is a subdivision surface; export it as a polygon mesh");
         }
         if (title.starts_with("AbcGeom_PolyMesh_")) {
             addNode(object, fileFromParent, parentName.empty() ? object.name : parentName);
@@ -240,6 +240,10 @@ private:
     void addNode(const StoredObject& object, const MatrixTrack& fileFromMesh,
                  const std::string& name)
     {
+        if (isDeforming(reader_, object)) {
+            return addUnusable(
+                name, "changes its shape over time; only rigid motion can be played: export it so");
+        }
         TriMesh mesh = readAlembicMesh(reader_, object);
         if (mesh.triangles.cols() == 0) return;
         ImportedNode node;
@@ -251,6 +255,16 @@ private:
         if (!S.isApprox(Mat3::Identity(), kScaleIsOne)) mesh.points = S * mesh.points;
         if (S.determinant() < 0.0) turnInsideOut(mesh);
         node.mesh = std::move(mesh);
+        file_.nodes.push_back(std::move(node));
+    }
+
+    /// What is no rigid body is in nobody's way until it is chosen: the camera of a shot often
+    /// stands in one file with its cloth.
+    void addUnusable(const std::string& name, const std::string& why)
+    {
+        ImportedNode node;
+        node.name = name;
+        node.unusable = why;
         file_.nodes.push_back(std::move(node));
     }
 
@@ -299,7 +313,7 @@ private:
             const Mat3 stretch = pose.orientation.conjugate() * M.topLeftCorner<3, 3>();
             if (!stretch.isApprox(S, kScaleMoves)) {
                 node.keys.clear();
-                node.obstacle = "its scale changes over time";
+                node.obstacle = "its scale changes over time, and bodies are rigid";
                 return;
             }
             node.keys.push_back({fileFromMesh.seconds[i], pose});

@@ -182,6 +182,18 @@ std::optional<StoredProperty> find(const std::vector<StoredProperty>& properties
     return std::nullopt;
 }
 
+bool isDeforming(const AlembicReader& reader, const StoredObject& object)
+{
+    const auto geometry = find(reader.properties(object), ".geom");
+    if (!geometry) return false;
+    const std::vector<StoredProperty> properties = reader.properties(*geometry);
+    return std::any_of(properties.begin(), properties.end(), [](const StoredProperty& property) {
+        const std::string& name = property.layout.name;
+        const bool isShape = name == "P" || name == ".faceIndices" || name == ".faceCounts";
+        return isShape && property.firstChange > 0;
+    });
+}
+
 TriMesh readAlembicMesh(const AlembicReader& reader, const StoredObject& object)
 {
     return MeshReader(reader, object).read();

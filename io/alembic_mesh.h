@@ -14,6 +14,9 @@ namespace scree {
 std::optional<StoredProperty> find(const std::vector<StoredProperty>& properties,
                                    std::string_view name);
 
+/// Whether points, corners or faces of a mesh change over time.
+bool isDeforming(const AlembicReader& reader, const StoredObject& object);
+
 /// Points as they stand in the file, polygons cut into triangles that are counter-clockwise seen
 /// from outside. Throws Error{badInput} when the points move, and for what is no mesh.
 TriMesh readAlembicMesh(const AlembicReader& reader, const StoredObject& object);

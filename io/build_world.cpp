@@ -1,5 +1,6 @@
 #include "io/build_world.h"
 
+#include <cstdio>
 #include <memory>
 #include <new>
 #include <optional>
@@ -36,7 +37,7 @@ struct MeshMaker {
     {
         const ImportedFile file = importFile(s.path, limits);
         const double metres = file.metresPerUnit.value_or(metresPerUnit);
-        return transformed(joinedMesh(file), Pose(), Vec3::Constant(metres));
+        return transformed(joinedMesh(file, s.path), Pose(), Vec3::Constant(metres));
     }
     TriMesh operator()(const NodeSpec& s) const { return *s.mesh; }
 };
@@ -172,16 +173,32 @@ private:
                 throw Error(ErrorKind::internal,
                             "memory ran out while the shape '" + name + "' was built");
             } catch (const Error& error) {
-                problems_.add(shape.location, error.what(), error.kind());
+                problems_.add(shape.location, error.what() + adviceFor(shape, error.what()),
+                              error.kind());
             }
         }
         return known->second;
+    }
+
+    /// What is wrong with a mesh is told with keys that may help: those of a shape.
+    static std::string adviceFor(const ShotShape& shape, const std::string& message)
+    {
+        const bool namesKeys = message.find(" = { ") != std::string::npos;
+        if (!std::holds_alternative<NodeSpec>(shape.source) || !namesKeys) return "";
+        return "; an [[import]] has none of a shape's keys: a node that needs one comes as "
+               "[shape.NAME] file = \"…\", from a file of its own";
     }
 
     std::shared_ptr<const Shape> buildShape(const ShotShape& shape) const
     {
         const MeshMaker maker{shot_.metresPerUnit, shot_.importLimits};
         const TriMesh mesh = transformed(std::visit(maker, shape.source), Pose(), shape.scale);
+        // Points that fell together would be told as holes and faces without area, which nobody
+        // finds in the file.
+        constexpr double kMostRounding = 0.01;
+        if (const std::string rough = roughnessOf(mesh, kMostRounding); !rough.empty()) {
+            throw Error(ErrorKind::badInput, "shape '" + shape.name + "' " + rough);
+        }
         if (shape.collision) {
             const TriMesh colliding = transformed(maker(*shape.collision), Pose(), shape.scale);
             return buildMeshShape(shape.name, mesh, colliding, shape.settings, fields_);
@@ -214,6 +231,23 @@ SceneMesh toSceneMesh(const Shape& shape, double metresPerUnit, double planeHalf
 }
 
 }  // namespace
+
+std::string roughnessOf(const TriMesh& mesh, double share)
+{
+    constexpr double kRounding = 6e-8;  // of a coordinate
+    constexpr double kSmallest = 1e-9;  // what is no longer is told of elsewhere
+    if (mesh.points.cols() == 0 || !mesh.points.allFinite()) return "";
+    const double farthest = mesh.points.cwiseAbs().maxCoeff();
+    const double longest =
+        (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
+    if (longest < kSmallest || kRounding * farthest <= share * longest) return "";
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "lies %.3g m from the origin of its file, where single precision is exact to "
+                  "%.2g m only, and is %.2g m long: move it to the origin there",
+                  farthest, kRounding * farthest, longest);
+    return text;
+}
 
 World buildWorld(const Shot& shot, FieldStore* fields)
 {

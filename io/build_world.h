@@ -8,6 +8,11 @@
 
 namespace scree {
 
+/// How rough a mesh is that lies far from the origin of its file, since files keep coordinates in
+/// single precision: a sentence without its subject. Empty when they are exact to that share of its
+/// longest edge.
+std::string roughnessOf(const TriMesh& mesh, double share);
+
 /// The shot at time zero; bodies that are born at its first frame have been. Throws Error, located
 /// in the shot file, when an asset cannot be read or is not a solid, or when a body that may not
 /// wait finds its place taken. Distance fields come from `fields` where it has them and go there

@@ -94,9 +94,22 @@ TriMesh joinedMesh(const ImportedFile& file)
     return file.hadLoosePoints ? mergeEqualPoints(result, FlatTriangles::keep) : result;
 }
 
+std::string refusalOf(const ImportedNode& node, const std::string& path)
+{
+    return "mesh file '" + path + "' has a mesh '" + node.name + "' that " + node.unusable;
+}
+
+TriMesh joinedMesh(const ImportedFile& file, const std::string& path)
+{
+    for (const ImportedNode& node : file.nodes) {
+        if (!node.unusable.empty()) throw Error(ErrorKind::badInput, refusalOf(node, path));
+    }
+    return joinedMesh(file);
+}
+
 TriMesh importMesh(const std::string& path)
 {
-    return joinedMesh(importFile(path));
+    return joinedMesh(importFile(path), path);
 }
 
 }  // namespace scree

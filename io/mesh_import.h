@@ -18,6 +18,7 @@ namespace scree {
 struct ImportedKey {
     double seconds = 0.0;  ///< of the file
     Pose fileFromNode;
+    bool isBetween = false;  ///< the file has none there: where a straight way would stray
 };
 
 /// A node of a file that shows a mesh.
@@ -27,6 +28,9 @@ struct ImportedNode {
     TriMesh mesh;                   ///< in the node's axes, its scale baked
     std::vector<ImportedKey> keys;  ///< in order of time; empty for a node that never moves
     std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
+    std::string lostJoin;           ///< how its samples are joined in the file, if not straight
+    std::string unusable;           ///< why it is no rigid body, if so; it has no mesh then
+    bool isBent = false;            ///< bones or morph targets of the file bend its mesh; lost
 };
 
 /// The angle of view of a camera at one moment.
@@ -40,9 +44,10 @@ struct ImportedCamera {
     std::string name;                ///< of its node
     Pose fileFromCamera;             ///< of a moving one the first
     std::vector<ImportedKey> keys;   ///< in order of time; empty for one that never moves
-    double fovDegrees = 35.0;        ///< vertical; of one that zooms the first
+    double fovDegrees = 35.0;        ///< vertical; of one that zooms the first; 0: orthographic
     std::vector<ImportedZoom> zoom;  ///< in order of time; empty for one that never zooms
     bool isZoomLost = false;         ///< the file has a zoom that cannot be read
+    std::string lostJoin;            ///< as of a node
 };
 
 struct ImportedFile {
@@ -65,8 +70,15 @@ struct ImportedFile {
 /// not finite.
 ImportedFile importFile(const std::string& path, const ImportLimits& limits = {});
 
-/// All nodes of a file as one mesh, where they stand; triangles without area are still there.
+/// Why a node of a file that is unusable cannot be taken, as a sentence.
+std::string refusalOf(const ImportedNode& node, const std::string& path);
+
+/// All nodes of a file as one mesh, where they stand; triangles without area are still there. None
+/// of them may be unusable.
 TriMesh joinedMesh(const ImportedFile& file);
+
+/// joinedMesh of a file. Throws Error{badInput} when a node is unusable.
+TriMesh joinedMesh(const ImportedFile& file, const std::string& path);
 
 /// joinedMesh of importFile.
 TriMesh importMesh(const std::string& path);

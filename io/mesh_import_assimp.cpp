@@ -5,11 +5,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <new>
 #include <set>
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -17,6 +19,10 @@
 
 #include "core/base/error.h"
 #include "core/math/rotation.h"
+#include "io/file_bytes.h"
+#include "io/gltf_reading.h"
+#include "io/keys_between.h"
+#include "io/obj_names.h"
 
 namespace scree {
 namespace {
@@ -35,11 +41,22 @@ public:
     Assimp::IOStream* Open(const char* file, const char* mode) override
     {
         if (std::strpbrk(mode, "wa+") || !isInside(file)) return nullptr;
+        if (!mainText_.empty() && mainFile_ == file) {
+            return new Assimp::MemoryIOStream(
+                reinterpret_cast<const std::uint8_t*>(mainText_.data()), mainText_.size());
+        }
         return DefaultIOSystem::Open(file, mode);
     }
     bool Exists(const char* file) const override
     {
         return isInside(file) && DefaultIOSystem::Exists(file);
+    }
+
+    /// Gives a file this text, whatever the disk has.
+    void replace(const std::string& file, std::string text)
+    {
+        mainFile_ = file;
+        mainText_ = std::move(text);
     }
 
     const std::string& refused() const { return refused_; }
@@ -56,6 +73,7 @@ private:
     }
 
     fs::path folder_;
+    std::string mainFile_, mainText_;
     mutable std::string refused_;
 };
 
@@ -144,6 +162,20 @@ public:
         add(keys_.mScalingKeys, keys_.mNumScalingKeys);
     }
 
+    /// Whether two of its keys differ.
+    bool moves() const
+    {
+        const auto differ = [](const auto* keys, unsigned count) {
+            return std::any_of(keys, keys + count,
+                               [&](const auto& key) { return key.mValue != keys->mValue; });
+        };
+        return differ(keys_.mPositionKeys, keys_.mNumPositionKeys) ||
+               differ(keys_.mRotationKeys, keys_.mNumRotationKeys);
+    }
+
+    /// Whether it turns or scales what hangs on the node.
+    bool turns() const { return keys_.mNumRotationKeys > 1 || keys_.mNumScalingKeys > 1; }
+
     /// What has no keys stays as the node has it.
     aiMatrix4x4 at(double seconds, const aiMatrix4x4& still) const
     {
@@ -186,8 +218,8 @@ private:
 /// What a node shows, in the node's axes with its scale baked.
 class NodeReader {
 public:
-    NodeReader(const aiScene& scene, const std::string& ending, std::uint32_t mostDepth)
-        : scene_(scene), mostDepth_(mostDepth), isGltf_(ending == "glb" || ending == "gltf")
+    NodeReader(const aiScene& scene, const GltfReading* gltf, std::uint32_t mostDepth)
+        : scene_(scene), mostDepth_(mostDepth), gltf_(gltf)
     {
         for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
             const aiAnimation& animation = *scene.mAnimations[a];
@@ -231,14 +263,20 @@ private:
 
     const Channel* channelOf(const aiNode& node) const
     {
-        const std::string name = node.mName.C_Str();
-        const auto channel = channels_.find(name);
-        if (channel == channels_.end()) return nullptr;
-        if (namesakes_.at(name) > 1)
-            throw Error(ErrorKind::badInput, "several nodes are called '" + name +
-                                                 "', and which of them its animation moves "
-                                                 "cannot be told: name them apart");
-        return &channel->second;
+        const auto channel = channels_.find(node.mName.C_Str());
+        return channel == channels_.end() ? nullptr : &channel->second;
+    }
+
+    /// Why the animation of the node or of one above it may mean another; empty when it may not.
+    std::string doubt() const
+    {
+        for (const aiNode* link : chain_) {
+            const std::string name = link->mName.C_Str();
+            if (!channelOf(*link) || namesakes_.at(name) < 2) continue;
+            return "several nodes are called '" + name +
+                   "', and which of them its animation moves cannot be told: name them apart";
+        }
+        return "";
     }
 
     void read(const aiNode& node)
@@ -251,14 +289,17 @@ private:
         ImportedNode result;
         result.mesh = meshOf(node, stretches_.of(fileFromNode, parts));
         if (result.mesh.triangles.cols() == 0) return;
-        result.name = node.mName.C_Str();
+        result.name = openedObjName(node.mName.C_Str());
         result.fileFromNode = parts.pose();
+        result.isBent = isBent(node);
         readKeys(parts.scale, result);
+        if (!result.keys.empty()) result.lostJoin = lostJoin();
         nodes_.push_back(std::move(result));
     }
 
     void read(const aiCamera& camera)
     {
+        if (const std::string why = doubt(); !why.empty()) throw Error(ErrorKind::badInput, why);
         ImportedCamera result;
         result.name = camera.mName.C_Str();
         result.fovDegrees = verticalDegrees(camera);
@@ -269,9 +310,8 @@ private:
         aiMatrix4x4 fileFromNode;
         for (const aiNode* link : chain_) fileFromNode = fileFromNode * link->mTransformation;
         result.fileFromCamera = fileFromCamera(fileFromNode);
-        for (const double time : keyTimes()) {
-            result.keys.push_back({time, fileFromCamera(chainAt(time))});
-        }
+        result.keys = keysOf([&](double time) { return fileFromCamera(chainAt(time)); });
+        result.lostJoin = lostJoin();
         cameras_.push_back(std::move(result));
     }
 
@@ -295,7 +335,7 @@ private:
     double verticalDegrees(const aiCamera& camera) const
     {
         const double aspect = camera.mAspect > 0.0f ? camera.mAspect : 1.0;
-        const double angle = isGltf_
+        const double angle = gltf_
                                  ? camera.mHorizontalFOV / aspect
                                  : 2.0 * std::atan(std::tan(0.5 * camera.mHorizontalFOV) / aspect);
         return angle * 180.0 / kPi;
@@ -308,22 +348,72 @@ private:
         for (const aiNode* link : chain_) {
             if (const Channel* channel = channelOf(*link)) channel->addTimes(seconds);
         }
-        keyCount_ += seconds.size();
-        if (keyCount_ > kMostKeys) throw Error(ErrorKind::badInput, "it has too many keys");
+        count(seconds.size());
         return seconds;
+    }
+
+    void count(std::size_t keys)
+    {
+        keyCount_ += keys;
+        if (keyCount_ > kMostKeys) throw Error(ErrorKind::badInput, "it has too many keys");
+    }
+
+    /// Whether the node can leave the straight way from key to key: what it hangs on turns.
+    bool isSwungRound() const
+    {
+        return std::any_of(chain_.begin(), chain_.end() - 1, [&](const aiNode* link) {
+            const Channel* channel = channelOf(*link);
+            return channel && channel->turns();
+        });
+    }
+
+    std::vector<ImportedKey> keysOf(const std::function<Pose(double)>& poseAt)
+    {
+        const std::set<double> moments = keyTimes();
+        std::vector<ImportedKey> keys;
+        if (!isSwungRound()) {
+            for (const double moment : moments) keys.push_back({moment, poseAt(moment)});
+            return keys;
+        }
+        keys = keysAlong(moments, poseAt);
+        count(keys.size() - moments.size());
+        return keys;
+    }
+
+    /// How the file joins the samples of what moves the node, if not straight.
+    std::string lostJoin() const
+    {
+        for (const aiNode* link : chain_) {
+            const Channel* channel = channelOf(*link);
+            if (!gltf_ || !channel || !channel->moves()) continue;
+            const auto join = gltf_->joins.find(link->mName.C_Str());
+            if (join == gltf_->joins.end()) continue;
+            return join->second == SampleJoin::jump ? "jumps (STEP)" : "curves (CUBICSPLINE)";
+        }
+        return "";
+    }
+
+    bool isBent(const aiNode& node) const
+    {
+        return std::any_of(node.mMeshes, node.mMeshes + node.mNumMeshes, [&](unsigned m) {
+            return scene_.mMeshes[m]->mNumBones > 0 || scene_.mMeshes[m]->mNumAnimMeshes > 0;
+        });
     }
 
     void readKeys(const aiVector3D& scale, ImportedNode& result)
     {
-        for (const double time : keyTimes()) {
+        result.obstacle = doubt();
+        if (!result.obstacle.empty()) return;
+        bool keepsScale = true;
+        result.keys = keysOf([&](double time) {
             const Parts now(chainAt(time));
-            if (!((now.scale - scale).Length() <= kScaleMoves * scale.Length())) {
-                result.keys.clear();
-                result.obstacle = "its scale changes over time";
-                return;
-            }
-            result.keys.push_back({time, now.pose()});
-        }
+            const float change = (now.scale - scale).Length();
+            keepsScale = keepsScale && change <= kScaleMoves * scale.Length();
+            return now.pose();
+        });
+        if (keepsScale) return;
+        result.keys.clear();
+        result.obstacle = "its scale changes over time, and bodies are rigid";
     }
 
     aiMatrix4x4 chainAt(double seconds) const
@@ -386,7 +476,7 @@ private:
 
     const aiScene& scene_;
     std::uint32_t mostDepth_;
-    bool isGltf_;
+    const GltfReading* gltf_;                  // null of other files
     std::map<std::string, Channel> channels_;  // by the name of their node
     Stretches stretches_;
     std::map<std::string, int> namesakes_;  // how many nodes have a name
@@ -451,12 +541,21 @@ std::optional<double> metresPerUnitOf(const aiScene& scene, const std::string& e
 ImportedFile importWithAssimp(const std::string& path, const std::string& ending,
                               std::uint32_t mostDepth)
 {
+    const bool isGltf = ending == "glb" || ending == "gltf";
+    const GltfReading gltf = isGltf ? readGltf(readFileBytes(path)) : GltfReading();
+    if (!gltf.lostExtension.empty())
+        throw Error(ErrorKind::badInput, "it uses the glTF extension " + gltf.lostExtension +
+                                             ", which is not read here: export it without");
     Assimp::Importer importer;
     keepLoadersOf(ending, importer);
     if (ending == "ply" && !endsItsHeader(path))
         throw Error(ErrorKind::badInput, "its header has no end: the file is cut short");
     auto* files = new FolderSystem(fs::weakly_canonical(fs::absolute(path)).parent_path());
     importer.SetIOHandler(files);  // which deletes it
+    if (ending == "obj") {
+        std::string text = readFileBytes(path);
+        if (closeObjNames(text)) files->replace(path, std::move(text));
+    }
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (!files->refused().empty()) {
         throw Error(ErrorKind::badInput,
@@ -466,7 +565,7 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     // The library tells of it in no other way; whoever limits the memory has words for it.
     if (problem.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     if (!scene || !scene->mRootNode) throw Error(ErrorKind::badInput, problem);
-    NodeReader reader(*scene, ending, mostDepth);
+    NodeReader reader(*scene, isGltf ? &gltf : nullptr, mostDepth);
     reader.visit(*scene->mRootNode);
     ImportedFile file;
     file.nodes = reader.takeNodes();
@@ -477,7 +576,7 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
         for (ImportedNode& node : file.nodes) node.mesh.cornerUvs.resize(2, 0);
     }
     file.metresPerUnit = metresPerUnitOf(*scene, ending);
-    file.isYUp = ending == "glb" || ending == "gltf";
+    file.isYUp = isGltf;
     return file;
 }
 

@@ -35,6 +35,7 @@ void appendKeys(std::string& bytes, const std::vector<ImportedKey>& keys)
     for (const ImportedKey& key : keys) {
         appendBytes(bytes, key.seconds);
         appendPose(bytes, key.fileFromNode);
+        appendBytes(bytes, static_cast<std::uint8_t>(key.isBetween));
     }
 }
 
@@ -116,6 +117,9 @@ private:
         node.name = takeText(limits_.nameLength, "letters in a name (--import-name)");
         node.fileFromNode = takePose();
         node.obstacle = takeText(kLongestSentence, "letters in a sentence");
+        node.lostJoin = takeText(kLongestSentence, "letters in a sentence");
+        node.unusable = takeText(kLongestSentence, "letters in a sentence");
+        node.isBent = cursor_.take<std::uint8_t>() != 0;
         takeKeys(node.keys);
 
         TriMesh& mesh = node.mesh;
@@ -142,21 +146,23 @@ private:
         ImportedCamera camera;
         camera.name = takeText(limits_.nameLength, "letters in a name (--import-name)");
         camera.fileFromCamera = takePose();
-        camera.fovDegrees = takeFov(camera);
+        camera.fovDegrees = cursor_.take<double>();
+        if (camera.fovDegrees != 0.0) requireFov(camera.fovDegrees, camera);
         takeKeys(camera.keys);
         const std::uint32_t count = takeCount(kMostKeys, "keys");
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto seconds = takeMoment(camera.zoom);
-            camera.zoom.push_back({seconds, takeFov(camera)});
+            camera.zoom.push_back({seconds, cursor_.take<double>()});
+            requireFov(camera.zoom.back().fovDegrees, camera);
         }
         camera.isZoomLost = cursor_.take<std::uint8_t>() != 0;
+        camera.lostJoin = takeText(kLongestSentence, "letters in a sentence");
         return camera;
     }
 
-    double takeFov(const ImportedCamera& camera)
+    void requireFov(double degrees, const ImportedCamera& camera) const
     {
-        const auto degrees = cursor_.take<double>();
-        if (degrees > 0.0 && degrees < 180.0) return degrees;
+        if (degrees > 0.0 && degrees < 180.0) return;
         refuse("has a camera '" + camera.name + "' without an angle of view");
     }
 
@@ -175,7 +181,8 @@ private:
         const std::uint32_t count = takeCount(kMostKeys, "keys");
         for (std::uint32_t i = 0; i < count; ++i) {
             const double seconds = takeMoment(keys);
-            keys.push_back({seconds, takePose()});
+            const Pose pose = takePose();
+            keys.push_back({seconds, pose, cursor_.take<std::uint8_t>() != 0});
         }
     }
 
@@ -202,6 +209,9 @@ std::string encodeImport(const ImportedFile& file)
         appendText(bytes, node.name);
         appendPose(bytes, node.fileFromNode);
         appendText(bytes, node.obstacle);
+        appendText(bytes, node.lostJoin);
+        appendText(bytes, node.unusable);
+        appendBytes(bytes, static_cast<std::uint8_t>(node.isBent));
         appendKeys(bytes, node.keys);
         appendColumns(bytes, node.mesh.points);
         appendColumns(bytes, node.mesh.triangles);
@@ -219,6 +229,7 @@ std::string encodeImport(const ImportedFile& file)
             appendBytes(bytes, key.fovDegrees);
         }
         appendBytes(bytes, static_cast<std::uint8_t>(camera.isZoomLost));
+        appendText(bytes, camera.lostJoin);
     }
     return bytes;
 }

@@ -91,12 +91,14 @@ public:
         return pose;
     }
 
-    /// The animation of what stands at `still` if it has none.
-    std::vector<MotionKey> keysOf(const std::vector<ImportedKey>& animation,
-                                  const Pose& still) const
+    /// The animation of what stands at `still` if it has none. A smooth one goes its own way from
+    /// each of the file's keys to the next.
+    std::vector<MotionKey> keysOf(const std::vector<ImportedKey>& animation, const Pose& still,
+                                  KeyInterpolation interpolation) const
     {
         std::vector<MotionKey> keys;
         for (const ImportedKey& key : animation) {
+            if (key.isBetween && interpolation == KeyInterpolation::smooth) continue;
             keys.push_back({key.seconds - startSeconds_, worldFrom(key.fileFromNode)});
         }
         if (keys.empty()) keys.push_back({0.0, worldFrom(still)});
@@ -186,13 +188,61 @@ void requireMotion(const ShotNode& motion, const ImportedFile& file,
         const ImportedNode& node = file.nodes[i];
         anyMoves = anyMoves || !node.keys.empty() || !node.obstacle.empty();
         if (node.obstacle.empty()) continue;
-        problems.add(motion.where, "'" + node.name + "' cannot be keyed: " + node.obstacle +
-                                       ", and bodies are rigid");
+        problems.add(motion.where, "'" + node.name + "' cannot be keyed: " + node.obstacle);
     }
     if (anyMoves) return;
     problems.add(motion.where,
                  "the file animates none of these nodes; motion = \"static\" leaves them where "
                  "they are");
+}
+
+/// Reports which of the chosen nodes are no rigid bodies.
+void requireBodies(const ShotNode& import, const ImportedFile& file, const std::string& path,
+                   const std::vector<bool>& isChosen, ProblemList& problems)
+{
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+        const ImportedNode& node = file.nodes[i];
+        if (!isChosen[i] || node.unusable.empty()) continue;
+        problems.add(import.find("file")->where,
+                     refusalOf(node, path) + ", or leave it out of 'nodes'");
+    }
+}
+
+/// "'A'", or "'A' and 3 more".
+std::string someOf(const std::vector<std::string>& names)
+{
+    const std::string first = "'" + names.front() + "'";
+    return names.size() == 1 ? first : first + " and " + std::to_string(names.size() - 1) + " more";
+}
+
+void warnOfJoin(const SourceLocation& where, const std::string& who, const std::string& how,
+                ProblemList& problems)
+{
+    problems.warn(where, "the file joins the samples of " + who + " by " + how +
+                             "; here they are joined steadily: export the motion with a sample for "
+                             "every frame");
+}
+
+/// Warns of what other programs show otherwise: who trusts the file must know.
+void warnOfLosses(const ShotNode& import, const ImportedFile& file,
+                  const std::vector<bool>& isChosen, bool isKeyed, ProblemList& problems)
+{
+    std::map<std::string, std::vector<std::string>> joined;  // names by how samples are joined
+    std::vector<std::string> bent;
+    for (std::size_t i = 0; i < file.nodes.size(); ++i) {
+        if (!isChosen[i]) continue;
+        const ImportedNode& node = file.nodes[i];
+        if (isKeyed && !node.lostJoin.empty()) joined[node.lostJoin].push_back(node.name);
+        if (node.isBent) bent.push_back(node.name);
+    }
+    for (const auto& [how, names] : joined) {
+        warnOfJoin(import.find("motion")->where, someOf(names), how, problems);
+    }
+    if (bent.empty()) return;
+    problems.warn(import.find("file")->where,
+                  "bones or morph targets bend " + someOf(bent) +
+                      " in other programs; here its form is the one it was modelled in: export it "
+                      "with its deformers applied");
 }
 
 ImportedFile readAsset(const std::string& path, const Shot& shot)
@@ -223,10 +273,12 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     if (interpolate && !isKeyed) {
         problems.add(interpolate->where, "'interpolate' is for imports with motion = \"keyed\"");
     }
+    requireBodies(node, file, path, isChosen, problems);
+    warnOfLosses(node, file, isChosen, isKeyed, problems);
     const Placement placement(shot, file);
     MeshPool pool;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
-        if (!isChosen[i]) continue;
+        if (!isChosen[i] || !file.nodes[i].unusable.empty()) continue;
         const ImportedNode& imported = file.nodes[i];
         PlacedNode placed;
         placed.name = imported.name.empty() ? "node" : plainName(imported.name);
@@ -234,9 +286,12 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
             transformed(imported.mesh, Pose(), Vec3::Constant(placement.metresPerUnit()));
         placed.shape = {path, pool.share(std::move(mesh))};
         placed.worldFromNode = placement.worldFrom(imported.fileFromNode);
-        if (isKeyed) placed.keys = placement.keysOf(imported.keys, imported.fileFromNode);
         if (interpolate && interpolate->text == "smooth") {
             placed.interpolation = KeyInterpolation::smooth;
+        }
+        if (isKeyed) {
+            placed.keys =
+                placement.keysOf(imported.keys, imported.fileFromNode, placed.interpolation);
         }
         result.push_back(std::move(placed));
     }
@@ -256,10 +311,18 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     const ImportedCamera* imported =
         chooseCamera(node.find("node"), *node.find("file"), file, path, problems);
     if (!imported) return std::nullopt;
+    if (imported->fovDegrees == 0.0) {
+        const ShotNode* chosen = node.find("node");
+        problems.add(chosen ? chosen->where : node.find("file")->where,
+                     "camera '" + imported->name + "' of '" + path +
+                         "' is orthographic: only perspective ones can be used");
+        return std::nullopt;
+    }
     const Placement placement(shot, file);
     // Between samples it turns steadily, as elsewhere; a key a frame keeps it from cutting corners.
-    const MotionScript script(placement.keysOf(imported->keys, imported->fileFromCamera),
-                              KeyInterpolation::linear);
+    constexpr KeyInterpolation kSteady = KeyInterpolation::linear;
+    const MotionScript script(placement.keysOf(imported->keys, imported->fileFromCamera, kSteady),
+                              kSteady);
     const bool changes = !imported->keys.empty() || !imported->zoom.empty();
     SceneCamera camera;
     camera.isSmooth = false;
@@ -275,6 +338,10 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     camera.fovDegrees = first.fovDegrees;
     camera.up = first.up;
     if (!changes) camera.keys.clear();
+    if (!imported->lostJoin.empty()) {
+        warnOfJoin(node.find("file")->where, "camera '" + imported->name + "'", imported->lostJoin,
+                   problems);
+    }
     if (imported->isZoomLost) {
         problems.warn(node.find("file")->where,
                       "the zoom of camera '" + imported->name + "' of '" + path +

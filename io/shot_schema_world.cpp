@@ -188,9 +188,10 @@ const std::vector<ShotKey> kBodyKeys = {
      .unit = "frame",
      .min = -1000000000,
      .max = 1000000000,
-     .help = "Frame at which the keys take a body over. Until then it is dynamic and starts, at "
-             "rest, at the first of its keys; at this frame it stands on them at once, wherever it "
-             "has got to by then."},
+     .help =
+         "Frame at which the keys take a body over. Until then it is dynamic and starts, at "
+         "rest, at the first of its keys. The picture of this frame is the last that shows where "
+         "it has got to; from there on it stands on its keys, however far they are."},
 };
 
 const std::vector<ShotKey> kForceKeys = {
@@ -302,7 +303,8 @@ const std::vector<ShotKey> kImportKeys = {
      .choices = "smooth|linear",
      .help = "How keyed motion goes from sample to sample. \"linear\", which is taken without this "
              "key, shows what other programs show between samples; \"smooth\" has no jumps of "
-             "speed, for motion that carries bodies."},
+             "speed, for motion that carries bodies, and goes its own way between the file's keys: "
+             "what hangs on a node that turns needs one every few degrees."},
     {.path = "import.start",
      .type = word,
      .byDefault = "\"awake\"",

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/collision/interference.h"
 #include "core/dynamics/body_pairs.h"
+#include "io/build_world.h"
 
 namespace scree {
 namespace {
@@ -114,6 +115,18 @@ void warnOfBlockedBirths(const World& world, std::vector<std::string>& warnings)
         world.info[first].name + "' at the first): " + namesOf(blocked, world));
 }
 
+void warnOfRoughness(const World& world, std::vector<std::string>& warnings)
+{
+    constexpr double kItShows = 0.001;
+    std::set<const Shape*> told;
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        const Shape& shape = world.shapeOf(body);
+        if (shape.isPlane || !told.insert(&shape).second) continue;
+        const std::string rough = roughnessOf(shape.assetMesh, kItShows);
+        if (!rough.empty()) warnings.push_back("shape '" + shape.name + "' " + rough);
+    }
+}
+
 void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>& warnings)
 {
     std::set<const Shape*> told;
@@ -214,6 +227,7 @@ std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& worl
     }
     warnOfBlockedBirths(world, warnings);
     warnOfSizes(shot, world, warnings);
+    warnOfRoughness(world, warnings);
     return warnings;
 }
 

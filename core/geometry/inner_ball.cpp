@@ -34,9 +34,11 @@ Ball largestBallInside(const TriMesh& mesh, const SignedDistance& distance, doub
     for (Eigen::Index i = 0; i < inside.cols(); ++i) tryAt(inside.col(i));
 
     constexpr double kFirstStep = 0.25, kLastStep = 0.01;  // as shares of the thickness
+    // What is flat to the rounding of its numbers is better by rounding for ever.
+    int movesLeft = 20'000;
     for (double step = kFirstStep; step > kLastStep; step *= 0.5) {
         bool isBetter = true;
-        while (isBetter) {
+        while (isBetter && movesLeft-- > 0) {
             isBetter = false;
             const Vec3 from = best.centre;
             for (int axis = 0; axis < 3; ++axis) {

@@ -114,15 +114,21 @@ TriMesh remeshOnce(const TriMesh& mesh, const RemeshSettings& settings, double s
 
 void requireAffordable(const TriMesh& mesh, const RemeshSettings& settings, const std::string& name)
 {
-    const double voxels = boxOf(mesh.points).longestEdge() / settings.voxel;
+    const double longest = boxOf(mesh.points).longestEdge();
+    const bool isShell = settings.repair == MeshRepair::shell;
+    // A shell thicker than what it is the shell of makes most of the lattice.
+    const bool isThick = isShell && settings.thickness > longest;
+    const double voxels = (isThick ? longest + settings.thickness : longest) / settings.voxel;
     if (voxels <= kMostVoxels + 0.5) return;
     char text[256];
     std::snprintf(text, sizeof text,
                   "shape '%s': its repair needs a lattice of %.0f voxels along the longest edge, "
                   "more than the %.0f allowed; %s",
                   name.c_str(), std::ceil(voxels), kMostVoxels,
-                  settings.repair == MeshRepair::shell ? "make the shell thicker or split the shape"
-                                                       : "write a smaller sdf resolution");
+                  isThick
+                      ? "the shell is thicker than the shape is long: is its thickness meant so?"
+                  : isShell ? "make the shell thicker or split the shape"
+                            : "write a smaller sdf resolution");
     throw Error(ErrorKind::badInput, text);
 }
 

@@ -128,6 +128,34 @@ TEST(BuildWorld, AssetErrorsAreLocatedAtTheShapeAndSaidOnce)
     }
 }
 
+TEST(BuildWorld, AMeshThatIsRoughForItLiesFarFromItsOriginIsToldAsSuch)
+{
+    const test::TemporaryFolder folder;
+    const Shot shot = slabShot(folder, "", "");
+    const auto moveBy = [&](const std::string& digits) {  // which come before those of x
+        std::string text = kSlabObj;
+        for (std::size_t at = 0; (at = text.find("v ", at)) != std::string::npos; at += 2) {
+            text.insert(at + 2, digits);
+        }
+        std::ofstream(folder / "slab.obj") << text;
+    };
+    moveBy("1000");  // two units long, ten thousand from its origin
+    const World world = buildWorld(shot);
+    EXPECT_EQ(roughnessOf(world.shapeOf(0).assetMesh, 0.001), "");
+    EXPECT_NE(roughnessOf(world.shapeOf(0).assetMesh, 0.0001), "");
+    moveBy("400000");  // four million, where units have quarters
+    try {
+        buildWorld(shot);
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what())
+                      .find("shape 'slab' lies 4e+04 m from the origin of its file, where single "
+                            "precision is exact to 0.0024 m only, and is 0.02 m long"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(BuildWorld, AShapeNamedPlaneDoesNotCollideWithPlanes)
 {
     const Shot shot =

@@ -12,6 +12,7 @@
 #include "io/camera_pose.h"
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
+#include "io/mesh_import.h"
 #include "io/shot_parser.h"
 #include "tests/support/export_scene.h"
 #include "tests/support/small_shot.h"
@@ -105,6 +106,30 @@ TEST_P(CameraImport, StandsAndLooksAtEveryFrameAsTheFileHasIt)
 
 INSTANTIATE_TEST_SUITE_P(Formats, CameraImport, testing::Values("a.glb", "a.abc"),
                          [](const auto& one) { return std::string(one.param).substr(2); });
+
+TEST(CameraImport, StandsInOneFileWithWhatIsNoRigidBody)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.abc";
+    writeAsset(path);
+    std::string bytes = readFileBytes(path);
+    const std::string mesh = "AbcGeom_PolyMesh_v1";
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = bytes.find(mesh, at)) != std::string::npos; ++count) {
+        bytes.replace(at, mesh.size(), "AbcGeom_SubD_vvvvv1");
+    }
+    ASSERT_GT(count, 0u);
+    writeFileBytes(path, bytes);
+    EXPECT_EQ(parseShotText(shotText(path, ""), "s.toml").cameras.size(), 1u);
+    EXPECT_EQ(
+        test::messageOfShot("scree = 1\n[shot]\nname = \"s\"\n[material.m]\n[[import]]\n"
+                            "material = \"m\"\nfile = \"" +
+                            path + "\"\n"),
+        "s.toml:7:8: mesh file '" + path +
+            "' has a mesh 'mover' that is a subdivision surface; export it as a polygon mesh, "
+            "or leave it out of 'nodes'");
+    EXPECT_THROW(importMesh(path), Error);
+}
 
 TEST(CameraImport, SaysWhichCamerasThereAreAndRefusesWhatTheFileDecides)
 {

@@ -142,7 +142,26 @@ TEST(MeshImport, NodesThatShowOneMeshTurnedShareItToTheBit)
         EXPECT_EQ(node.mesh.points, file.nodes[0].mesh.points) << node.name;
 }
 
-TEST(MeshImport, AnAnimationThatMayMeanEitherOfTwoNodesIsRefused)
+TEST(MeshImport, AGltfWhoseCopiesOrPointsWouldBeLostIsRefused)
+{
+    const test::TemporaryFolder folder;
+    const char* nodes = R"({"name":"a","mesh":0})";
+    for (const std::string extension : {"EXT_mesh_gpu_instancing", "KHR_mesh_quantization"}) {
+        try {
+            importNodes(folder, "[0]", nodes, "", ",\"extensionsUsed\":[\"" + extension + "\"]");
+            FAIL() << "taken";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::badInput);
+            EXPECT_NE(std::string(error.what()).find("it uses the glTF extension " + extension),
+                      std::string::npos)
+                << error.what();
+        }
+    }
+    // What only looks otherwise is no reason.
+    importNodes(folder, "[0]", nodes, "", ",\"extensionsUsed\":[\"KHR_materials_ior\"]");
+}
+
+TEST(MeshImport, AnAnimationThatMayMeanEitherOfTwoNodesIsNotPlayed)
 {
     const test::TemporaryFolder folder;
     const char* nodes = R"({"name":"dup","mesh":0},{"name":"dup","mesh":0})";
@@ -151,12 +170,12 @@ TEST(MeshImport, AnAnimationThatMayMeanEitherOfTwoNodesIsRefused)
 "type":"SCALAR","min":[0],"max":[1]},{"bufferView":0,"componentType":5126,"count":2,"type":"VEC3"})";
     const char* animation = R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":1,
 "path":"translation"}}],"samplers":[{"input":2,"output":3}]}])";
-    try {
-        importNodes(folder, "[0,1]", nodes, times, animation);
-        FAIL() << "taken";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::badInput);
-        EXPECT_NE(std::string(error.what()).find("'dup'"), std::string::npos) << error.what();
+    // Where they stand is told all the same.
+    const ImportedFile file = importNodes(folder, "[0,1]", nodes, times, animation);
+    ASSERT_EQ(file.nodes.size(), 2u);
+    for (const ImportedNode& node : file.nodes) {
+        EXPECT_TRUE(node.keys.empty());
+        EXPECT_TRUE(node.obstacle.starts_with("several nodes are called 'dup'")) << node.obstacle;
     }
 }
 
@@ -274,6 +293,23 @@ TEST(ShotImport, MakesABodyOfEveryNodeThatAPatternFits)
     EXPECT_TRUE(shot.bodies[1].worldFromAsset.position.isApprox(Vec3(0, 5, 0), 1e-6));
     const World world = buildWorld(shot);
     EXPECT_NEAR(world.shapeOf(0).unitMass.volume, 8.0 / 6.0, 1e-6);
+}
+
+TEST(ShotImport, AMeshThatIsNoSolidIsToldWhereItsRepairCanBeWritten)
+{
+    const test::TemporaryFolder folder;
+    test::writeGltf(folder);
+    std::string text = test::gltfText("data.bin");
+    text.replace(text.find("\"count\":12"), 10, "\"count\":9");  // a tetrahedron without a side
+    std::ofstream(folder / "set.gltf") << text;
+    try {
+        buildWorld(parseShotText(shotOf(folder, "\"Bowl\""), "s.toml"));
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("an [[import]] has none of a shape's keys"),
+                  std::string::npos)
+            << error.what();
+    }
 }
 
 TEST(ShotImport, APatternThatFitsNothingIsAnError)

@@ -55,6 +55,18 @@ TEST(MeshImport, JoinsTheObjectsOfAnObjIntoOneClosedMesh)
     EXPECT_DOUBLE_EQ(signedVolume(cube), 1.0);
 }
 
+TEST(MeshImport, ObjectsOfAnObjAreToldApartByTheWholeOfTheirNames)
+{
+    const test::TemporaryFolder folder;
+    std::string text = kCubeObj;
+    text.replace(text.find("first"), 5, "Left  wheel \r");
+    text.replace(text.find("second"), 6, "Left door");
+    const ImportedFile file = importFile(write(folder, "cube.obj", text));
+    ASSERT_EQ(file.nodes.size(), 2u);
+    EXPECT_EQ(file.nodes[0].name, "Left  wheel");
+    EXPECT_EQ(file.nodes[1].name, "Left door");
+}
+
 TEST(MeshImport, KeepsPositionsToSinglePrecision)
 {
     const test::TemporaryFolder folder;

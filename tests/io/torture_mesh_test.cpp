@@ -318,6 +318,24 @@ TEST(TortureMesh, WrapMakesTheSolidThatTheMeshNearlyBounds)
     }
 }
 
+TEST(TortureMesh, AShellManyTimesAsThickAsItsMeshIsLongIsRefusedAtOnce)
+{
+    // In metres instead of centimetres: it filled the memory for minutes.
+    const std::string message = refusalOf(sheet(4), repairBy(MeshRepair::shell, 100.0));
+    EXPECT_NE(message.find("the shell is thicker than the shape is long"), std::string::npos)
+        << message;
+}
+
+TEST(TortureMesh, AShapeFlatToTheRoundingOfItsNumbersIsMeasuredInTime)
+{
+    // The search for its largest ball climbed for ever.
+    TriMesh ring = makeTorus(1.0, 0.25, {16, 10});
+    ring.points.row(1) *= 1e-12;
+    ShapeSettings settings;
+    settings.resolution = 32;
+    EXPECT_LT(buildMeshShape("thing", ring, settings)->innerBall.radius, 1e-12);
+}
+
 TEST(TortureMesh, AShellGivesASheetItsThickness)
 {
     const double thickness = 0.1;

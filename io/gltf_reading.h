@@ -1,0 +1,22 @@
+// What a glTF file says that assimp passes over without a word: other programs show it otherwise.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace scree {
+
+/// How samples of a motion are joined.
+enum class SampleJoin { straight, jump, curve };
+
+struct GltfReading {
+    std::string lostExtension;  ///< one that moves, copies or packs points; empty: there is none
+    /// By the name of the node, which of its moves do not go straight from sample to sample; nodes
+    /// without a name are not told.
+    std::map<std::string, SampleJoin> joins;
+};
+
+/// Of a .glb or .gltf; of bytes that are neither, nothing.
+GltfReading readGltf(const std::string& bytes);
+
+}  // namespace scree
