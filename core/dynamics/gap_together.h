@@ -1,7 +1,7 @@
 // Places that are hit at once, solved at once.  [algorithm 14.1]
 //
 // They are few, and belong to a body or two: how each impulse changes the velocity at every other
-// place is worked out once, and a visit costs a fifth of one that goes through the bodies.
+// place is worked out once, and no visit goes through the bodies.
 #pragma once
 
 #include "core/dynamics/gap_rows.h"
