@@ -10,7 +10,7 @@
 // What hits, hits along the normal of that moment, at the places of that moment, and finds a body
 // that has turned until then. A billiard ball that goes half its size in a step met another one
 // along the line between them as the step began, up to 13 degrees off; a rod that landed on a
-// corner as it turned left with a velocity that was off by up to a fifth of that of its fall.
+// corner as it turned, at 3 m/s, left up to 0.2 m/s off.
 #pragma once
 
 #include <vector>

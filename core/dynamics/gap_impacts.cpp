@@ -29,7 +29,7 @@ constexpr double kPairIsSolved = 3e-4;  // of the speed of the impact
 
 /// What arrives by so many times what it falls in a step is stopped where it arrives, also if it
 /// does not bounce. As a contact it would be stopped little by little over two steps, where it
-/// turns by then: rods that landed on an end, e = 0, had up to two fifths too much spin.
+/// turns by then: of rods that landed on an end, e = 0, the spin they got was up to two fifths off.
 constexpr double kLands = 3.0;
 
 /// Places that are hit within this share of a step are hit together.

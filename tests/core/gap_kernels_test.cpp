@@ -20,6 +20,7 @@
 #include "core/geometry/distance_lanes.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
+#include "tests/support/deepest_contact.h"
 #include "tests/support/draw.h"
 #include "tests/support/scenes.h"
 
@@ -369,15 +370,6 @@ double overlapOfCubes(const Pose& a, const Pose& b, double half)
     return least;
 }
 
-double deepestContact(const Shape& shape, const Pose& a, const Pose& b)
-{
-    std::vector<GapContact> contacts;
-    NearFeatures().findContacts({&shape, &shape, a, b}, 0.003, contacts);
-    double deepest = 0.0;
-    for (const GapContact& contact : contacts) deepest = std::max(deepest, -contact.gap);
-    return deepest;
-}
-
 // Of cubes whose edges are cut in three one in two hundred had lost its only deep contact: a piece
 // of an edge was looked at as if it ended there.
 TEST(NearFeatures, CubesThatOverlapAreAboutAsDeepAsTheirSeparatingAxesSayHoweverTheirEdgesAreCut)
@@ -399,8 +391,9 @@ TEST(NearFeatures, CubesThatOverlapAreAboutAsDeepAsTheirSeparatingAxesSayHowever
                 b.position = 0.5 * (near + far) * way;
                 (overlapOfCubes(a, b, 0.25) > depth ? near : far) = 0.5 * (near + far);
             }
-            const double seen = deepestContact(*cubes[0], a, b);
-            for (const auto& cube : cubes) EXPECT_NEAR(deepestContact(*cube, a, b), seen, 1e-6);
+            const double seen = deepestContact(*cubes[0], a, *cubes[0], b);
+            for (const auto& cube : cubes)
+                EXPECT_NEAR(deepestContact(*cube, a, *cube, b), seen, 1e-6);
             missed += seen < 0.5 * depth;
             tooDeep += seen > 1.5 * depth;
         }
@@ -421,7 +414,7 @@ TEST(NearFeatures, CubesAreSeenDeepInEachOtherPastTheEndOfAPieceOfAnEdge)
         Quat(-0.3809176896131415, 0.5637930083262791, 0.5260226719506466, -0.5102345598801525)};
     const double overlap = overlapOfCubes(a, b, 0.25);
     EXPECT_NEAR(overlap, 0.0356, 1e-4);
-    EXPECT_NEAR(deepestContact(*cube, a, b), overlap, 1e-6);
+    EXPECT_NEAR(deepestContact(*cube, a, *cube, b), overlap, 1e-6);
 }
 
 // Seen in another such heap: the rim of a tilted cube cuts the corner off the one below, a
@@ -437,8 +430,8 @@ TEST(NearFeatures, ACubeThatCutsTheCornerOffAnotherIsDeepInIt)
                       -0.63428429598252722)};
     const double overlap = overlapOfCubes(a, b, 0.25);
     EXPECT_NEAR(overlap, 0.0235, 1e-4);
-    EXPECT_NEAR(deepestContact(*cube, a, b), overlap, 1e-5);
-    EXPECT_NEAR(deepestContact(*cube, b, a), overlap, 1e-5);
+    EXPECT_NEAR(deepestContact(*cube, a, *cube, b), overlap, 1e-5);
+    EXPECT_NEAR(deepestContact(*cube, b, *cube, a), overlap, 1e-5);
 }
 
 // Bricks of a wall that begins inside itself. Three corners of four had been seen in a third of all
@@ -558,7 +551,7 @@ TEST(NearFeatures, SharpBodiesAreAboutAsDeepInEachOtherAsTheirEdges)
 }
 
 /// The deepest contact of two bodies, B placed in the frame of A, both as they were made [m].
-double deepestContact(const Shape& a, const Shape& b, const Pose& aFromB)
+double leastGap(const Shape& a, const Shape& b, const Pose& aFromB)
 {
     std::vector<GapContact> contacts;
     NearFeatures().findContacts(
@@ -574,11 +567,11 @@ TEST(NearFeatures, AnEdgeInANotchIsAsDeepAsItIs)
     const auto angle = angleShape(), prism = prismShape();
     const Pose crossing{{0.133726550982, 0.206453677722, 0.237698790755},
                         Quat(-0.736929469201, -0.675260824006, -0.005881356099, 0.030383986506)};
-    EXPECT_LT(deepestContact(*angle, *prism, crossing), -0.004);  // an edge is 7.3 mm inside
+    EXPECT_LT(leastGap(*angle, *prism, crossing), -0.004);  // an edge is 7.3 mm inside
     // They only just touch; edges that pass each other 22 mm inside are no contact.
     const Pose touching{{-0.010177469007, 0.266499578819, 0.231900166171},
                         Quat(-0.588992348126, 0.713577519359, -0.276463517326, 0.259736522850)};
-    EXPECT_GT(deepestContact(*prism, *angle, touching), -1e-4);
+    EXPECT_GT(leastGap(*prism, *angle, touching), -1e-4);
 }
 
 /// The plain twin: distance of two segments as the least of a convex function.

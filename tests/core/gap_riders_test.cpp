@@ -117,22 +117,29 @@ TEST(GapRiders, WhatRollsOffTheEdgeOfAStillPlateFallsFromThere)
     EXPECT_NEAR(0.2 - world.motion[ball].position.y(), fallen, 0.03);
 }
 
-/// A box that a script pushes over the ground, and that brakes.
+/// A box that a script moves along x over the ground: its time and place at each key.
+void addPusher(World& world, MaterialId material, double height,
+               const std::vector<std::pair<double, double>>& keys)
+{
+    BodyDefinition definition;
+    definition.name = "pusher";
+    definition.shape = world.addShape(boxShape(Vec3::Ones(), 1));
+    definition.material = material;
+    definition.kind = BodyKind::keyed;
+    std::vector<MotionKey> moves;
+    for (const auto& [time, x] : keys)
+        moves.push_back({time, {{x, height, 0.0}, Quat::Identity()}});
+    definition.script = std::make_shared<MotionScript>(moves, KeyInterpolation::smooth);
+    world.addBody(definition);
+}
+
 TEST(GapRiders, ABoxThatABrakingPusherLetsGoSlidesOnTheGround)
 {
     constexpr double kFriction = 0.2, kTime = 0.5, kWay = 1.0;
     World world;
     const MaterialId material = addMaterial(world, kFriction, 0.0);
     addPlane(world, material);
-    BodyDefinition definition;
-    definition.name = "pusher";
-    definition.shape = world.addShape(boxShape(Vec3::Ones(), 1));
-    definition.material = material;
-    definition.kind = BodyKind::keyed;
-    const auto at = [](double x) { return Pose{{x, 0.6, 0.0}, Quat::Identity()}; };
-    definition.script = std::make_shared<MotionScript>(
-        std::vector<MotionKey>{{0.0, at(0.0)}, {kTime, at(kWay)}}, KeyInterpolation::smooth);
-    world.addBody(definition);
+    addPusher(world, material, 0.6, {{0.0, 0.0}, {kTime, kWay}});
     const BodyId box =
         addBody(world, boxShape(Vec3::Ones(), 1), material, {{1.0, 0.5, 0.0}, Quat::Identity()});
     const StepSettings settings = screeSettings();
@@ -153,16 +160,7 @@ TEST(GapRiders, APusherThatDrawsBackLeavesWhatItTouchedWhereItIs)
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
     addPlane(world, material);
-    BodyDefinition definition;
-    definition.name = "pusher";
-    definition.shape = world.addShape(boxShape(Vec3::Ones(), 1));
-    definition.material = material;
-    definition.kind = BodyKind::keyed;
-    const auto at = [](double x) { return Pose{{x, 0.5, 0.0}, Quat::Identity()}; };
-    definition.script = std::make_shared<MotionScript>(
-        std::vector<MotionKey>{{0.0, at(-1.1)}, {0.5, at(-0.9)}, {1.0, at(-2.0)}},
-        KeyInterpolation::smooth);
-    world.addBody(definition);
+    addPusher(world, material, 0.5, {{0.0, -1.1}, {0.5, -0.9}, {1.0, -2.0}});
     const BodyId box =
         addBody(world, boxShape(Vec3::Ones(), 1), material, {{0.0, 0.5, 0.0}, Quat::Identity()});
     Stepper stepper(screeSettings());

@@ -10,6 +10,7 @@
 
 #include "core/collision/near_features.h"
 #include "core/math/rotation.h"
+#include "tests/support/deepest_contact.h"
 #include "tests/support/draw.h"
 #include "tests/support/scenes.h"
 
@@ -47,16 +48,6 @@ double overlapOfConvex(const Shape& a, const Pose& poseA, const Shape& b, const 
     for (const ConvexEdge& ofB : b.features.edges())
         for (const Vec3& normal : ofB.faceNormal) tryAxis(poseB.orientation * normal);
     return least;
-}
-
-/// The deepest contact of two bodies [m].
-double deepestContact(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB)
-{
-    std::vector<GapContact> contacts;
-    NearFeatures().findContacts({&a, &b, poseA, poseB}, 0.003, contacts);
-    double deepest = 0.0;
-    for (const GapContact& contact : contacts) deepest = std::max(deepest, -contact.gap);
-    return deepest;
 }
 
 // Of overlaps of a hundredth one in 270 had been told as less than half of what it is, mostly not
