@@ -20,9 +20,11 @@ constexpr double kOneNormal = 0.995;
 /// body would be as far, and rounding would choose [rad].
 constexpr double kOffAxis = 0.15;
 /// The lower hull is looked for in these directions, and from so steep that what stands on a boss
-/// is seen, to so flat that gaps do not count: lengths per gap.
+/// is seen, to so flat that gaps do not count: lengths per gap. What turns by a sixth of a radian
+/// in the step comes down on what is farthest at six: of stones that rolled one in thirty sank by
+/// more than half a per cent without, the worst by 2.5 %.
 constexpr int kDirections = 8;
-constexpr std::array<double, 3> kLengthsPerGap = {1000.0, 30.0, 0.0};
+constexpr std::array<double, 4> kLengthsPerGap = {1000.0, 30.0, 6.0, 0.0};
 /// Gaps that differ by less than this share of the body are one: what lies still must not choose
 /// anew for every hair it sinks.
 constexpr double kSameGap = 5e-4;

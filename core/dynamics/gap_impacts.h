@@ -29,11 +29,12 @@ struct alignas(128) ImpactChange {
 
 struct Impact {
     GapRow* row;
-    bool isCarried;            // as its pair
-    Vec3 velocity;             // relative, at the moment of impact
-    double time;               // within the step
-    double velocityAfter;      // normal velocity that makes it leave as it must
-    Vec3 slid = Vec3::Zero();  // what its lever arms have allowed for
+    bool isCarried;             // as its pair
+    Vec3 velocity;              // relative, at the moment of impact
+    double time;                // within the step
+    double velocityAfter;       // normal velocity that makes it leave as it must
+    Vec3 slid = Vec3::Zero();   // what its lever arms have allowed for
+    bool onlyPrecedes = false;  // a later blow; without one it is left to contacts
 };
 
 /// The pairs of a block by the places of their movable bodies, in the order of visits.

@@ -14,6 +14,7 @@
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
+#include "tests/support/draw.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -280,6 +281,37 @@ TEST(GapBounce, ABodyThatIsStruckLateInAStepDoesNotRunThroughWhatItMeetsBefore)
     stepper.step(world, kStep);
     EXPECT_NEAR(world.motion[0].velocity.x(), -3.0, 1e-6);
     EXPECT_GE((world.motion[2].position - world.motion[0].position).norm(), 1.0);
+}
+
+/// A ball of eighty triangles, battered by up to 15 % and flattened.
+std::shared_ptr<const Shape> stoneShape(std::uint64_t seed)
+{
+    TriMesh mesh = makeSphere(0.25, 1);
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
+        mesh.points.col(v) *= 1.0 + 0.15 * signedUnit(seed, static_cast<std::uint64_t>(v));
+        mesh.points(1, v) *= 0.7;
+    }
+    return buildMeshShape("stone", mesh);
+}
+
+TEST(GapBounce, AStoneThatRollsDoesNotSinkWhileItsNextCornerComesDown)
+{
+    for (std::uint64_t stone = 0; stone < 12; ++stone) {
+        const auto shape = stoneShape(77 + stone);
+        for (std::uint64_t n = 0; n < 100; ++n) {
+            World world;
+            const MaterialId material = addMaterial(world, 0.45, 0.1);
+            addPlane(world, material);
+            addBody(world, shape, material,
+                    {Vec3(0.0, 0.6, 0.0), exponentialMap(3.0 * signedUnits(n, 0))}, 1.0,
+                    {2.0 + 4.0 * randomUnit(7, n, 9), 0.0, 0.0}, 5.0 * signedUnits(n, 3));
+            Stepper stepper(screeSettings());
+            double deepest = 0.0;
+            for (int i = 0; i < 96; ++i)
+                deepest = std::max(deepest, stepper.step(world, 1.0 / 96.0).worstOverlapRatio);
+            EXPECT_LT(deepest, 4e-3) << stone << ", " << n;
+        }
+    }
 }
 
 /// A ball that falls `drop` and keeps all its speed: the heights of its lowest point after each
