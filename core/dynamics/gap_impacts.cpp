@@ -30,9 +30,6 @@ constexpr double kPairIsSolved = 3e-4;  // of the speed of the impact
 /// What arrives by so many times what it falls in a step is stopped where it arrives, also if it
 /// does not bounce. As a contact it would be stopped little by little over two steps, where it
 /// turns by then: of rods that landed on an end, e = 0, the spin they got was up to two fifths off.
-/// What lies on something already is left to contacts all the same, unless it bounces later in the
-/// step: until then it would run on. A stone that rolled sank 4 mm under the corner it rolled over,
-/// while the next one came down.
 constexpr double kLands = 3.0;
 
 /// Places that are hit within this share of a step are hit together.
@@ -146,16 +143,18 @@ bool ImpactVisits::impactOf(const GapPair& pair, GapRow& row, Impact& impact) co
     // if both are free to fall.
     const double most = strongerPull(a, b);
     const double pull = pair.isCarried ? most : (b.pull - a.pull).dot(row.normal);
-    const bool lands = -speed > kLands * most * state_.dt;
+    const bool lands = !pair.isCarried && -speed > kLands * most * state_.dt;
     const bool bounces = 2.0 * row.restitution * -speed > pull * (state_.dt - time);
-    if (!lands && !bounces) return false;
+    // The rest is left to contacts, unless a blow comes later in the step: until then the body
+    // would run on. A stone that rolled sank by a hundredth of its size under one corner, while the
+    // next came down.
     impact = {&row,
               pair.isCarried,
               relative + time * gravity,
               time,
               u - (1.0 + row.restitution) * speed,
               Vec3::Zero(),
-              pair.isCarried && !bounces};
+              !lands && !bounces};
     return true;
 }
 
