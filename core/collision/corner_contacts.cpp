@@ -1,5 +1,4 @@
-// Symbols: p a corner in the frame of the body whose surface it nears, n normal out of that
-//          surface.
+// Symbols: p a corner in the frame of the body whose surface it nears.
 #include "core/collision/corner_contacts.h"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A corner of the first shape, and what may be said of it.
+/// A corner of the first shape, at p in the frame of the second, and the answers there are.
 struct Corner {
     const RelativePair& pair;
     std::int32_t index;
@@ -36,22 +35,22 @@ struct Corner {
         return rises > 0.0 && field().value(p + 0.5 * depth / rises * inward) < 0.0;
     }
 
-    FacedCorner touches(const Vec3& normal, double gap) const
+    FacedCorner touching(const Vec3& normal, double gap) const
     {
         return {FeatureContact{p, normal, gap}, {}};
     }
-    static FacedCorner isBetween(double least, double most) { return {{}, {}, least, most}; }
-    static FacedCorner isApart(double distance) { return isBetween(distance, distance); }
+    static FacedCorner between(double least, double most) { return {{}, {}, least, most}; }
+    static FacedCorner apart(double distance) { return between(distance, distance); }
 
-    /// It would not stand on what is nearest.
-    FacedCorner isUnsupported(const Vec3& normal, double gap) const
+    /// Where it cannot stand on what is nearest.
+    FacedCorner unsupported(const Vec3& normal, double gap) const
     {
-        if (gap >= 0.0) return isApart(gap);
+        if (gap >= 0.0) return apart(gap);
         return {{}, FeatureContact{p, normal, gap}};
     }
 };
 
-/// The contact with the face that a corner stands on whose distance is `value`.
+/// The contact with the face that a corner stands on; `value` is its distance from the surface.
 std::optional<FeatureContact> faceStoodOn(const Corner& corner, double value, double sharpness)
 {
     // Corners of aligned blocks lie within rounding of several faces, of which only one can be
@@ -85,12 +84,12 @@ FacedCorner faceNearest(const Corner& corner, const SignedDistance::Nearest& nea
     if (!isAtEdge) {
         const Vec3 direct =
             nearest.onFace ? nearest.normal : Vec3((corner.p - nearest.point) / nearest.value);
-        if (corner.supports(direct)) return corner.touches(direct, nearest.value);
+        if (corner.supports(direct)) return corner.touching(direct, nearest.value);
         // From here edges meet there, if any do.
-        if (nearest.value >= sharpness) return Corner::isApart(nearest.value);
+        if (nearest.value >= sharpness) return Corner::apart(nearest.value);
     }
     const std::optional<FeatureContact> best = faceStoodOn(corner, nearest.value, sharpness);
-    if (!best) return corner.isUnsupported(nearest.normal, nearest.value);
+    if (!best) return corner.unsupported(nearest.normal, nearest.value);
     return {best, {}};
 }
 
@@ -98,12 +97,12 @@ FacedCorner faceNearest(const Corner& corner, const SignedDistance::Nearest& nea
 /// where the way out is all that is asked.
 FacedCorner faceBySlope(const Corner& corner, double value, double reach, double sharpness)
 {
-    if (value >= reach) return Corner::isApart(value);
+    if (value >= reach) return Corner::apart(value);
     const Vec3 gradient = corner.field().gridGradient(corner.p), normal = gradient.normalized();
-    if (!normal.allFinite()) return Corner::isApart(0.0);
-    if (corner.supports(normal)) return corner.touches(normal, value);
+    if (!normal.allFinite()) return Corner::apart(0.0);
+    if (corner.supports(normal)) return corner.touching(normal, value);
     const bool mayBeAtEdge = corner.field().solid() && value < sharpness;
-    if (!mayBeAtEdge) return corner.isUnsupported(normal, value);
+    if (!mayBeAtEdge) return corner.unsupported(normal, value);
     return faceNearest(corner, {value, corner.p, true, gradient}, sharpness);
 }
 
@@ -113,14 +112,14 @@ FacedCorner faceFromAfar(const Corner& corner, double gridValue, double reach)
 {
     const SignedDistance& field = corner.field();
     if (gridValue >= reach)
-        return Corner::isBetween(field.lowerBound(corner.p, gridValue), kInfinity);
+        return Corner::between(field.lowerBound(corner.p, gridValue), kInfinity);
     const auto seen = field.nearestFromAfar(corner.p);
     const double gap = seen ? seen->value : field.upperBound(corner.p);
     const Vec3 normal =
         seen ? Vec3((corner.p - seen->point) / gap) : field.gridGradient(corner.p).normalized();
     if (gap < reach && normal.allFinite() && corner.supports(normal))
-        return corner.touches(normal, gap);
-    return Corner::isBetween(field.lowerBound(corner.p, gridValue), gap);
+        return corner.touching(normal, gap);
+    return Corner::between(field.lowerBound(corner.p, gridValue), gap);
 }
 
 }  // namespace
@@ -130,14 +129,14 @@ FacedCorner faceCorner(const RelativePair& pair, std::int32_t index, double reac
     const Corner corner{pair, index, pair * pair.first.features.points().col(index)};
     if (pair.second.isPlane) {
         const double height = corner.p.y();
-        return height < reach ? corner.touches(Vec3::UnitY(), height) : Corner::isApart(height);
+        return height < reach ? corner.touching(Vec3::UnitY(), height) : Corner::apart(height);
     }
     const SignedDistance& field = pair.second.distance;
     const double value = field.gridValue(corner.p), band = field.refinementBand();
     if (field.solid() || value <= -band) return faceBySlope(corner, value, reach, sharpness);
     if (value >= band) return faceFromAfar(corner, value, reach);
     const SignedDistance::Nearest nearest = field.nearest(corner.p);
-    if (nearest.value >= reach) return Corner::isApart(nearest.value);
+    if (nearest.value >= reach) return Corner::apart(nearest.value);
     return faceNearest(corner, nearest, sharpness);
 }
 
