@@ -103,11 +103,8 @@ public:
     /// Throws Error{cannotCreate}.
     explicit AlembicArchive(const std::filesystem::path& path);
 
-    /// Samples every `step` seconds from `start` on; returns the index for AlembicLayout::sampling.
-    int addUniformSampling(double start, double step) { return addCyclicSampling({start}, step); }
-
     /// Samples at the given times, ascending within less than `step` seconds, and again every
-    /// `step` seconds.
+    /// `step` seconds; returns the index for AlembicLayout::sampling.
     int addCyclicSampling(std::vector<double> times, double step);
 
     AlembicSample writeScalar(std::string_view bytes);

@@ -107,9 +107,4 @@ TriMesh joinedMesh(const ImportedFile& file, const std::string& path)
     return joinedMesh(file);
 }
 
-TriMesh importMesh(const std::string& path)
-{
-    return joinedMesh(importFile(path), path);
-}
-
 }  // namespace scree

@@ -80,7 +80,4 @@ TriMesh joinedMesh(const ImportedFile& file);
 /// joinedMesh of a file. Throws Error{badInput} when a node is unusable.
 TriMesh joinedMesh(const ImportedFile& file, const std::string& path);
 
-/// joinedMesh of importFile.
-TriMesh importMesh(const std::string& path);
-
 }  // namespace scree

@@ -47,6 +47,15 @@ const SrgbTable& srgbTable()
     return table;
 }
 
+std::uint8_t encoded(const SrgbTable& table, float linear)
+{
+    if (!(linear > 0.0f)) return 0;  // NaN is black too
+    const float clamped = std::min(linear, 1.0f);
+    int byte = table.firstByte[static_cast<int>(clamped * SrgbTable::kBucketCount)];
+    while (table.threshold[byte] <= clamped) ++byte;
+    return static_cast<std::uint8_t>(byte);
+}
+
 /// What one new row or column of a downscaled picture covers of the old one.
 struct Coverage {
     int first = 0;
@@ -127,29 +136,6 @@ void Image::set(int x, int y, const Color& color)
     for (int channel = 0; channel < 3; ++channel) values[i + channel] = color[channel];
 }
 
-namespace {
-
-std::uint8_t encoded(const SrgbTable& table, float linear)
-{
-    if (!(linear > 0.0f)) return 0;  // NaN is black too
-    const float clamped = std::min(linear, 1.0f);
-    int byte = table.firstByte[static_cast<int>(clamped * SrgbTable::kBucketCount)];
-    while (table.threshold[byte] <= clamped) ++byte;
-    return static_cast<std::uint8_t>(byte);
-}
-
-}  // namespace
-
-std::uint8_t encodeSrgb(float linear)
-{
-    return encoded(srgbTable(), linear);
-}
-
-float decodeSrgb(std::uint8_t encoded)
-{
-    return srgbTable().linear[encoded];
-}
-
 std::vector<std::uint8_t> toSrgbBytes(const Image& image)
 {
     const SrgbTable& table = srgbTable();
@@ -162,7 +148,9 @@ Image fromSrgbBytes(int width, int height, std::span<const std::uint8_t> bytes)
 {
     Image image(width, height);
     SCREE_CHECK(bytes.size() == image.values.size(), "bytes do not fill the image");
-    std::transform(bytes.begin(), bytes.end(), image.values.begin(), decodeSrgb);
+    const SrgbTable& table = srgbTable();
+    std::transform(bytes.begin(), bytes.end(), image.values.begin(),
+                   [&](std::uint8_t byte) { return table.linear[byte]; });
     return image;
 }
 

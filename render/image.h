@@ -30,16 +30,11 @@ private:
     std::size_t indexOf(int x, int y) const;
 };
 
-/// The byte nearest to the sRGB encoding of a linear value, which is clamped to 0 … 1 first.
-std::uint8_t encodeSrgb(float linear);
-
-/// The linear value of an sRGB byte; encodeSrgb(decodeSrgb(b)) == b for all 256 bytes.
-float decodeSrgb(std::uint8_t encoded);
-
-/// All pixels as sRGB bytes, three each, in the order of Image.
+/// All pixels as sRGB bytes, three each, in the order of Image: the bytes nearest to the encoding
+/// of linear values, which are clamped to 0 … 1 first.
 std::vector<std::uint8_t> toSrgbBytes(const Image& image);
 
-/// The opposite: width × height × 3 sRGB bytes, top row first.
+/// The opposite: width × height × 3 sRGB bytes, top row first. toSrgbBytes gives the same back.
 Image fromSrgbBytes(int width, int height, std::span<const std::uint8_t> bytes);
 
 /// From OpenGL's memory: width × height × 4 sRGB bytes, bottom row first, the fourth ignored.

@@ -287,10 +287,7 @@ Command addCheckCommand(CLI::App& program)
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->add_flag("--no-cache", options->noCache,
                       "Build every distance field anew and keep none");
-    command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
+    addOverrides(*command, options->overrides);
     command->footer(
         "Ends with 65 when sim would refuse the shot.\n"
         "Example:\n  scree check shots/rings_100.toml");

@@ -222,6 +222,14 @@ std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
     return std::max(static_cast<int>(std::ceil(*least)), 1);
 }
 
+void addOverrides(CLI::App& command, std::vector<std::string>& overrides)
+{
+    command.add_option("--set", overrides, "KEY=VALUE: override a key of the shot")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+}
+
 void addImportLimits(CLI::App& command, ImportLimits& limits)
 {
     for (const LimitFlag& limit : kLimitFlags) {

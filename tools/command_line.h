@@ -44,6 +44,9 @@ int threadsToUse(std::optional<int> asked);
 std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
                                   const std::filesystem::path& cgroupOfProcess);
 
+/// Adds --set, which may stand many times. `overrides` must outlive the command.
+void addOverrides(CLI::App& command, std::vector<std::string>& overrides);
+
 /// Adds the flags that change what an asset may hold: --import-points and the like. `limits` must
 /// outlive the command.
 void addImportLimits(CLI::App& command, ImportLimits& limits);

@@ -230,10 +230,7 @@ Command addSettleCommand(CLI::App& program)
         ->check(CLI::Range(1e-12, 1.0));
     addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");
-    command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
+    addOverrides(*command, options->overrides);
     command->footer(
         "Ends with 79 when something still moves at the end; the pose is written all the same.\n"
         "Example:\n  scree settle shots/rings_100.toml -o rings.json");

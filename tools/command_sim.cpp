@@ -418,10 +418,7 @@ Command addSimCommand(CLI::App& program)
                         "so when there is nothing to resume");
     command->add_flag("--no-cache", options->noCache,
                       "Build every distance field anew and keep none");
-    command->add_option("--set", options->overrides, "KEY=VALUE: override a key of the shot")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
+    addOverrides(*command, options->overrides);
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
     command->footer(
         "Stops cleanly on SIGINT and SIGTERM (exit code 75); SIGUSR1 saves and goes on.\n"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/base/sorted.h"
 
 namespace scree {
 namespace {
@@ -159,8 +160,7 @@ void BroadPhase::pairFew(const std::vector<Aabb>& boxes, const std::vector<BodyM
     });
     pairs_.clear();
     appendAll(found, pairs_);
-    std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    sortUnique(pairs_);
 }
 
 /// Calls visit(body) for those that have been entered in the cells of a box, or for all where these

@@ -48,7 +48,7 @@ bool anyResistsSpin(const GapScratch& scratch, const GapIsland& island)
 
 /// `now` goes a share of its last way again, which then ends there.
 template <class Number, class Vector>
-void goFurther(Number share, const Vector& before, Vector& way, Vector& now)
+void extrapolate(Number share, const Vector& before, Vector& way, Vector& now)
 {
     const Vector step = share * way;
     way = step + (now - before);
@@ -326,8 +326,8 @@ void GapLanes::begin(Section& section)
     }
 }
 
-/// The last goOn of the bodies of a section.
-void GapLanes::goOn(const Section& section)
+/// What the last goOn has decided, for the bodies of a section.
+void GapLanes::extrapolateBodies(const Section& section)
 {
     for (std::size_t i = section.firstBody; i < section.endBody; ++i) {
         LaneBody& body = bodies_[i];
@@ -335,41 +335,41 @@ void GapLanes::goOn(const Section& section)
         if (beginsAnew_) {
             way = LaneBody{};
         } else {
-            goFurther(share_, before.velocity, way.velocity, body.velocity);
-            goFurther(share_, before.spin, way.spin, body.spin);
+            extrapolate(share_, before.velocity, way.velocity, body.velocity);
+            extrapolate(share_, before.spin, way.spin, body.spin);
         }
         before = body;
     }
 }
 
-/// The last goOn of a row.
+/// The same for a row.
 template <bool kRolls>
-inline void GapLanes::goOn(Section& section, std::size_t place) const
+inline void GapLanes::extrapolateRow(Section& section, std::size_t place) const
 {
-    const auto go = [&](Lanes3& before, Lanes3& way, Lanes3& now) {
+    const auto extrapolateOne = [&](Lanes3& before, Lanes3& way, Lanes3& now) {
         if (beginsAnew_)
             way = Lanes3{};
         else
-            goFurther(lanesOf(share_), before, way, now);
+            extrapolate(lanesOf(share_), before, way, now);
         before = now;
     };
     Row& row = section.rows[place];
-    go(row.before, row.way, row.impulse);
+    extrapolateOne(row.before, row.way, row.impulse);
     if constexpr (kRolls) {
         Roll& roll = section.rolls[place];
-        go(roll.before, roll.way, roll.couple);
+        extrapolateOne(roll.before, roll.way, roll.couple);
     }
 }
 
 template <bool kRolls>
 void GapLanes::sweepUp(Section& section)
 {
-    goOn(section);
+    extrapolateBodies(section);
     section.residual = section.squaredSpeed = kNoLanes;
     for (const Batch& batch : section.batches) {
         Motion motion(batch, bodies_);
         for (std::size_t r = batch.begin; r < batch.end; ++r) {
-            goOn<kRolls>(section, r);
+            extrapolateRow<kRolls>(section, r);
             const Lanes3 u = velocityAt(section.rows[r], batch, motion);
             section.squaredSpeed = maxOf(section.squaredSpeed, dot(u, u));
             visit<kRolls>(r, batch, u, motion, section);
@@ -423,9 +423,8 @@ double GapLanes::goOn(double energyBefore)
 {
     double energy = 0.0;
     for (const Section& section : sections_) energy += sumOf(section.energy);
-    const double beta = shareOfLastWay(energy, energyBefore);
-    beginsAnew_ = beta > 1.0;  // the active set has changed
-    share_ = beta;
+    share_ = shareOfLastWay(energy, energyBefore);
+    beginsAnew_ = share_ > 1.0;  // the active set has changed
     return energy;
 }
 

@@ -53,10 +53,10 @@ private:
         Lanes3 rA, normal, tangent;
         Lanes target = kNoLanes, friction = kNoLanes;
         Lanes normalMass = kNoLanes, inverseNormalMass = kNoLanes;
-        Lanes turnsIntoTangent = kNoLanes,
-              turnsIntoSecond = kNoLanes;  // velocity by a unit normal impulse
-        Lanes massTt = kNoLanes, massTs = kNoLanes, massSs = kNoLanes, slideMass = kNoLanes,
-              inverseSlideMass = kNoLanes;
+        Lanes turnsIntoTangent = kNoLanes;  // velocity by a unit normal impulse
+        Lanes turnsIntoSecond = kNoLanes;
+        Lanes massTt = kNoLanes, massTs = kNoLanes, massSs = kNoLanes;
+        Lanes slideMass = kNoLanes, inverseSlideMass = kNoLanes;
         Lanes3 impulse, before, way;  // along normal, tangent, second
     };
     /// What of a row resists rolling and spinning.
@@ -106,9 +106,9 @@ private:
     void layOut(const GapScratch& scratch, std::span<const std::size_t> pairs, Section& section);
     void schedule(const GapScratch& scratch, std::span<const std::size_t> pairs, Section& section);
     std::int32_t batchFor(std::size_t rows, std::int32_t earliest, Section& section) const;
-    void goOn(const Section& section);
+    void extrapolateBodies(const Section& section);
     template <bool kRolls>
-    void goOn(Section& section, std::size_t place) const;
+    void extrapolateRow(Section& section, std::size_t place) const;
     template <bool kRolls>
     void sweepUp(Section& section);
     template <bool kRolls>

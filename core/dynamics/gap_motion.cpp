@@ -1,9 +1,9 @@
 #include "core/dynamics/gap_motion.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/base/sorted.h"
 #include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
@@ -104,8 +104,7 @@ void goRoundWithKeyed(const World& world, double dt, const GapIsland& island, Ga
         }
     }
     if (turning.empty()) return;
-    std::sort(turning.begin(), turning.end());
-    turning.erase(std::unique(turning.begin(), turning.end()), turning.end());
+    sortUnique(turning);
     for (const BodyId mover : moversOf(scratch, island)) {
         GapBody& body = scratch.bodies[mover];
         for (const BodyId id : turning) {

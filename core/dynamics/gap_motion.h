@@ -1,5 +1,5 @@
-// The end of a step of method `scree`: velocities back into the world, everything moved, and what
-// still overlaps drawn apart.  [GBF03 “Time Integration”], [A17–A19, A52; algorithm 14.1]
+// The end of a step of method `scree`: velocities go back into the world, and everything is moved.
+// [GBF03 “Time Integration”], [A17–A19; algorithm 14.1]
 #pragma once
 
 #include "core/dynamics/gap_scratch.h"

@@ -7,6 +7,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
+#include "core/base/sorted.h"
 
 namespace scree {
 namespace {
@@ -225,8 +226,7 @@ std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island)
             if (scratch.bodies[body].inverseMass > 0.0) movers.push_back(body);
         }
     }
-    std::sort(movers.begin(), movers.end());
-    movers.erase(std::unique(movers.begin(), movers.end()), movers.end());
+    sortUnique(movers);
     return movers;
 }
 

@@ -10,7 +10,7 @@
 #include "core/dynamics/gap_lag.h"
 #include "core/dynamics/gap_pace.h"
 #include "core/dynamics/impulse.h"
-#include "core/dynamics/sleep.h"
+#include "core/dynamics/waking.h"
 
 namespace scree {
 namespace {

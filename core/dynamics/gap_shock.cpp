@@ -7,6 +7,7 @@
 
 #include "core/base/groups.h"
 #include "core/base/parallel.h"
+#include "core/base/sorted.h"
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_pairs.h"
@@ -80,8 +81,7 @@ public:
             if (row.movesA) movers.push_back(row.a);
             if (row.movesB) movers.push_back(row.b);
         }
-        std::sort(movers.begin(), movers.end());
-        movers.erase(std::unique(movers.begin(), movers.end()), movers.end());
+        sortUnique(movers);
         for (BodyId body : movers) {
             const GapBody& b = scratch.bodies[body];
             before_.push_back({body, b.velocity, b.spin, b.inverseInertia.inverse()});

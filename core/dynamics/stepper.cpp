@@ -34,6 +34,7 @@
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/step_limit.h"
 #include "core/dynamics/step_view.h"
+#include "core/dynamics/waking.h"
 
 namespace scree {
 namespace {

@@ -74,7 +74,27 @@ std::optional<FacingWeights> facingWeights(const Mat3& normals, const Vec3& dire
     return FacingWeights{weights / sum, inverse / sum};
 }
 
-/// The same of the edge opposite a corner, give or take a tilt along the other way.
+/// Shares of two normals in a direction, give or take a tilt along the axis across both, and how
+/// they change with it.
+struct FacingShares {
+    double ofP, ofQ;  // they add up to 1; one is negative when the direction lies outside
+    Eigen::RowVector3d changeOfP, changeOfQ;
+};
+
+/// Nothing when the normals look the other way.
+std::optional<FacingShares> facingBetween(const Vec3& p, const Vec3& q, const Vec3& axis,
+                                          const Vec3& direction)
+{
+    Mat3 frame;
+    frame << p, q, axis;
+    const Mat3 inverse = frame.inverse();
+    const double sum = (inverse.row(0) + inverse.row(1)).dot(direction);
+    if (!(sum > 0.0)) return std::nullopt;
+    return FacingShares{inverse.row(0).dot(direction) / sum, inverse.row(1).dot(direction) / sum,
+                        inverse.row(0) / sum, inverse.row(1) / sum};
+}
+
+/// facingWeights of the edge opposite a corner.
 std::optional<FacingWeights> facingEdge(const Mat3& normals, Eigen::Index opposite,
                                         const Vec3& direction)
 {
@@ -82,20 +102,23 @@ std::optional<FacingWeights> facingEdge(const Mat3& normals, Eigen::Index opposi
     const Vec3 p = normals.col(i), q = normals.col(j), out = p.cross(q);
     if (out.norm() < kBends) return std::nullopt;
     if (std::abs(out.dot(direction)) > kTilt * out.norm()) return std::nullopt;
-    Mat3 edge;
-    edge.col(0) = p;
-    edge.col(1) = q;
-    edge.col(2) = out.normalized();
-    const Mat3 inverse = edge.inverse();
-    const double sum = (inverse.row(0) + inverse.row(1)).dot(direction);
-    if (!(sum > 0.0)) return std::nullopt;
+    const auto shares = facingBetween(p, q, out.normalized(), direction);
+    if (!shares || std::min(shares->ofP, shares->ofQ) < kOnEdge) return std::nullopt;
     FacingWeights found{Vec3::Zero(), Mat3::Zero()};
-    for (const auto& [corner, row] : {std::pair(i, 0), std::pair(j, 1)}) {
-        found.weights[corner] = inverse.row(row).dot(direction) / sum;
-        found.change.row(corner) = inverse.row(row) / sum;
-    }
-    if (found.weights.minCoeff() < kOnEdge) return std::nullopt;
+    found.weights[i] = shares->ofP;
+    found.weights[j] = shares->ofQ;
+    found.change.row(i) = shares->changeOfP;
+    found.change.row(j) = shares->changeOfQ;
     return found;
+}
+
+/// What is zero stays so.
+void normalizeAll(Points& vectors)
+{
+    for (Eigen::Index v = 0; v < vectors.cols(); ++v) {
+        const Vec3 vector = vectors.col(v);
+        vectors.col(v) = vector.normalized();
+    }
 }
 
 }  // namespace
@@ -103,6 +126,9 @@ std::optional<FacingWeights> facingEdge(const Mat3& normals, Eigen::Index opposi
 SmoothSurface::SmoothSurface(const TriMesh& mesh) : mesh_(mesh)
 {
     const Eigen::Index vertexCount = mesh.points.cols(), triangleCount = mesh.triangles.cols();
+
+    // Weigh the normals around every vertex by the angles there, count the triangles that have it,
+    // and pair those that share an edge.
     normals_.setZero(3, vertexCount);
     fanStart_.assign(static_cast<std::size_t>(vertexCount) + 1, 0);
     std::map<std::pair<int, int>, std::pair<std::int32_t, int>> cornerOfEdge;
@@ -125,11 +151,9 @@ SmoothSurface::SmoothSurface(const TriMesh& mesh) : mesh_(mesh)
             beyond_[other->second.first][other->second.second] = triangle;
         }
     }
-    for (Eigen::Index v = 0; v < vertexCount; ++v) {
-        const Vec3 sum = normals_.col(v);
-        normals_.col(v) = sum.normalized();
-    }
+    normalizeAll(normals_);
 
+    // List the triangles around every vertex.
     for (std::size_t v = 0; v + 1 < fanStart_.size(); ++v) fanStart_[v + 1] += fanStart_[v];
     fan_.resize(static_cast<std::size_t>(3 * triangleCount));
     std::vector<std::int32_t> next(fanStart_.begin(), fanStart_.end() - 1);
@@ -171,10 +195,7 @@ void SmoothSurface::findRoundNormals()
             roundNormals_.col(v) += own / ((next - p).squaredNorm() * (last - p).squaredNorm());
         }
     }
-    for (Eigen::Index v = 0; v < roundNormals_.cols(); ++v) {
-        const Vec3 sum = roundNormals_.col(v);
-        roundNormals_.col(v) = sum.normalized();
-    }
+    normalizeAll(roundNormals_);
 }
 
 void SmoothSurface::findRoundFacets()
@@ -322,21 +343,18 @@ SmoothSurface::Search SmoothSurface::findAcross(std::int32_t& triangle, const Ve
         const std::optional<SideFacet> side = sideFacetAt(triangle);
         if (!side) return Search::elsewhere;
         const int k = side->beside, one = (k + 1) % 3, other = (k + 2) % 3;
-        Mat3 frame;
-        frame.col(0) = side->normalOfLine();
-        frame.col(1) = side->facet.normals.col(k);
-        frame.col(2) = side->axis;
-        const Mat3 inverse = frame.inverse();
-        const double sum = (inverse.row(0) + inverse.row(1)).dot(direction);
-        if (!(sum > 0.0)) return Search::elsewhere;
-        const double beside = inverse.row(1).dot(direction) / sum;
+        const Vec3 normalBeside = side->facet.normals.col(k);
+        const auto shares =
+            facingBetween(side->normalOfLine(), normalBeside, side->axis, direction);
+        if (!shares) return Search::elsewhere;
+        const double beside = shares->ofQ;
         if (beside >= kOnEdge && beside <= 1.0 - kOnEdge) {
             Vec3 weights;
             Mat3 change;
             weights[k] = beside;
             weights[one] = weights[other] = 0.5 * (1.0 - beside);
-            change.row(k) = inverse.row(1) / sum;
-            change.row(one) = change.row(other) = 0.5 * inverse.row(0) / sum;
+            change.row(k) = shares->changeOfQ;
+            change.row(one) = change.row(other) = 0.5 * shares->changeOfP;
             place = placeAt(side->facet, weights, change);
             return Search::found;
         }
@@ -349,7 +367,7 @@ SmoothSurface::Search SmoothSurface::findAcross(std::int32_t& triangle, const Ve
         double nearest = -1.0;
         for (const int across : {one, other}) {
             const std::optional<SideFacet> there = sideFacetAt(beyond_[triangle][across]);
-            const double same = there ? there->normalOfLine().dot(frame.col(1)) : -1.0;
+            const double same = there ? there->normalOfLine().dot(normalBeside) : -1.0;
             if (same <= nearest) continue;
             nearest = same;
             next = beyond_[triangle][across];

@@ -44,8 +44,10 @@ void keepFacing(const RTCFilterFunctionNArguments* arguments)
     if (!wanted) arguments->valid[0] = 0;
 }
 
-/// A thousandth more than the reach: the mesh in single precision may lie a little farther.
-RTCPointQuery queryAround(const Vec3& point, double reach)
+/// Hands the triangles around a point to `visit`, and a thousandth more than the reach: the mesh in
+/// single precision may lie a little farther.
+void visitAround(RTCScene scene, const Vec3& point, double reach, RTCPointQueryFunction visit,
+                 void* found)
 {
     RTCPointQuery query;
     query.x = static_cast<float>(point.x());
@@ -53,7 +55,9 @@ RTCPointQuery queryAround(const Vec3& point, double reach)
     query.z = static_cast<float>(point.z());
     query.radius = static_cast<float>(reach * 1.001);
     query.time = 0.0f;
-    return query;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene, &query, &context, visit, found);
 }
 
 }  // namespace
@@ -148,11 +152,8 @@ int SurfaceRays::closestTriangle(const Vec3& point, double reach) const
         int triangle = -1;
     } state{&scene_->mesh, point};
 
-    RTCPointQuery query = queryAround(point, reach);
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(
-        scene_->scene, &query, &context,
+    visitAround(
+        scene_->scene, point, reach,
         [](RTCPointQueryFunctionArguments* arguments) {
             auto& found = *static_cast<Query*>(arguments->userPtr);
             const int triangle = static_cast<int>(arguments->primID);
@@ -180,11 +181,8 @@ void SurfaceRays::trianglesWithin(const Vec3& point, double reach,
                                   std::vector<int>& triangles) const
 {
     triangles.clear();
-    RTCPointQuery query = queryAround(point, reach);
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(
-        scene_->scene, &query, &context,
+    visitAround(
+        scene_->scene, point, reach,
         [](RTCPointQueryFunctionArguments* arguments) {
             auto& found = *static_cast<std::vector<int>*>(arguments->userPtr);
             found.push_back(static_cast<int>(arguments->primID));

@@ -11,6 +11,7 @@
 #include "render/png_writer.h"
 #include "render/rasterizer.h"
 #include "render/ray_tracer.h"
+#include "tests/support/import_mesh.h"
 #include "tests/support/preview_scene.h"
 #include "tests/support/support.h"
 

@@ -11,18 +11,10 @@
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
+#include "tests/support/draw.h"
 
 namespace scree::test {
 namespace {
-
-Vec3 drawIn(const Aabb& box, std::uint64_t i, std::uint64_t what)
-{
-    Vec3 p;
-    for (int k = 0; k < 3; ++k) {
-        p[k] = box.min[k] + box.size()[k] * randomUnit(what, i, static_cast<std::uint64_t>(k));
-    }
-    return p;
-}
 
 std::shared_ptr<const Shape> stored(const TriMesh& mesh, FieldStorage storage)
 {
@@ -52,7 +44,7 @@ TEST(E21FieldStorage, BricksPromiseNoMoreDistanceThanThereIs)
     const auto bricks = stored(makeSphere(radius, 4), FieldStorage::bricks);
     ASSERT_GT(coarseBlocks(*bricks), 10);
     for (std::uint64_t i = 0; i < 100000; ++i) {
-        const Vec3 p = drawIn(bricks->box.grown(0.05), i, 32);
+        const Vec3 p = randomPlace(32, i, bricks->box.grown(0.05));
         const double exact = p.norm() - radius;
         ASSERT_LE(bricks->distance.lowerBound(p), exact + sag) << p.transpose();
         // What a block says unasked holds as well.
@@ -71,7 +63,7 @@ TEST(E21FieldStorage, BricksHaveNoCracksBetweenFineAndCoarse)
         const double h = nodes.layout.spacing;
         for (std::uint64_t i = 0; i < 20000; ++i) {
             // Two points astride a plane between blocks, a millionth of a cell apart.
-            Vec3 low = drawIn(bricks->box, i, 34);
+            Vec3 low = randomPlace(34, i, bricks->box);
             const int axis = static_cast<int>(i % 3);
             const double block = std::round((low[axis] - nodes.layout.origin[axis]) / (8.0 * h));
             low[axis] = nodes.layout.origin[axis] + 8.0 * h * block - 5e-7 * h;

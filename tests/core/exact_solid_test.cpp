@@ -5,23 +5,14 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/random.h"
 #include "core/collision/interference.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
+#include "tests/support/draw.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
 namespace {
-
-Vec3 randomPoint(std::uint64_t i, const Aabb& box)
-{
-    Vec3 p;
-    for (int k = 0; k < 3; ++k) {
-        p[k] = box.min[k] + box.size()[k] * randomUnit(9, i, static_cast<std::uint64_t>(k));
-    }
-    return p;
-}
 
 std::vector<ExactSolid> solids()
 {
@@ -34,7 +25,7 @@ TEST(ExactSolid, GradientIsThatOfTheDistanceAndOfUnitLength)
     for (const ExactSolid& solid : solids()) {
         int compared = 0;
         for (std::uint64_t i = 0; i < 20000; ++i) {
-            const Vec3 p = randomPoint(i, solid.box().grown(0.5));
+            const Vec3 p = randomPlace(9, i, solid.box().grown(0.5));
             const Vec3 gradient = solid.gradient(p);
             EXPECT_NEAR(gradient.norm(), 1.0, 1e-12);
             constexpr double kStep = 1e-5;
@@ -57,8 +48,8 @@ TEST(ExactSolid, AWayEntersAtTheSurfaceOrNotAtAll)
     for (const ExactSolid& solid : solids()) {
         int entered = 0;
         for (std::uint64_t i = 0; i < 20000; ++i) {
-            const Vec3 from = randomPoint(2 * i, solid.box().grown(0.5));
-            const Vec3 to = randomPoint(2 * i + 1, solid.box());
+            const Vec3 from = randomPlace(9, 2 * i, solid.box().grown(0.5));
+            const Vec3 to = randomPlace(9, 2 * i + 1, solid.box());
             if (solid.value(to) > 0.0) continue;
             const auto place = solid.entry(from, to, 1e-9);
             EXPECT_EQ(place.has_value(), solid.value(from) > 0.0);
@@ -81,12 +72,12 @@ TEST(E21SignedDistance, MeshesOfExactSolidsAgreeWithTheirFormulas)
     // Facets of 0.033 R lie R (0.033)²/6 inside the sphere at their middles.
     const double allowed = 0.3 * h * h / 0.5 + 0.5 * 0.033 * 0.033 / 6.0;
     for (std::uint64_t i = 0; i < 50000; ++i) {
-        const Vec3 p = randomPoint(i, box->box.grown(0.1));
+        const Vec3 p = randomPlace(9, i, box->box.grown(0.1));
         const double exact = exactBoxSolid.value(inverse(box->bodyFromAsset) * p);
         if (std::abs(exact) < 0.5 * box->distance.spacing()) {
             EXPECT_NEAR(box->distance.value(p), exact, 1e-9);
         }
-        const Vec3 q = randomPoint(i, ball->box.grown(0.1));
+        const Vec3 q = randomPlace(9, i, ball->box.grown(0.1));
         const double radial = q.norm() - 0.5;
         // Deeper, some nodes at the end of the lattice builder's band are off by a tenth of h.
         if (std::abs(radial) > h) continue;

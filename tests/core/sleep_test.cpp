@@ -11,6 +11,8 @@
 namespace scree::test {
 namespace {
 
+constexpr double kFrame = 1.0 / 24.0;
+
 TEST(Sleep, WhatLiesStillSleepsAfterTwelveFramesAndNoSooner)
 {
     World world;
@@ -24,31 +26,71 @@ TEST(Sleep, WhatLiesStillSleepsAfterTwelveFramesAndNoSooner)
     Stepper stepper(settings);
     int frames = 0;
     for (; frames < 100 && !world.contactMemory.isAsleep(block); ++frames)
-        stepper.advanceFrame(world, 1.0 / 24.0);
+        stepper.advanceFrame(world, kFrame);
     EXPECT_GE(frames, 12);
     EXPECT_LE(frames, 15);
 }
 
-// Taken for something that rocks in its place, it was held at a few millimetres a second.
-TEST(Sleep, WhatSlidesOnASlopeBarelySteeperThanFrictionHoldsGoesOnFasterAndFaster)
+TEST(Sleep, WhatRollsOnABodyThatLiesStillKeepsItNotAwake)
 {
-    constexpr double kSlope = 20.0 * kPi / 180.0;
-    for (const double acceleration : {0.005, 0.01, 0.03}) {
-        World world;
-        const StepSettings settings = screeSettings();
-        const double g = settings.gravity.norm();
-        const MaterialId material =
-            addMaterial(world, std::tan(kSlope) - acceleration / (g * std::cos(kSlope)), 0.0);
-        const Vec3 normal(std::sin(kSlope), std::cos(kSlope), 0.0);
-        addPlane(world, material, Vec3::Zero(), normal);
-        const BodyId block = addBody(world, boxShape(Vec3::Constant(0.5), 1), material,
-                                     {0.25 * normal, fromEulerXyz({0.0, 0.0, -kSlope})});
-        const Vec3 start = world.motion[block].position;
-        Stepper stepper(settings);
-        for (int f = 0; f < 240; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
-        const double way = 0.5 * acceleration * 100.0;
-        EXPECT_NEAR((world.motion[block].position - start).norm(), way, 0.02 * way) << acceleration;
-    }
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const BodyId slab = addBody(world, boxShape({20.0, 1.0, 4.0}, 1), material,
+                                {Vec3(0.0, 0.5, 0.0), Quat::Identity()}, 100.0);
+    const BodyId ball =
+        addBody(world, exactSphere(0.25), material, {Vec3(-5.0, 1.25, 0.0), Quat::Identity()}, 1.0,
+                Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -4.0));
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 72; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_TRUE(world.contactMemory.isAsleep(slab));
+    EXPECT_FALSE(world.contactMemory.isAsleep(ball));
+    EXPECT_NEAR(world.motion[ball].position.x(), -2.0, 1e-3);
+    EXPECT_NEAR(world.motion[ball].position.y(), 1.25, 1e-4);
+}
+
+TEST(Sleep, SlowMotionPutsNothingToSleepThatIsAboutToMove)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.57, 0.0);  // holds up to 29.7 degrees
+    const Quat tilt = fromEulerXyz({0.0, 0.0, -30.0 * kPi / 180.0});
+    addPlane(world, material, Vec3::Zero(), tilt * Vec3::UnitY());
+    addBody(world, boxShape(Vec3::Constant(0.5), 1), material, {tilt * Vec3(0.0, 0.25, 0.0), tilt});
+    const Vec3 start = world.motion[1].position;
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 1000; ++f) stepper.advanceFrame(world, 1e-3);
+    const double pull = 9.8 * (std::sin(kPi / 6.0) - 0.57 * std::cos(kPi / 6.0));
+    EXPECT_NEAR((world.motion[1].position - start).norm(), 0.5 * pull, 0.02 * pull);
+}
+
+TEST(Sleep, WhatFliesNeverSleepsHoweverSlowlyOrSteadily)
+{
+    StepSettings settings = screeSettings();
+    settings.gravity.setZero();
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const Vec3 oneTurnAFrame(0.0, 2.0 * kPi / kFrame, 0.0);
+    addBody(world, boxShape({1.0, 0.1, 0.1}, 1), material, {Vec3::Zero(), Quat::Identity()}, 1.0,
+            Vec3::Zero(), oneTurnAFrame);
+    addBody(world, boxShape(Vec3::Constant(100.0), 1), material,
+            {Vec3(200.0, 0.0, 0.0), Quat::Identity()}, 1.0, {0.015, 0.0, 0.0});
+    Stepper stepper(settings);
+    for (int f = 0; f < 48; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_LE((angularVelocityOf(world, 0) - oneTurnAFrame).norm(), 1e-6);
+    EXPECT_NEAR(world.motion[1].position.x(), 200.03, 1e-9);
+}
+
+TEST(Sleep, WhatTurnsOnceAFrameWhereItStandsDoesNotSleep)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 0.0);
+    const Vec3 oneTurnAFrame(0.0, 2.0 * kPi / kFrame, 0.0);
+    addPlane(world, material);
+    addBody(world, exactSphere(0.5), material, {{0.0, 0.5, 0.0}, Quat::Identity()}, 1.0,
+            Vec3::Zero(), oneTurnAFrame);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 96; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_LE((angularVelocityOf(world, 1) - oneTurnAFrame).norm(), 1e-6);
 }
 
 }  // namespace

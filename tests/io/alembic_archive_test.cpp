@@ -62,7 +62,7 @@ TEST(AlembicArchive, WritesHeadersLikeTheReferenceFile)
 {
     const test::TemporaryFolder folder;
     AlembicArchive archive(folder / "a.abc");
-    const int everyFrame = archive.addUniformSampling(1.0 / 24.0, 1.0 / 24.0);
+    const int everyFrame = archive.addCyclicSampling({1.0 / 24.0}, 1.0 / 24.0);
 
     const AlembicSample one = archive.writeScalar(std::string_view("\x01", 1));
     SampleTrack rest;
@@ -111,7 +111,7 @@ TEST(AlembicArchive, StoresOnlyTheRangeFromFirstToLastChange)
         {"p0010", {0, 0, 1, 0}, 2, 3, 3},         {"p0101", {0, 1, 0, 1}, 1, 3, 4},
         {"p011101", {0, 1, 1, 1, 0, 1}, 1, 5, 6},
     };
-    const int everyFrame = archive.addUniformSampling(0.0, 1.0 / 24.0);
+    const int everyFrame = archive.addCyclicSampling({0.0}, 1.0 / 24.0);
     std::vector<AlembicProperty> properties;
     for (const Case& example : cases) {
         const SampleTrack track = trackOf(archive, example.values);
@@ -128,7 +128,7 @@ TEST(AlembicArchive, CountsSamplesAcrossTheWidthsOfItsIntegers)
 {
     const test::TemporaryFolder folder;
     AlembicArchive archive(folder / "a.abc");
-    const int everyFrame = archive.addUniformSampling(0.0, 1.0 / 24.0);
+    const int everyFrame = archive.addCyclicSampling({0.0}, 1.0 / 24.0);
     std::vector<AlembicProperty> properties;
     for (const std::size_t count : {1u, 255u, 256u, 65535u, 65536u}) {
         std::vector<double> values(count, 0.0);

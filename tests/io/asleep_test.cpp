@@ -8,6 +8,7 @@
 #include "io/frame_file.h"
 #include "io/shot_parser.h"
 #include "io/take.h"
+#include "tests/support/small_shot.h"
 
 namespace scree {
 namespace {
@@ -92,25 +93,18 @@ TEST(StartAsleep, AForceThatChangesWakes)
     EXPECT_NE(world.motion[0].position, start);
 }
 
-std::string refusalOf(const std::string& text)
-{
-    try {
-        parseShotText(text, "s.toml");
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "not refused";
-}
-
 TEST(StartAsleep, IsRefusedWithItsPlaceWhereItMeansNothing)
 {
     const std::string asleep = "start = \"asleep\"\n";
-    EXPECT_EQ(refusalOf(kHead + blockAt("b", "[0, 0, 0]", "motion = \"static\"\n" + asleep)),
-              "s.toml:13:9: only a dynamic body can be asleep; nothing moves this one anyway");
-    EXPECT_EQ(refusalOf(kHead + blockAt("b", "[0, 0, 0]", "velocity = [1, 0, 0]\n" + asleep)),
-              "s.toml:13:9: a body that starts asleep has no 'velocity' or 'spin'");
-    EXPECT_EQ(refusalOf(kHead + blockAt("b", "[0, 0, 0]") + "[solver]\nmethod = \"paper\"\n"),
-              "s.toml:12:9: start = \"asleep\" needs method = \"scree\" with sleep = true");
+    EXPECT_EQ(
+        test::messageOfShot(kHead + blockAt("b", "[0, 0, 0]", "motion = \"static\"\n" + asleep)),
+        "s.toml:13:9: only a dynamic body can be asleep; nothing moves this one anyway");
+    EXPECT_EQ(
+        test::messageOfShot(kHead + blockAt("b", "[0, 0, 0]", "velocity = [1, 0, 0]\n" + asleep)),
+        "s.toml:13:9: a body that starts asleep has no 'velocity' or 'spin'");
+    EXPECT_EQ(
+        test::messageOfShot(kHead + blockAt("b", "[0, 0, 0]") + "[solver]\nmethod = \"paper\"\n"),
+        "s.toml:12:9: start = \"asleep\" needs method = \"scree\" with sleep = true");
 }
 
 }  // namespace

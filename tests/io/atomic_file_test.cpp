@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/base/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -20,19 +21,6 @@ std::size_t fileCount(const fs::path& folder)
 {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
-/// The kind of the Error that `action` throws; fails the test if it throws none.
-template <class Action>
-ErrorKind kindThrownBy(Action action)
-{
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.kind();
-    }
-    ADD_FAILURE() << "no Error was thrown";
-    return ErrorKind::internal;
 }
 
 /// A disk that is full after some bytes: the system refuses writes beyond them, to any user.
@@ -120,15 +108,15 @@ TEST(AtomicFile, ManySmallWritesArriveInOrder)
 TEST(AtomicFile, CannotBeCreatedInAFolderThatDoesNotExist)
 {
     const test::TemporaryFolder folder;
-    EXPECT_EQ(kindThrownBy([&] { AtomicFile file(folder / "missing/a.bin"); }),
+    EXPECT_EQ(test::kindThrownBy([&] { AtomicFile file(folder / "missing/a.bin"); }),
               ErrorKind::cannotCreate);
 }
 
 TEST(AtomicFile, ReplacesNeitherFoldersNorDevices)
 {
     const test::TemporaryFolder folder;
-    EXPECT_EQ(kindThrownBy([&] { AtomicFile file(folder.path()); }), ErrorKind::cannotCreate);
-    EXPECT_EQ(kindThrownBy([] { AtomicFile file("/dev/full"); }), ErrorKind::cannotCreate);
+    EXPECT_EQ(test::kindThrownBy([&] { AtomicFile file(folder.path()); }), ErrorKind::cannotCreate);
+    EXPECT_EQ(test::kindThrownBy([] { AtomicFile file("/dev/full"); }), ErrorKind::cannotCreate);
 }
 
 TEST(AtomicFile, FollowsASymbolicLinkInsteadOfReplacingIt)
@@ -151,7 +139,7 @@ TEST(AtomicFile, AFullDiskIsAnErrorAndTheOldFileSurvives)
         AtomicFile file(folder / "a.bin");
         const SmallDisk disk(1000);
         file.write(std::string(2000, 'x'));
-        EXPECT_EQ(kindThrownBy([&] { file.commit(); }), ErrorKind::inputOutput);
+        EXPECT_EQ(test::kindThrownBy([&] { file.commit(); }), ErrorKind::inputOutput);
     }
     EXPECT_EQ(contentOf(folder / "a.bin"), "old");
     EXPECT_EQ(fileCount(folder.path()), 1u);

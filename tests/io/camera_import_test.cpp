@@ -15,6 +15,7 @@
 #include "io/mesh_import.h"
 #include "io/shot_parser.h"
 #include "tests/support/export_scene.h"
+#include "tests/support/import_mesh.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
@@ -128,7 +129,7 @@ TEST(CameraImport, StandsInOneFileWithWhatIsNoRigidBody)
         "s.toml:7:8: mesh file '" + path +
             "' has a mesh 'mover' that is a subdivision surface; export it as a polygon mesh, "
             "or leave it out of 'nodes'");
-    EXPECT_THROW(importMesh(path), Error);
+    EXPECT_THROW(test::importMesh(path), Error);
 }
 
 TEST(CameraImport, SaysWhichCamerasThereAreAndRefusesWhatTheFileDecides)

@@ -9,6 +9,7 @@
 #include "io/shot_parser.h"
 #include "io/take.h"
 #include "io/take_reader.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -48,12 +49,7 @@ protected:
 
     std::string refusalOf(const std::string& shapeLines) const
     {
-        try {
-            buildWorld(parse(shapeLines));
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "not refused";
+        return test::refusalBy([&] { buildWorld(parse(shapeLines)); }).message;
     }
 
     test::TemporaryFolder folder;

@@ -16,6 +16,7 @@
 #include "io/mesh_import.h"
 #include "tests/support/export_scene.h"
 #include "tests/support/readers.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -258,12 +259,7 @@ TEST(AlembicImport, WhatIsNoFinishedFileIsSaidSo)
     const std::string path = (folder / "x.abc").string();
     const auto refusal = [&](const std::string& bytes) {
         std::ofstream(path, std::ios::binary) << bytes;
-        try {
-            importFile(path);
-        } catch (const Error& error) {
-            return std::string(error.what());
-        }
-        return std::string("nothing was thrown");
+        return test::refusalBy([&] { importFile(path); }).message;
     };
     const std::string begin = "mesh file '" + path + "' cannot be read: it ";
     EXPECT_EQ(refusal("hello"), begin + "is no Alembic file");

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "tests/support/export_scene.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -22,14 +23,9 @@ class SilentWriter final : public FrameWriter {
 template <class Action>
 std::string messageOf(ErrorKind kind, Action action)
 {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), kind) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "no Error was thrown";
-    return "";
+    const test::Refusal refusal = test::refusalBy(action);
+    EXPECT_EQ(refusal.kind, kind) << refusal.message;
+    return refusal.message;
 }
 
 TEST(FrameWriter, AnUnknownEndingIsAnsweredWithTheKnownOnes)

@@ -13,6 +13,8 @@
 #include "core/base/error.h"
 #include "io/mesh_import_bytes.h"
 #include "tests/support/export_scene.h"
+#include "tests/support/import_mesh.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -36,19 +38,15 @@ std::string write(const test::TemporaryFolder& folder, const std::string& name,
 /// Kind and message of the error that importing gives.
 std::string messageOf(const std::string& path, ErrorKind expected = ErrorKind::badInput)
 {
-    try {
-        importMesh(path);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), expected);
-        return error.what();
-    }
-    return "nothing was thrown";
+    const test::Refusal refusal = test::refusalBy([&] { test::importMesh(path); });
+    EXPECT_EQ(refusal.kind, expected);
+    return refusal.message;
 }
 
 TEST(MeshImport, JoinsTheObjectsOfAnObjIntoOneClosedMesh)
 {
     const test::TemporaryFolder folder;
-    const TriMesh cube = importMesh(write(folder, "cube.obj", kCubeObj));
+    const TriMesh cube = test::importMesh(write(folder, "cube.obj", kCubeObj));
     EXPECT_EQ(cube.points.cols(), 8);
     EXPECT_EQ(cube.triangles.cols(), 12);
     EXPECT_TRUE(findDefects(cube).empty());
@@ -70,7 +68,7 @@ TEST(MeshImport, ObjectsOfAnObjAreToldApartByTheWholeOfTheirNames)
 TEST(MeshImport, KeepsPositionsToSinglePrecision)
 {
     const test::TemporaryFolder folder;
-    const TriMesh mesh = importMesh(
+    const TriMesh mesh = test::importMesh(
         write(folder, "t.obj", "v 0.1 -20.5 1e3\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"));
     EXPECT_EQ(mesh.points.col(0), Vec3(0.1f, -20.5, 1000.0));
 }
@@ -78,7 +76,7 @@ TEST(MeshImport, KeepsPositionsToSinglePrecision)
 TEST(MeshImport, ReadsPlyAndStl)
 {
     const test::TemporaryFolder folder;
-    const TriMesh ply = importMesh(
+    const TriMesh ply = test::importMesh(
         write(folder, "t.ply",
               "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
               "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
@@ -95,7 +93,7 @@ TEST(MeshImport, ReadsPlyAndStl)
         "vertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n" + facet +
         "vertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n"
         "endsolid t\n";
-    const TriMesh fromStl = importMesh(write(folder, "t.STL", stl));
+    const TriMesh fromStl = test::importMesh(write(folder, "t.STL", stl));
     EXPECT_EQ(fromStl.points.cols(), 4);
     EXPECT_DOUBLE_EQ(signedVolume(fromStl), 1.0 / 6.0);
 }
@@ -120,7 +118,7 @@ std::vector<Eigen::Vector2f> uvsAt(const TriMesh& mesh, int axis, double value, 
 TEST(MeshImport, APointOnASeamHasTheTextureCoordinatesOfBothSides)
 {
     const test::TemporaryFolder folder;
-    const TriMesh cube = importMesh(write(folder, "cube.obj", kCubeObj));
+    const TriMesh cube = test::importMesh(write(folder, "cube.obj", kCubeObj));
     ASSERT_EQ(cube.points.cols(), 8);
     ASSERT_EQ(cube.cornerUvs.cols(), 36);
     // Point 3 of the file, (1, 1, 0): "3/2" in the face z = 0, "3/1" in y = 1.
@@ -137,7 +135,7 @@ TEST(MeshImport, APointOnASeamHasTheTextureCoordinatesOfBothSides)
 TEST(MeshImport, OneOfTwoObjectsMayHaveNoTextureCoordinates)
 {
     const test::TemporaryFolder folder;
-    const TriMesh mesh = importMesh(
+    const TriMesh mesh = test::importMesh(
         write(folder, "t.obj",
               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0.5 0.25\no plain\nf 1 3 2\nf 1 2 4\n"
               "o painted\nf 1/1 4/1 3/1\nf 2/1 3/1 4/1\n"));
@@ -155,18 +153,13 @@ std::string refusalOf(const std::function<void(ImportedNode& node)>& spoil)
     file.nodes[0].mesh = {mesh.points, mesh.triangles, mesh.cornerUvs};
     file.nodes[0].keys = {{0.0, Pose()}, {1.0, Pose()}};
     spoil(file.nodes[0]);
-    try {
-        decodeImport(encodeImport(file), "t.obj");
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusalBy([&] { decodeImport(encodeImport(file), "t.obj"); }).message;
 }
 
 TEST(MeshImport, AnAnswerThatNoFileCanGiveIsRefused)
 {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    EXPECT_EQ(refusalOf([](ImportedNode&) {}), "");
+    EXPECT_EQ(refusalOf([](ImportedNode&) {}), "nothing was thrown");
     EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.cornerUvs(1, 7) = kInfinity; }),
               "mesh file 't.obj' has texture coordinates that are not finite");
     EXPECT_EQ(refusalOf([](ImportedNode& node) { node.mesh.cornerUvs.conservativeResize(2, 9); }),

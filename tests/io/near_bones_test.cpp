@@ -11,6 +11,7 @@
 #include "core/math/rotation.h"
 #include "io/mesh_import.h"
 #include "tests/support/draw.h"
+#include "tests/support/import_mesh.h"
 #include "tests/support/support.h"
 
 namespace scree::test {

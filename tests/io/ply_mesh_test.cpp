@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "tests/support/export_scene.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -25,12 +26,8 @@ using test::contentOf;
 void expectDamaged(const fs::path& path, const std::string& bytes)
 {
     std::ofstream(path, std::ios::binary) << bytes;
-    try {
-        readPlyMesh(path);
-        ADD_FAILURE() << "read a damaged file of " << bytes.size() << " bytes";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::inputOutput) << error.what();
-    }
+    const test::Refusal refusal = test::refusalBy([&] { readPlyMesh(path); });
+    EXPECT_EQ(refusal.kind, ErrorKind::inputOutput) << refusal.message;
 }
 
 TEST(PlyMesh, ReadsBackEveryBit)
@@ -114,12 +111,8 @@ TEST(PlyMesh, AMeshWithoutTextureCoordinatesIsWrittenAsItEverWas)
 TEST(PlyMesh, AMissingFileIsSaidToBeMissing)
 {
     const test::TemporaryFolder folder;
-    try {
-        readPlyMesh(folder / "none.ply");
-        FAIL() << "read a file that is not there";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::missingInput);
-    }
+    const test::Refusal refusal = test::refusalBy([&] { readPlyMesh(folder / "none.ply"); });
+    EXPECT_EQ(refusal.kind, ErrorKind::missingInput);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/shot_parser.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -410,24 +411,18 @@ TEST(ShotErrors, AValueReportedAsWrongIsNotReportedAgainAsMissing)
 
 TEST(ShotErrors, AMissingShotFileIsMissingInput)
 {
-    try {
-        parseShot("/no/such/shot.toml");
-        FAIL() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::missingInput);
-        EXPECT_STREQ(error.what(), "shot file '/no/such/shot.toml' does not exist");
-    }
+    const test::Refusal refusal = test::refusalBy([&] { parseShot("/no/such/shot.toml"); });
+    EXPECT_EQ(refusal.kind, ErrorKind::missingInput);
+    EXPECT_EQ(refusal.message, "shot file '/no/such/shot.toml' does not exist");
 }
 
 TEST(ShotErrors, AMissingPoseFileAloneIsMissingInput)
 {
-    try {
+    const test::Refusal refusal = test::refusalBy([&] {
         parseShotText(body("shape = \"block\"\nposes = \"none.poses\"\n"), "dir/bad.toml");
-        FAIL() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::missingInput);
-        EXPECT_STREQ(error.what(), "dir/bad.toml:11:9: pose file 'dir/none.poses' does not exist");
-    }
+    });
+    EXPECT_EQ(refusal.kind, ErrorKind::missingInput);
+    EXPECT_EQ(refusal.message, "dir/bad.toml:11:9: pose file 'dir/none.poses' does not exist");
 }
 
 TEST(ShotErrors, ProblemsOfAPoseFileAreLocatedInThatFile)
@@ -441,19 +436,15 @@ TEST(ShotErrors, ProblemsOfAPoseFileAreLocatedInThatFile)
                                          "0 inf 0 1 0 0 0\n";
     const std::string shot = (folder / "bad.toml").string();
     const std::string poses = (folder / "b.poses").string();
-    try {
-        parseShotText(body("shape = \"block\"\nposes = \"b.poses\"\nmotion = 1\n"), shot);
-        FAIL() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(
-            std::string(error.what()),
-            shot +
-                ":12:10: 'motion' must be one of \"dynamic\", \"static\", \"keyed\", not 1\n" +  //
-                poses + ":3:1: the line has 6 numbers; expected 7: x y z qw qx qy qz\n" + poses +
-                ":4:5: 'zero' is not a finite number\n" +  //
-                poses + ":5:8: the orientation qw qx qy qz is zero\n" + poses +
-                ":6:3: 'inf' is not a finite number");
-    }
+    const test::Refusal refusal = test::refusalBy(
+        [&] { parseShotText(body("shape = \"block\"\nposes = \"b.poses\"\nmotion = 1\n"), shot); });
+    EXPECT_EQ(
+        refusal.message,
+        shot + ":12:10: 'motion' must be one of \"dynamic\", \"static\", \"keyed\", not 1\n" +  //
+            poses + ":3:1: the line has 6 numbers; expected 7: x y z qw qx qy qz\n" + poses +
+            ":4:5: 'zero' is not a finite number\n" +  //
+            poses + ":5:8: the orientation qw qx qy qz is zero\n" + poses +
+            ":6:3: 'inf' is not a finite number");
 }
 
 TEST(ShotErrors, BadOverridesNameTheirOwnText)
@@ -531,13 +522,9 @@ TEST(ShotErrors, NamesTheSystemWillNotLookAtAreMissingInputWithTheirPlace)
 {
     const std::string longName(300, 'n');
     const auto messageWith = [&](const std::string& text) -> std::string {
-        try {
-            parseShotText(text, "bad.toml");
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::missingInput);
-            return error.what();
-        }
-        return "";
+        const test::Refusal refusal = test::refusalBy([&] { parseShotText(text, "bad.toml"); });
+        EXPECT_EQ(refusal.kind, ErrorKind::missingInput);
+        return refusal.message;
     };
     EXPECT_EQ(messageWith(body("shape = \"block\"\nposes = \"" + longName + "\"\n")),
               "bad.toml:11:9: pose file '" + longName + "' cannot be reached: File name too long");

@@ -13,6 +13,7 @@
 #include "io/build_world.h"
 #include "io/mesh_import.h"
 #include "io/shot_parser.h"
+#include "tests/support/import_mesh.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -123,7 +124,7 @@ TEST(ShotFiles, BlocksLieOnTheSlopeAndOnlyRubberSticks)
 
 TEST(ShotFiles, WedgeIsASharpSolidOfTwelveTriangles)
 {
-    const TriMesh wedge = importMesh(test::sourceFile("shots/meshes/wedge.obj").string());
+    const TriMesh wedge = test::importMesh(test::sourceFile("shots/meshes/wedge.obj").string());
     EXPECT_EQ(wedge.triangles.cols(), 12);
     EXPECT_TRUE(findDefects(wedge).empty());
     // Every wedge fits in a ball about its origin, and the balls do not overlap at the start.
@@ -151,7 +152,7 @@ TEST(ShotFiles, BonesAreSolidsOfTheTrianglesTheyPromise)
     // handles. The pelvis: the brim and two seats.
     for (const Bone& bone : {Bone{"skull", 3520, 6}, {"pelvis", 8680, 3}, {"femur", 8160, 0}}) {
         const TriMesh mesh =
-            importMesh(test::sourceFile("shots/meshes/" + bone.name + ".ply").string());
+            test::importMesh(test::sourceFile("shots/meshes/" + bone.name + ".ply").string());
         EXPECT_EQ(mesh.triangles.cols(), bone.triangles) << bone.name;
         EXPECT_TRUE(findDefects(mesh).empty()) << bone.name;
         // Euler's formula, with three half edges to a face.
@@ -166,7 +167,8 @@ TEST(ShotFiles, BonesStartApartInColumnsAboveTheFunnel)
     const std::map<std::string, double> balls = {
         {"skull", 0.345}, {"pelvis", 0.34}, {"femur", 0.345}};
     for (const auto& [name, radius] : balls) {
-        const TriMesh mesh = importMesh(test::sourceFile("shots/meshes/" + name + ".ply").string());
+        const TriMesh mesh =
+            test::importMesh(test::sourceFile("shots/meshes/" + name + ".ply").string());
         EXPECT_LT(0.8 * mesh.points.colwise().norm().maxCoeff(), radius) << name;
     }
     const Shot shot = shippedShot("bones_500.toml");

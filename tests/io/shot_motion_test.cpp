@@ -11,6 +11,7 @@
 #include "io/shot_parser.h"
 #include "io/take.h"
 #include "io/take_reader.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree::test {
@@ -256,14 +257,9 @@ material = "ice"
 TEST(ShotExtends, ProblemsAreSaidWithTheFileTheyStandIn)
 {
     const TemporaryFolder folder;
-    const auto message = [&](const std::string& text) -> std::string {
+    const auto message = [&](const std::string& text) {
         writeText(folder / "over.toml", text);
-        try {
-            parseShot((folder / "over.toml").string());
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusalBy([&] { parseShot((folder / "over.toml").string()); }).message;
     };
     const std::string over = (folder / "over.toml").string();
     const std::string base = (folder / "base.toml").string();

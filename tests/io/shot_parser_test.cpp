@@ -10,6 +10,7 @@
 
 #include "io/nearest_word.h"
 #include "io/shot_schema.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -334,13 +335,10 @@ TEST(ShotSchema, ExplanationsTellTypeRangeUnitDefaultAndMeaning)
 
 TEST(ShotSchema, AnUnknownKeyIsAnsweredWithTheNearest)
 {
-    const auto message = [](const std::string& key) -> std::string {
-        try {
-            return explainKey(key);
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::usage);
-            return error.what();
-        }
+    const auto message = [](const std::string& key) {
+        const test::Refusal refusal = test::refusalBy([&] { explainKey(key); });
+        EXPECT_EQ(refusal.kind, ErrorKind::usage);
+        return refusal.message;
     };
     EXPECT_EQ(message("solver.contact_iteration"),
               "no key 'solver.contact_iteration' in shot files; did you mean "

@@ -15,6 +15,7 @@
 #include "io/take.h"
 #include "io/take_diff.h"
 #include "io/take_reader.h"
+#include "tests/support/refusal.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
@@ -60,13 +61,10 @@ protected:
                           ExistingTake existing = ExistingTake::refuse)
     {
         const std::map<std::string, std::string> before = filesOf(name);
-        try {
-            simulate(name, overrides, branch, existing);
-        } catch (const Error& error) {
-            EXPECT_EQ(filesOf(name), before);
-            return error.what();
-        }
-        return "not refused";
+        const test::Refusal refusal =
+            test::refusalBy([&] { simulate(name, overrides, branch, existing); });
+        EXPECT_EQ(filesOf(name), before);
+        return refusal.message;
     }
 
     /// All files of a take by their names inside it, with their bytes.
@@ -292,18 +290,14 @@ TEST_F(BranchTest, FramesOfTheOriginalAreCopiedAgainFromThatVeryTakeOrNotAtAll)
 
     // The original has moved, or is simulated anew with other settings.
     const auto refusal = [&] {
-        try {
-            simulate("hole", slippery, std::nullopt, ExistingTake::resume);
-        } catch (const Error& error) {
-            return std::string(error.what());
-        }
-        return std::string("not refused");
+        return test::refusalBy(
+            [&] { simulate("hole", slippery, std::nullopt, ExistingTake::resume); });
     };
     copyWithout("branch", "hole", isHole);
     fs::rename(folder / "whole", folder / "moved");
-    EXPECT_NE(refusal().find("--from"), std::string::npos);
+    EXPECT_TRUE(refusal().mentions("--from"));
     simulate("whole", {"material.wood.friction=0.1"});
-    EXPECT_NE(refusal().find("not what it was"), std::string::npos);
+    EXPECT_TRUE(refusal().mentions("not what it was"));
     simulate("hole", slippery, TakeBranch{folder / "moved", 1005}, ExistingTake::resume);
     EXPECT_TRUE(compareTakes(TakeReader(folder / "branch"), TakeReader(folder / "hole")).isSame());
 }

@@ -18,6 +18,7 @@
 #include "io/file_bytes.h"
 #include "io/shot_parser.h"
 #include "io/take_reader.h"
+#include "tests/support/refusal.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
@@ -91,17 +92,6 @@ void flipByte(const fs::path& path, std::size_t offset)
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-ErrorKind kindOf(const std::function<void()>& action)
-{
-    try {
-        action();
-    } catch (const Error& problem) {
-        return problem.kind();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return ErrorKind::internal;
-}
-
 TEST_F(TakeTest, RestoringAStateGivesBackEveryBit)
 {
     World moved = world;
@@ -144,12 +134,9 @@ TEST_F(TakeTest, AStateThatNoStepCouldGoOnFromIsRefusedThoughItsChecksumFits)
     const auto expectRefusal = [&](const std::string& reason, const auto& spoil) {
         FrameState state = good;
         spoil(state);
-        try {
-            decodeFrame(encodeFrame(state), "memory");
-            ADD_FAILURE() << "not refused: " << reason;
-        } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-        }
+        const test::Refusal refusal =
+            test::refusalBy([&] { decodeFrame(encodeFrame(state), "memory"); });
+        EXPECT_TRUE(refusal.mentions(reason)) << refusal.message;
     };
     const auto remember = [](FrameState& state,
                              std::initializer_list<std::pair<BodyId, BodyId>> pairs) {
@@ -238,15 +225,12 @@ TEST_F(TakeTest, WhatNoShotCouldHaveSaidIsRefusedByItsKey)
     const auto expectRefusal = [&](const std::string& pointer, const nlohmann::json& value) {
         nlohmann::json json = good;
         json.at(nlohmann::json::json_pointer(pointer)) = value;
-        try {
-            decodeTakeInfo(json.dump(), "take.json");
-            ADD_FAILURE() << pointer << " may be " << value;
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::inputOutput);
-            const std::string message = error.what();
-            EXPECT_TRUE(message.starts_with("take.json: damaged: \"")) << message;
-            EXPECT_NE(message.find(value.dump()), std::string::npos) << message;
-        }
+        const test::Refusal refusal =
+            test::refusalBy([&] { decodeTakeInfo(json.dump(), "take.json"); });
+        EXPECT_EQ(refusal.kind, ErrorKind::inputOutput);
+        const std::string& message = refusal.message;
+        EXPECT_TRUE(message.starts_with("take.json: damaged: \"")) << message;
+        EXPECT_NE(message.find(value.dump()), std::string::npos) << message;
     };
     EXPECT_NO_THROW(decodeTakeInfo(good.dump(), "take.json"));
     expectRefusal("/picture_size/0", 0);
@@ -320,14 +304,16 @@ TEST_F(TakeTest, ChangedShotTextInTakeJsonIsNoticed)
     const SceneDescription scene = describeScene(shot, world, 1.0);
     std::string text = encodeTakeInfo(makeTakeInfo(shot, world, scene, "1.2.3"));
     text.replace(text.find("density = 650"), 13, "density = 651");
-    EXPECT_EQ(kindOf([&] { decodeTakeInfo(text, "take.json"); }), ErrorKind::inputOutput);
+    EXPECT_EQ(test::kindThrownBy([&] { decodeTakeInfo(text, "take.json"); }),
+              ErrorKind::inputOutput);
 }
 
 TEST_F(TakeTest, ExistingTakeIsNotTouchedWithoutLeave)
 {
     writeWholeTake();
     const std::string before = readFileBytes(folder / "take/frames/frame.001005.scree");
-    EXPECT_EQ(kindOf([&] { open(ExistingTake::refuse, shot); }), ErrorKind::cannotCreate);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::refuse, shot); }),
+              ErrorKind::cannotCreate);
     EXPECT_EQ(readFileBytes(folder / "take/frames/frame.001005.scree"), before);
 }
 
@@ -397,22 +383,23 @@ TEST_F(TakeTest, ResumeRefusesAnotherShot)
 {
     writeWholeTake();
     const Shot other = parseShotText(shotText(), "two.toml", {"material.wood.friction=0.9"});
-    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, other); }), ErrorKind::badInput);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, other); }), ErrorKind::badInput);
 }
 
 TEST_F(TakeTest, ResumeRefusesAWorldThatBeginsElsewhere)
 {
     writeWholeTake();
     world.motion[1].position.x() += 1e-12;
-    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::badInput);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }), ErrorKind::badInput);
 }
 
 TEST_F(TakeTest, DamagedTakeJsonIsAnErrorThatLeavesTheFrames)
 {
     writeWholeTake();
     std::ofstream(folder / "take/take.json") << "{ \"format\": ";
-    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::inputOutput);
-    EXPECT_EQ(kindOf([&] { TakeReader(folder / "take"); }), ErrorKind::inputOutput);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }),
+              ErrorKind::inputOutput);
+    EXPECT_EQ(test::kindThrownBy([&] { TakeReader(folder / "take"); }), ErrorKind::inputOutput);
     EXPECT_EQ(listFrames({folder / "take"}).size(), 5u);
 }
 
@@ -420,7 +407,8 @@ TEST_F(TakeTest, LostTakeJsonIsAnErrorThatLeavesTheFrames)
 {
     writeWholeTake();
     fs::remove(folder / "take/take.json");
-    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::inputOutput);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }),
+              ErrorKind::inputOutput);
     EXPECT_EQ(listFrames({folder / "take"}).size(), 5u);
 }
 
@@ -429,7 +417,8 @@ TEST_F(TakeTest, DamagedMeshIsNoticedByItsHash)
     writeWholeTake();
     const fs::path mesh = folder / "take/shapes/block.ply";
     flipByte(mesh, readFileBytes(mesh).size() - 1);
-    EXPECT_EQ(kindOf([&] { TakeReader(folder / "take").describe(); }), ErrorKind::inputOutput);
+    EXPECT_EQ(test::kindThrownBy([&] { TakeReader(folder / "take").describe(); }),
+              ErrorKind::inputOutput);
 }
 
 TEST_F(TakeTest, DamagedFrameIsReportedAndOpenAgainWhileOthersStay)
@@ -530,13 +519,15 @@ TEST_F(TakeTest, FiguresThatCannotBeMadeDurableAreAnError)
     TakeWriter take = open(ExistingTake::refuse, shot);
     fs::remove(folder / "take/stats.jsonl");
     fs::create_symlink("/dev/null", folder / "take/stats.jsonl");  // takes all, syncs nothing
-    EXPECT_EQ(kindOf([&] { take.writeFrame(world, statsOf(world)); }), ErrorKind::inputOutput);
+    EXPECT_EQ(test::kindThrownBy([&] { take.writeFrame(world, statsOf(world)); }),
+              ErrorKind::inputOutput);
 }
 
 TEST_F(TakeTest, SecondWriterIsKeptOut)
 {
     const TakeWriter take = open(ExistingTake::refuse, shot);
-    EXPECT_EQ(kindOf([&] { open(ExistingTake::resume, shot); }), ErrorKind::cannotCreate);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }),
+              ErrorKind::cannotCreate);
 }
 
 TEST_F(TakeTest, TemporariesOfAKilledWriterAreRemoved)

@@ -19,6 +19,8 @@
 #include "core/geometry/shape_report.h"
 #include "core/geometry/winding_number.h"
 #include "io/mesh_import.h"
+#include "tests/support/import_mesh.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -122,13 +124,9 @@ TriMesh withoutFace()
 
 std::string refusalOf(const TriMesh& mesh, const ShapeSettings& settings = {})
 {
-    try {
-        buildMeshShape("thing", mesh, settings);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::badInput);
-        return error.what();
-    }
-    return "not refused";
+    const test::Refusal refusal = test::refusalBy([&] { buildMeshShape("thing", mesh, settings); });
+    EXPECT_EQ(refusal.kind, ErrorKind::badInput);
+    return refusal.message;
 }
 
 TEST(TortureMesh, WhatIsHarmlessIsRepairedAndTold)
@@ -408,7 +406,7 @@ TEST(TortureMesh, WhatIsRepairedOfAFileIsToldAsOfAnyMesh)
     const test::TemporaryFolder folder;
     const auto told = [&](const std::string& name, const std::string& text) {
         std::ofstream(folder / name, std::ios::binary) << text;
-        const auto shape = buildMeshShape("thing", importMesh((folder / name).string()));
+        const auto shape = buildMeshShape("thing", test::importMesh((folder / name).string()));
         EXPECT_NEAR(shape->unitMass.volume, 1.0 / 6.0, 1e-7) << name;
         return describe(shape->repairs.harmless);
     };
@@ -439,27 +437,21 @@ TEST(TortureMesh, TrianglesWithoutAreaAreNotWhereWhatIsDrawnIsApartFromWhatColli
 TEST(TortureMesh, FilesThatAreCutOrEmptyOrNonsenseAreRefused)
 {
     const test::TemporaryFolder folder;
-    const auto refusal = [&](const std::string& name, const std::string& text) {
+    const auto expectRefused = [&](const std::string& name, const std::string& text) {
         std::ofstream(folder / name, std::ios::binary) << text;
-        try {
-            buildMeshShape("thing", importMesh((folder / name).string()));
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::badInput) << name;
-            return std::string(error.what());
-        }
-        return std::string("not refused");
+        const test::Refusal refusal = test::refusalBy(
+            [&] { buildMeshShape("thing", test::importMesh((folder / name).string())); });
+        EXPECT_EQ(refusal.kind, ErrorKind::badInput) << name << ": " << refusal.message;
     };
     for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.gltf", "a.fbx"}) {
-        EXPECT_NE(refusal(name, ""), "not refused") << name;
-        EXPECT_NE(refusal(name, "solid\n\x01\x02 nonsense"), "not refused") << name;
+        expectRefused(name, "");
+        expectRefused(name, "solid\n\x01\x02 nonsense");
     }
-    EXPECT_NE(refusal("nan.obj",
-                      "v 0 0 0\nv 1 0 0\nv nan 1 0\nv 0 0 1\n"
-                      "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"),
-              "not refused");
-    EXPECT_NE(refusal("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2"),
-              "not refused");
-    EXPECT_NE(refusal("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9999\n"), "not refused");
+    expectRefused("nan.obj",
+                  "v 0 0 0\nv 1 0 0\nv nan 1 0\nv 0 0 1\n"
+                  "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    expectRefused("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2");
+    expectRefused("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9999\n");
 }
 
 }  // namespace

@@ -1,11 +1,25 @@
 #include "render/image.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 namespace scree {
 namespace {
+
+std::uint8_t encodeSrgb(float linear)
+{
+    Image image(1, 1);
+    image.set(0, 0, Color::Constant(linear));
+    return toSrgbBytes(image).front();
+}
+
+float decodeSrgb(std::uint8_t encoded)
+{
+    const std::array pixel = {encoded, encoded, encoded};
+    return fromSrgbBytes(1, 1, pixel).values.front();
+}
 
 TEST(Srgb, EndsAreExactAndOutsideIsClamped)
 {

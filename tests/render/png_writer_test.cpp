@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/refusal.h"
 
 namespace scree {
 namespace {
@@ -60,13 +61,10 @@ TEST(PngWriter, KeepsTextsInOrder)
 TEST(PngReader, NamesTheFileThatIsDamaged)
 {
     const auto messageFrom = [](std::span<const std::uint8_t> bytes) -> std::string {
-        try {
-            requireWholePng(bytes, "shots/cut.png");
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::inputOutput);
-            return error.what();
-        }
-        return "nothing was thrown";
+        const test::Refusal refusal =
+            test::refusalBy([&] { requireWholePng(bytes, "shots/cut.png"); });
+        EXPECT_EQ(refusal.kind.value_or(ErrorKind::inputOutput), ErrorKind::inputOutput);
+        return refusal.message;
     };
     const std::vector<std::uint8_t> whole = encodePng(gradient(50, 50));
     EXPECT_EQ(messageFrom(whole), "nothing was thrown");

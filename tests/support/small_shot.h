@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "io/shot_parser.h"
+#include "tests/support/refusal.h"
 
 namespace scree::test {
 
@@ -37,12 +38,7 @@ inline std::string bodyText(const std::string& name, const std::string& more,
 /// What the parser says against a shot called s.toml.
 inline std::string messageOfShot(const std::string& text)
 {
-    try {
-        parseShotText(text, "s.toml");
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
+    return refusalBy([&] { parseShotText(text, "s.toml"); }).message;
 }
 
 }  // namespace scree::test

@@ -5,22 +5,18 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
 namespace {
 
 template <class Function>
-ErrorKind kindOfErrorFrom(Function function, const std::string& mustBeNamed)
+std::optional<ErrorKind> kindOfErrorFrom(Function function, const std::string& mustBeNamed)
 {
-    try {
-        function();
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find(mustBeNamed), std::string::npos) << error.what();
-        return error.kind();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return ErrorKind::internal;
+    const test::Refusal refusal = test::refusalBy(function);
+    EXPECT_TRUE(refusal.mentions(mustBeNamed)) << refusal.message;
+    return refusal.kind;
 }
 
 std::size_t fileCount(const std::filesystem::path& folder)

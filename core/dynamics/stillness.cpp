@@ -1,0 +1,77 @@
+#include "core/dynamics/stillness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/impulse.h"
+
+namespace scree {
+namespace {
+
+/// A body that stays within this share of its size of one place is still: an eighth of a millimetre
+/// on a ring of 2.5 m. A domino at the point of falling passes it within a few frames.
+constexpr double kStill = 1e-4;
+/// For so long, in units of time: half a second for that ring.
+constexpr double kStillTime = 1.4;
+
+/// What has stayed within this share of its size of one place may rock, but goes nowhere.
+constexpr double kNearby = 0.05;
+
+/// What goes farther than this share of its size in a frame does not lie where it is seen at the
+/// end of each: it may have turned once around.
+constexpr double kFarInAFrame = 0.5;
+
+/// Upper bound of how far a point of the body has come from where it was [m].
+double travelled(const World& world, BodyId body, const Stay& since)
+{
+    const BodyMotion& motion = world.motion[body];
+    const double turned = 2.0 * (motion.orientation * since.orientation.conjugate()).vec().norm();
+    return (motion.position - since.position).norm() + turned * world.shapeOf(body).boundingRadius;
+}
+
+bool goesFarInAFrame(const World& world, BodyId body)
+{
+    const BodyMotion& motion = world.motion[body];
+    const PassInertia inertia = passInertia(world.mass[body], motion.orientation);
+    const double radius = world.shapeOf(body).boundingRadius;
+    const Vec3 spin = inertia.inverseInertia * motion.angularMomentum;
+    const double speed = motion.velocity.norm() + spin.norm() * radius;
+    return speed * world.frameDuration > kFarInAFrame * radius;
+}
+
+/// One more frame within `share` of its size of the place, or a new place.
+void noteStay(const World& world, BodyId body, double share, Stay& stay)
+{
+    const double allowed = share * world.shapeOf(body).boundingRadius;
+    if (travelled(world, body, stay) <= allowed && !goesFarInAFrame(world, body)) {
+        ++stay.frames;
+    } else {
+        stay = {world.motion[body].position, world.motion[body].orientation, 0};
+    }
+}
+
+}  // namespace
+
+double unitOfTime(const World& world, BodyId body, double acceleration)
+{
+    return std::sqrt(world.shapeOf(body).boundingRadius / acceleration);
+}
+
+double framesToSleep(const World& world, BodyId body, double acceleration)
+{
+    const double time = kStillTime * unitOfTime(world, body, acceleration);
+    return std::max(std::ceil(time / world.frameDuration), double{kStillFrames});
+}
+
+void noteStays(World& world)
+{
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (!world.isStepped(body)) continue;
+        BodyRest& rest = world.contactMemory.rest[i];
+        noteStay(world, body, kStill, rest.still);
+        noteStay(world, body, kNearby, rest.nearby);
+    }
+}
+
+}  // namespace scree

@@ -1,0 +1,23 @@
+// How long bodies have stayed where they are, and how long that must be.  [algorithm 14]
+#pragma once
+
+#include "core/scene/world.h"
+
+namespace scree {
+
+/// A body lies still for so many frames at least before it sleeps, also where a second has a
+/// thousand frames: a tower that is leaning has to show it.
+inline constexpr std::int32_t kStillFrames = 12;
+
+/// The time scale on which a body gives way to an acceleration, √(size / acceleration) [s];
+/// infinite without any.
+double unitOfTime(const World& world, BodyId body, double acceleration);
+
+/// How long a body must lie still to fall asleep, in frames.
+double framesToSleep(const World& world, BodyId body, double acceleration);
+
+/// At the end of a frame: notes of every body whether it has stayed where it was, or where it is
+/// now. `rest` of the memory must have room for all.
+void noteStays(World& world);
+
+}  // namespace scree

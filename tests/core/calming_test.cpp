@@ -1,0 +1,69 @@
+// What rocks comes to rest by and by; what goes somewhere does not.
+#include "core/dynamics/calming.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/stepper.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kFrame = 1.0 / 24.0;
+
+/// A plank balanced on a fixed ball rocks for ever. Answers its largest angular speed in the last
+/// second [rad/s].
+double rockingOfAPlank(bool mayRest, double spin)
+{
+    constexpr int kFrames = 240;
+    World world;
+    const MaterialId material = addMaterial(world, 0.9, 0.0);
+    addBody(world, exactSphere(0.5), material, {Vec3::Zero(), Quat::Identity()}, 0.0);
+    addBody(world, boxShape({1.0, 0.1, 1.0}, 2), material, {Vec3(0.0, 0.55, 0.0), Quat::Identity()},
+            1.0, Vec3::Zero(), Vec3(0.0, 0.0, spin));
+    StepSettings settings = screeSettings();
+    settings.sleep = mayRest;
+    Stepper stepper(settings);
+    double fastest = 0.0;
+    for (int f = 0; f < kFrames; ++f) {
+        stepper.advanceFrame(world, kFrame);
+        const double now = angularVelocityOf(world, 1).norm();
+        if (f >= kFrames - 24) fastest = std::max(fastest, now);
+    }
+    return fastest;
+}
+
+TEST(Calming, WhatRocksInItsPlaceComesToRestAndWhatGoesFartherDoesNot)
+{
+    EXPECT_GE(rockingOfAPlank(false, 0.06), 0.02);
+    EXPECT_EQ(rockingOfAPlank(true, 0.06), 0.0);
+    EXPECT_GE(rockingOfAPlank(true, 1.0), 0.3);
+}
+
+// Taken for something that rocks in its place, it was held at a few millimetres a second.
+TEST(Calming, WhatSlidesOnASlopeBarelySteeperThanFrictionHoldsGoesOnFasterAndFaster)
+{
+    constexpr double kSlope = 20.0 * kPi / 180.0;
+    for (const double acceleration : {0.005, 0.01, 0.03}) {
+        World world;
+        const StepSettings settings = screeSettings();
+        const double g = settings.gravity.norm();
+        const MaterialId material =
+            addMaterial(world, std::tan(kSlope) - acceleration / (g * std::cos(kSlope)), 0.0);
+        const Vec3 normal(std::sin(kSlope), std::cos(kSlope), 0.0);
+        addPlane(world, material, Vec3::Zero(), normal);
+        const BodyId block = addBody(world, boxShape(Vec3::Constant(0.5), 1), material,
+                                     {0.25 * normal, fromEulerXyz({0.0, 0.0, -kSlope})});
+        const Vec3 start = world.motion[block].position;
+        Stepper stepper(settings);
+        for (int f = 0; f < 240; ++f) stepper.advanceFrame(world, kFrame);
+        const double way = 0.5 * acceleration * 100.0;
+        EXPECT_NEAR((world.motion[block].position - start).norm(), way, 0.02 * way) << acceleration;
+    }
+}
+
+}  // namespace
+}  // namespace scree::test

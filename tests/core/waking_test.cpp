@@ -1,0 +1,101 @@
+// What wakes sleepers, and what does not.
+#include "core/dynamics/waking.h"
+
+#include <gtest/gtest.h>
+
+#include "core/dynamics/stepper.h"
+#include "tests/support/scenes.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double kFrame = 1.0 / 24.0;
+
+/// Cubes of 1 m and 1 kg, one on the other.
+World makeStack(int count)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    addPlane(world, material);
+    for (int i = 0; i < count; ++i) {
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                {Vec3(0.0, 0.5 + i, 0.0), Quat::Identity()});
+    }
+    return world;
+}
+
+TEST(Waking, SleepersWakeAndMoveWhenStruckAndOnlyThen)
+{
+    World world = makeStack(3);
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), 0, {Vec3(8.0, 0.5, 0.0), Quat::Identity()});
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    for (BodyId b = 1; b <= 4; ++b) ASSERT_TRUE(world.contactMemory.isAsleep(b)) << b;
+
+    const World before = world;
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), 0, {Vec3(-3.0, 1.5, 0.0), Quat::Identity()}, 5.0,
+            Vec3(6.0, 3.0, 0.0));
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_GE((world.motion[2].position - before.motion[2].position).norm(), 0.1);
+    // The cube that stands apart has not stirred by a bit.
+    EXPECT_TRUE(world.motion[4].position == before.motion[4].position);
+    EXPECT_TRUE(world.contactMemory.isAsleep(4));
+}
+
+TEST(Waking, ABlowGoesThroughSleepersAsThroughWhatIsAwake)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 1.0);
+    addPlane(world, material);
+    const auto addBall = [&](double x, double speed) {
+        return addBody(world, exactSphere(0.5), material, {Vec3(x, 0.5, 0.0), Quat::Identity()},
+                       1.0, Vec3(speed, 0.0, 0.0));
+    };
+    constexpr int kBalls = 9;
+    for (int i = 0; i < kBalls; ++i) addBall(i, 0.0);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    for (BodyId b = 1; b <= kBalls; ++b) ASSERT_TRUE(world.contactMemory.isAsleep(b)) << b;
+
+    addBall(-3.0, 4.0);
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    // Were those out of reach of the first look left asleep, the blow would come back from them.
+    EXPECT_NEAR(world.motion[kBalls].velocity.x(), 4.0, 0.05);
+    for (BodyId b = 1; b < kBalls; ++b) EXPECT_NEAR(world.motion[b].velocity.x(), 0.0, 0.05) << b;
+}
+
+TEST(Waking, ASleeperPassesOnTheWeightOfWhatIsLaidOnIt)
+{
+    World world = makeStack(1);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    ASSERT_TRUE(world.contactMemory.isAsleep(1));
+
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), 0, {Vec3(0.0, 1.5, 0.0), Quat::Identity()}, 0.2);
+    // Long before the other sleeps too.
+    for (int f = 0; f < 6; ++f) stepper.advanceFrame(world, kFrame);
+    double onGround = 0.0;  // on body 0, the plane
+    for (const RememberedContact& contact : world.contactMemory.contacts) {
+        if (contact.a == 0) onGround -= contact.force.y();
+    }
+    EXPECT_NEAR(onGround, 1.2 * experimentSettings().gravity.norm(), 0.1);
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_TRUE(world.contactMemory.isAsleep(1));
+    EXPECT_TRUE(world.contactMemory.isAsleep(2));
+}
+
+TEST(Waking, SleepersThatLoseWhatHoldsThemFall)
+{
+    World world = makeStack(3);
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    for (BodyId b = 1; b <= 3; ++b) ASSERT_TRUE(world.contactMemory.isAsleep(b)) << b;
+    // The middle one is carried away.
+    world.motion[2].position.x() = 5.0;
+    world.contactMemory.rest[2].isAsleep = false;
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    EXPECT_NEAR(world.motion[3].position.y(), 1.5, 1e-2);
+}
+
+}  // namespace
+}  // namespace scree::test
