@@ -49,19 +49,12 @@ Vec3 blend(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double mu,
     double share = 1.0;
     if (outOfCone > 0.0) share = std::min(share, mu * frictionlessNormal / outOfCone);
 
-    // W(share) = w0 + w1 share + w2 share², convex, with w0 ≤ 0: the larger root bounds the share.
     const Vec3 step = sticking - frictionless;
     const double w0 = workOf(frictionless, collisionMatrix, u);
     const double w1 = u.dot(step) + frictionless.dot(collisionMatrix * step);
     const double w2 = 0.5 * step.dot(collisionMatrix * step);
     if (w2 == 0.0) return frictionless;  // head-on they are the same, and neither's work is exact
-    if (w0 + share * (w1 + share * w2) > 0.0) {
-        const double root = std::sqrt(std::max(0.0, w1 * w1 - 4.0 * w2 * w0));
-        // Of the two equal forms of the larger root, the one without cancellation.
-        const double larger = w1 <= 0.0 ? (-w1 + root) / (2.0 * w2) : -2.0 * w0 / (w1 + root);
-        share = std::clamp(larger, 0.0, share);
-    }
-    return frictionless + share * step;
+    return frictionless + std::min(share, shareWithoutGain(w0, w1, w2)) * step;
 }
 
 }  // namespace
@@ -69,6 +62,15 @@ Vec3 blend(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double mu,
 double workOf(const Vec3& impulse, const Mat3& collisionMatrix, const Vec3& u)
 {
     return u.dot(impulse) + 0.5 * impulse.dot(collisionMatrix * impulse);
+}
+
+double shareWithoutGain(double w0, double w1, double w2)
+{
+    if (w0 + w1 + w2 <= 0.0) return 1.0;
+    // Convex, so the larger root bounds the share: of its two equal forms the one without
+    // cancellation.
+    const double root = std::sqrt(std::max(0.0, w1 * w1 - 4.0 * w2 * w0));
+    return std::clamp(w1 <= 0.0 ? (-w1 + root) / (2.0 * w2) : -2.0 * w0 / (w1 + root), 0.0, 1.0);
 }
 
 ContactImpulse contactImpulse(const Mat3& collisionMatrix, const Vec3& u, const Vec3& n, double e,

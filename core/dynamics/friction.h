@@ -28,6 +28,11 @@ ContactImpulse contactImpulse(const Mat3& collisionMatrix, const Vec3& u, const 
 /// Change of kinetic energy by impulse j: u·j + ½ jᵀKj [J].
 double workOf(const Vec3& impulse, const Mat3& collisionMatrix, const Vec3& u);
 
+/// The largest share in 0 … 1 of a way along which kinetic energy changes by w0 + w1 s + w2 s²,
+/// where it has not grown yet: w0 ≤ 0 at its beginning and w2 ≥ 0, energy being quadratic in
+/// impulses.
+double shareWithoutGain(double w0, double w1, double w2);
+
 /// Adds one impulse of this kind to the counts.
 void countImpulse(ImpulseCounts& counts, FrictionCase kind);
 

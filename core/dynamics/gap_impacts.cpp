@@ -304,36 +304,25 @@ void ImpactVisits::applyOne(Impact& impact)
 }
 
 /// A face that lands flat is hit at all its corners at once. One by one they would make it
-/// spin. With friction, Newton's rule at several places can add energy, again and again;
-/// without it cannot, and that is what is left then.
+/// spin.
 void ImpactVisits::applyTogether()
 {
-    double earliest = state_.dt;
-    for (const Impact& impact : hits_) earliest = std::min(earliest, impact.time);
-    solveTogether(true);
-    const bool gainsEnergy = together_.work() > 0.0;
-    if (gainsEnergy) solveTogether(false);
+    double earliest = state_.dt, fastest = 0.0;
+    together_.begin(scratch_.bodies);
+    for (Impact& impact : hits_) {
+        together_.add(rowAt(impact));
+        earliest = std::min(earliest, impact.time);
+        fastest = std::max(fastest, impact.velocity.norm());
+    }
+    const bool isWhole = together_.solve(kPairIsSolved * fastest) == 1.0;
     for (std::size_t i = 0; i < hits_.size(); ++i) {
         const GapRow& row = together_.rows()[i];
         applyImpulses(row, row.worldImpulse(), earliest);
-        const FrictionCase kind = gainsEnergy   ? FrictionCase::fallback
+        const FrictionCase kind = !isWhole      ? FrictionCase::fallback
                                   : sticks(row) ? FrictionCase::sticking
                                                 : FrictionCase::sliding;
         note(hits_[i], row.worldImpulse(), kind);
     }
-}
-
-void ImpactVisits::solveTogether(bool withFriction)
-{
-    together_.begin(scratch_.bodies);
-    double fastest = 0.0;
-    for (Impact& impact : hits_) {
-        GapRow row = rowAt(impact);
-        if (!withFriction) row.friction = 0.0;
-        fastest = std::max(fastest, impact.velocity.norm());
-        together_.add(row);
-    }
-    together_.solve(kPairIsSolved * fastest);
 }
 
 void ImpactVisits::note(const Impact& impact, const Vec3& impulse, FrictionCase kind)

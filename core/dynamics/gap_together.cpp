@@ -5,6 +5,10 @@
 // after 200. Conjugate directions bring that down to a tenth.
 #include "core/dynamics/gap_together.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "core/dynamics/friction.h"
 #include "core/dynamics/gap_contact.h"
 
 namespace scree {
@@ -125,10 +129,11 @@ double HitTogether::goOn(double energyBefore)
     return energy;
 }
 
-void HitTogether::solve(double enough)
+/// From no impulses at all.
+void HitTogether::solveAnew(double enough)
 {
-    respond();
-    velocityBefore_ = velocity_;
+    for (GapRow& row : rows_) row.impulse = Vec3::Zero();
+    velocity_ = velocityBefore_;
     before_.resize(rows_.size());
     way_.assign(rows_.size(), Vec3::Zero());
     double energy = 0.0;
@@ -138,6 +143,40 @@ void HitTogether::solve(double enough)
         sweep(false);
         if (done + 1 < kMostSweeps) energy = goOn(energy);
     }
+}
+
+double HitTogether::solve(double enough)
+{
+    respond();
+    velocityBefore_ = velocity_;
+    solveAnew(enough);
+    return work() > 0.0 ? leaveFriction(enough) : 1.0;
+}
+
+/// Goes from the solution without friction as far towards that with friction as energy allows. All
+/// in between keep to Newton's rule and to the cones, since both do.
+double HitTogether::leaveFriction(double enough)
+{
+    const double whole = work();
+    std::vector<Vec3> rubbed;
+    std::vector<double> friction;
+    for (GapRow& row : rows_) {
+        rubbed.push_back(row.impulse);
+        friction.push_back(std::exchange(row.friction, 0.0));
+    }
+    solveAnew(enough);
+    const double none = std::min(work(), 0.0);
+    double slope = 0.0;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+        slope += (rubbed[i] - rows_[i].impulse).dot(velocity_[i]);
+    const double share = shareWithoutGain(none, slope, whole - none - slope);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const Vec3 step = share * (rubbed[i] - rows_[i].impulse);
+        rows_[i].friction = friction[i];
+        rows_[i].impulse += step;
+        push(i, step);
+    }
+    return share;
 }
 
 double HitTogether::work() const

@@ -15,8 +15,11 @@ public:
     void begin(const std::vector<GapBody>& bodies);
     void add(const GapRow& row) { rows_.push_back(row); }
 
-    /// Fills the impulses of the rows. `enough`: what a sweep may still change [m/s].
-    void solve(double enough);
+    /// Fills the impulses of the rows, with as much friction as adds no energy: Newton's rule at
+    /// several places can, and without friction cannot. Answers the share of it that is
+    /// left.
+    /// `enough`: what a sweep may still change [m/s].  [A33]
+    double solve(double enough);
 
     const std::vector<GapRow>& rows() const { return rows_; }
 
@@ -34,6 +37,8 @@ private:
     };
 
     void respond();
+    void solveAnew(double enough);
+    double leaveFriction(double enough);
     double sweep(bool isUp);
     double visit(std::size_t i);
     double goOn(double energyBefore);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/dynamics/friction.h"
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
@@ -198,31 +199,53 @@ TEST(GapBounce, WhatTumblesKeepsItsEnergy)
     }
 }
 
-/// A rod that turns in a vertical plane and flies down on the ground with its centre at `height`,
-/// without gravity: velocity and spin when it has landed on one end, by Newton's rule.
-struct EndOfRod {
-    double velocity, spin;
+/// A rod of 1 kg that turns in a vertical plane and flies down on the ground, without gravity.
+struct FlyingRod {
+    Vec3 size;
+    double height, angle, fall, turning,
+        sideways;  // of its centre [m], [rad], [m/s], [rad/s], [m/s]
 
-    EndOfRod(const Vec3& size, double height, double angle, double fall, double turning,
-             double restitution)
+    World aboveGround(double restitution, double friction) const
     {
-        const auto lowest = [&](double t, double& arm) {
-            double least = height;
-            for (const double x : {-0.5, 0.5}) {
-                for (const double y : {-0.5, 0.5}) {
-                    const double a = angle + turning * t;
-                    const double low = x * size.x() * std::sin(a) + y * size.y() * std::cos(a);
-                    if (low >= least) continue;
-                    least = low;
-                    arm = x * size.x() * std::cos(a) - y * size.y() * std::sin(a);
-                }
+        World world;
+        const MaterialId material = addMaterial(world, friction, restitution);
+        addPlane(world, material);
+        addBody(world, boxShape(size, 1), material,
+                {{0.0, height, 0.0}, fromEulerXyz({0.0, 0.0, angle})}, 1.0, {sideways, -fall, 0.0},
+                {0.0, 0.0, turning});
+        return world;
+    }
+
+    /// The height of its lowest place at a time, and where that is from its centre.
+    double lowest(double t, Vec3& arm) const
+    {
+        double least = height;
+        for (const double x : {-0.5, 0.5}) {
+            for (const double y : {-0.5, 0.5}) {
+                const Vec3 place = fromEulerXyz({0.0, 0.0, angle + turning * t}) *
+                                   Vec3(x * size.x(), y * size.y(), 0.0);
+                if (place.y() >= least) continue;
+                least = place.y();
+                arm = place;
             }
-            return height - fall * t + least;
-        };
-        double before = 0.0, after = height / fall, arm = 0.0;
+        }
+        return height - fall * t + least;
+    }
+};
+
+/// Velocity and spin of a rod when it has landed on one end, by Newton's rule.
+struct EndOfRod {
+    Vec3 velocity;
+    double spin;
+    FrictionCase friction;
+
+    EndOfRod(const FlyingRod& rod, double restitution, double mu)
+    {
+        double before = 0.0, after = rod.height / rod.fall;
+        Vec3 arm = Vec3::Zero();
         for (int n = 0; n < 1000; ++n) {  // the first time, well before which nothing touches
             const double t = after * n / 1000;
-            if (lowest(t, arm) <= 0.0) {
+            if (rod.lowest(t, arm) <= 0.0) {
                 after = t;
                 break;
             }
@@ -230,40 +253,67 @@ struct EndOfRod {
         }
         for (int n = 0; n < 60; ++n) {
             const double t = 0.5 * (before + after);
-            (lowest(t, arm) > 0.0 ? before : after) = t;
+            (rod.lowest(t, arm) > 0.0 ? before : after) = t;
         }
-        const double inverseInertia = 12.0 / (size.x() * size.x() + size.y() * size.y());
-        const double speed = -fall + turning * arm;
-        const double impulse = -(1.0 + restitution) * speed / (1.0 + inverseInertia * arm * arm);
-        velocity = -fall + impulse;
-        spin = turning + inverseInertia * arm * impulse;
+        const Vec3 squares = rod.size.cwiseAbs2();
+        const double inverseInertia = 12.0 / (squares.x() + squares.y());
+        const Vec3 flight(rod.sideways, -rod.fall, 0.0), spinAxis(0.0, 0.0, 1.0);
+        const Vec3 turned = spinAxis.cross(arm);
+        const Mat3 response = Mat3::Identity() + inverseInertia * turned * turned.transpose();
+        const ContactImpulse hit =
+            contactImpulse(response, flight + rod.turning * turned, Vec3::UnitY(), restitution, mu);
+        velocity = flight + hit.impulse;
+        spin = rod.turning + inverseInertia * turned.dot(hit.impulse);
+        friction = hit.kind;
     }
 };
 
 TEST(GapBounce, WhatLandsOnACornerAsItTurnsIsStruckWhereThisIsThen)
 {
-    const Vec3 size(1.0, 0.2, 0.3);
-    constexpr double kFall = 3.0;
     for (const double restitution : {0.0, 0.5}) {
         for (const double turning : {-4.0, 2.0, 4.0}) {
             for (int n = 0; n < 12; ++n) {
-                const double height = 1.0 + 0.03 * n, angle = 0.5 * n;
-                World world;
-                const MaterialId material = addMaterial(world, 0.0, restitution);
-                addPlane(world, material);
-                addBody(world, boxShape(size, 1), material,
-                        {{0.0, height, 0.0}, fromEulerXyz({0.0, 0.0, angle})}, 1.0,
-                        {0.0, -kFall, 0.0}, {0.0, 0.0, turning});
+                const FlyingRod rod{{1.0, 0.2, 0.3}, 1.0 + 0.03 * n, 0.5 * n, 3.0, turning, 0.0};
+                World world = rod.aboveGround(restitution, 0.0);
                 Stepper stepper(weightless());
-                const BodyMotion& rod = world.motion[1];
-                while (rod.velocity.y() <= -kFall) stepper.step(world, 1.0 / 96.0);
-                const EndOfRod landed(size, height, angle, kFall, turning, restitution);
-                const double spin = angularVelocityOf(world, 1).z();
-                EXPECT_NEAR(rod.velocity.y(), landed.velocity, 2e-3) << turning << " " << n;
-                EXPECT_NEAR(spin, landed.spin, 5e-3) << turning << " " << n;
+                while (world.motion[1].velocity.y() <= -rod.fall) stepper.step(world, 1.0 / 96.0);
+                const EndOfRod landed(rod, restitution, 0.0);
+                EXPECT_NEAR(world.motion[1].velocity.y(), landed.velocity.y(), 2e-3)
+                    << turning << " " << n;
+                EXPECT_NEAR(angularVelocityOf(world, 1).z(), landed.spin, 5e-3)
+                    << turning << " " << n;
             }
         }
     }
+}
+
+TEST(GapBounce, OfFrictionThatWouldAddEnergyAtSeveralPlacesAsMuchIsLeftAsAtOne)
+{
+    // Two corners land at once, and stand for the edge between them. Without any friction these
+    // would keep all of their sideways speed.
+    int fallbacks = 0;
+    for (const double restitution : {0.8, 1.0}) {
+        for (const double mu : {0.3, 1.0}) {
+            for (const double turning : {-4.0, 2.0, 4.0}) {
+                for (int n = 0; n < 12; ++n) {
+                    const FlyingRod rod{
+                        {1.0, 0.2, 0.3}, 1.0 + 0.03 * n, 0.5 * n, 3.0, turning, 1.0};
+                    const EndOfRod landed(rod, restitution, mu);
+                    if (landed.friction != FrictionCase::fallback) continue;
+                    ++fallbacks;
+                    World world = rod.aboveGround(restitution, mu);
+                    Stepper stepper(weightless());
+                    const BodyMotion& motion = world.motion[1];
+                    while (motion.velocity.y() <= -rod.fall) stepper.step(world, 1.0 / 960.0);
+                    EXPECT_LT((motion.velocity - landed.velocity).norm(), 5e-3)
+                        << turning << " " << n;
+                    EXPECT_NEAR(angularVelocityOf(world, 1).z(), landed.spin, 1e-2)
+                        << turning << " " << n;
+                }
+            }
+        }
+    }
+    EXPECT_GE(fallbacks, 20);
 }
 
 TEST(GapBounce, ABodyThatIsStruckLateInAStepDoesNotRunThroughWhatItMeetsBefore)
