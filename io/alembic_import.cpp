@@ -3,6 +3,7 @@
 #include "io/alembic_import.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -24,6 +25,7 @@ constexpr double kMostMatrices = 2e7;  // of all transforms of a file; 2.5 GB
 constexpr double kSameTime = 1e-5;    // [s], as Alembic itself compares
 constexpr double kScaleMoves = 1e-4;  // relative; matrices of others are often single precision
 constexpr double kScaleIsOne = 1e-6;
+constexpr double kNoSize = 1e-12;
 
 /// A transform over time; one matrix and no times when it never changes.
 struct MatrixTrack {
@@ -248,9 +250,13 @@ private:
         if (mesh.triangles.cols() == 0) return;
         ImportedNode node;
         node.name = name;
-        const Mat3 L = fileFromMesh.matrices.front().topLeftCorner<3, 3>();
+        const auto shown =
+            std::find_if_not(fileFromMesh.matrices.begin(), fileFromMesh.matrices.end(), isHidden);
+        const Mat4& M =
+            shown == fileFromMesh.matrices.end() ? fileFromMesh.matrices.front() : *shown;
+        const Mat3 L = M.topLeftCorner<3, 3>();
         const Mat3 S = rotationOf(L).transpose() * L;
-        node.fileFromNode = poseOf(fileFromMesh.matrices.front());
+        node.fileFromNode = poseOf(M);
         readKeys(fileFromMesh, S, node);
         if (!S.isApprox(Mat3::Identity(), kScaleIsOne)) mesh.points = S * mesh.points;
         if (S.determinant() < 0.0) turnInsideOut(mesh);
@@ -309,6 +315,7 @@ private:
     {
         for (std::size_t i = 0; i < fileFromMesh.seconds.size(); ++i) {
             const Mat4& M = fileFromMesh.matrices[i];
+            if (isHidden(M)) continue;
             const Pose pose = poseOf(M);
             const Mat3 stretch = pose.orientation.conjugate() * M.topLeftCorner<3, 3>();
             if (!stretch.isApprox(S, kScaleMoves)) {
@@ -319,6 +326,9 @@ private:
             node.keys.push_back({fileFromMesh.seconds[i], pose});
         }
     }
+
+    /// No size is how many programs, this one too, hide what is not there yet.
+    static bool isHidden(const Mat4& M) { return M.topLeftCorner<3, 3>().isZero(kNoSize); }
 
     static Pose poseOf(const Mat4& M)
     {
