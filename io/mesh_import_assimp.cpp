@@ -546,6 +546,10 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     if (!gltf.lostExtension.empty())
         throw Error(ErrorKind::badInput, "it uses the glTF extension " + gltf.lostExtension +
                                              ", which is not read here: export it without");
+    if (!gltf.looselySkinned.empty())
+        throw Error(ErrorKind::badInput, "bones bend its node '" + gltf.looselySkinned +
+                                             "' without 'inverseBindMatrices', which are needed "
+                                             "here: export it with its deformers applied");
     Assimp::Importer importer;
     keepLoadersOf(ending, importer);
     if (ending == "ply" && !endsItsHeader(path))

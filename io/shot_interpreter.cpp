@@ -86,6 +86,11 @@ private:
                 report(*name, "name " + toTomlText(std::string_view(name->text)) +
                                   " must be letters, digits and _, not beginning with a digit");
             }
+            if (name->text.size() > kLongestName) {
+                report(*name, "a name of " + std::to_string(name->text.size()) +
+                                  " letters is too long for a folder: at most " +
+                                  std::to_string(kLongestName));
+            }
         }
         const ShotNode& frames = *table->find("frames");
         if (!readFrameRange(frames.text, shot_.firstFrame, shot_.lastFrame)) {

@@ -313,6 +313,41 @@ TEST(ShotImport, AMeshThatIsNoSolidIsToldWhereItsRepairCanBeWritten)
     }
 }
 
+// A name of 250 letters made a take whose mesh could not be written, exit code 73.
+TEST(ShotImport, ALongNameIsCutToWhatAFileCanHave)
+{
+    const test::TemporaryFolder folder;
+    test::writeGltf(folder);
+    std::string text = test::gltfText("data.bin");
+    for (const char* name : {"Mug.big", "Mug.small"})
+        text.replace(text.find(name), std::string(name).size(), std::string(250, 'm'));
+    std::ofstream(folder / "set.gltf") << text;
+    const Shot shot = parseShotText(shotOf(folder, "\"m*\""), "s.toml");
+    ASSERT_EQ(shot.bodies.size(), 2u);
+    EXPECT_EQ(shot.bodies[0].name, std::string(200, 'm'));
+    EXPECT_EQ(shot.bodies[1].name, std::string(200, 'm') + "_2");
+    for (const ShotShape& shape : shot.shapes) EXPECT_LT(shape.name.size(), 210u);
+}
+
+// "Its reader crashed (Segmentation fault)" told nobody what to export otherwise.
+TEST(ShotImport, ASkinWithoutBindMatricesIsToldWithItsNode)
+{
+    const test::TemporaryFolder folder;
+    test::writeGltf(folder);
+    std::string text = test::gltfText("data.bin");
+    text.replace(text.find("\"name\":\"Bowl\""), 13, "\"name\":\"Bowl\",\"skin\":0");
+    text.insert(text.find("\"meshes\""), "\"skins\":[{\"joints\":[0]}],");
+    std::ofstream(folder / "set.gltf") << text;
+    try {
+        parseShotText(shotOf(folder, "\"Mug*\""), "s.toml");
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("bones bend its node 'Bowl' without"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 // Pieces of a broken vase came with fields of 25 MB each, and an open mesh of a set could not be
 // closed, because an [[import]] had none of the keys of a shape.
 TEST(ShotImport, SaysForAllItsNodesHowTheyCollide)
