@@ -414,7 +414,8 @@ Command addSimCommand(CLI::App& program)
         ->excludes(resume);
     command->add_option("--from", options->from,
                         "TAKE@FRAME: begin with that take's frames up to this one; the shot may "
-                        "differ from the take's in settings, not in bodies. With --resume: begin "
+                        "differ from the take's in length, settings and looks, not in bodies: of "
+                        "its last frame, the same take with another camera. With --resume: begin "
                         "so when there is nothing to resume");
     command->add_flag("--no-cache", options->noCache,
                       "Build every distance field anew and keep none");
