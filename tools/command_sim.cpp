@@ -157,10 +157,12 @@ private:
         for (int frame = shot_.firstFrame; frame <= lastFrame_; ++frame)
             missing += !take_->hasFrame(frame);
         if (missing == 0) return 0;
-        console_.info(shot_.name + ": " + std::to_string(world_.bodyCount()) + " bodies, frames " +
+        console_.info(shot_.name + ": " + std::to_string(world_.bodyCount()) +
+                      (world_.bodyCount() == 1 ? " body" : " bodies") + ", frames " +
                       std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) + ", " +
                       std::to_string(total - missing) + " there already, " +
-                      std::to_string(threadCount()) + " threads");
+                      std::to_string(threadCount()) +
+                      (threadCount() == 1 ? " thread" : " threads"));
 
         Progress progress(console_, progressMode_, "sim", total, total - missing);
         Stepper stepper(shot_.settings);
