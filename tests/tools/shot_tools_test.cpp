@@ -143,7 +143,7 @@ TEST_F(ShotTools, DiffEndsWithOneAndNamesTheFrameAndTheBody)
     EXPECT_EQ(json["difference"]["frame"], 1004);
     EXPECT_EQ(json["difference"]["bodies"].size(), 2u);
     EXPECT_EQ(run("diff a nowhere").code, 66);
-    EXPECT_EQ(run("sim drop.toml -o d --from a@1006").code, 65);
+    EXPECT_EQ(run("sim drop.toml -o d --from a@1007").code, 65);
     EXPECT_EQ(run("sim drop.toml -o d --from a").code, 64);
 }
 
