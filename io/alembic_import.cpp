@@ -3,8 +3,10 @@
 #include "io/alembic_import.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/math/rotation.h"
@@ -24,6 +26,7 @@ constexpr double kMostMatrices = 2e7;  // of all transforms of a file; 2.5 GB
 constexpr double kSameTime = 1e-5;    // [s], as Alembic itself compares
 constexpr double kScaleMoves = 1e-4;  // relative; matrices of others are often single precision
 constexpr double kScaleIsOne = 1e-6;
+constexpr double kNoSize = 1e-12;
 
 /// A transform over time; one matrix and no times when it never changes.
 struct MatrixTrack {
@@ -166,12 +169,15 @@ private:
 
         MatrixTrack track = own.matrices.size() > 1 ? own : fileFromParent;
         const bool bothMove = own.matrices.size() > 1 && fileFromParent.matrices.size() > 1;
-        if (bothMove) requireSameTimes(own, fileFromParent, object.name);
-        track.matrices.resize(std::max(own.matrices.size(), fileFromParent.matrices.size()));
+        const bool isAsOne = !bothMove || haveSameTimes(own, fileFromParent);
+        if (!isAsOne) track.seconds = timesOfBoth(own.seconds, fileFromParent.seconds);
+        track.matrices.resize(std::max<std::size_t>(1, track.seconds.size()));
         matrixCount_ += static_cast<double>(track.matrices.size());
         if (matrixCount_ > kMostMatrices) reader_.refuse("holds more motion than can be read");
         for (std::size_t i = 0; i < track.matrices.size(); ++i) {
-            track.matrices[i] = matrixAt(fileFromParent, i) * matrixAt(own, i);
+            track.matrices[i] = isAsOne ? matrixAt(fileFromParent, i) * matrixAt(own, i)
+                                        : matrixAtTime(fileFromParent, track.seconds[i]) *
+                                              matrixAtTime(own, track.seconds[i]);
         }
         return track;
     }
@@ -181,15 +187,41 @@ private:
         return track.matrices[std::min(i, track.matrices.size() - 1)];
     }
 
-    void requireSameTimes(const MatrixTrack& a, const MatrixTrack& b, const std::string& name) const
+    static bool haveSameTimes(const MatrixTrack& a, const MatrixTrack& b)
     {
-        bool isSame = a.seconds.size() == b.seconds.size();
-        for (std::size_t i = 0; isSame && i < a.seconds.size(); ++i) {
-            isSame = std::abs(a.seconds[i] - b.seconds[i]) < kSameTime;
-        }
-        if (isSame) return;
-        reader_.refuse("samples the transform '" + name +
-                       "' at other times than the moving one above it; bake both at every frame");
+        return std::ranges::equal(a.seconds, b.seconds,
+                                  [](double x, double y) { return std::abs(x - y) < kSameTime; });
+    }
+
+    static std::vector<double> timesOfBoth(const std::vector<double>& a,
+                                           const std::vector<double>& b)
+    {
+        std::vector<double> times;
+        std::ranges::merge(a, b, std::back_inserter(times));
+        const auto isSame = [](double x, double y) { return y - x < kSameTime; };
+        times.erase(std::unique(times.begin(), times.end(), isSame), times.end());
+        return times;
+    }
+
+    /// Steadily from sample to sample: place, turn and stretch each for itself. Before the first
+    /// and after the last nothing moves.
+    static Mat4 matrixAtTime(const MatrixTrack& track, double seconds)
+    {
+        const auto after = std::ranges::lower_bound(track.seconds, seconds - kSameTime);
+        const auto i = static_cast<std::size_t>(after - track.seconds.begin());
+        if (after == track.seconds.end()) return track.matrices.back();
+        if (i == 0 || *after <= seconds + kSameTime) return track.matrices[i];
+        const double share = (seconds - after[-1]) / (*after - after[-1]);
+        const Mat4 &A = track.matrices[i - 1], &B = track.matrices[i];
+        const Pose a = poseOf(A), b = poseOf(B);
+        const auto stretchOf = [](const Pose& pose, const Mat4& M) -> Mat3 {
+            return pose.orientation.conjugate().toRotationMatrix() * M.topLeftCorner<3, 3>();
+        };
+        Mat4 M = Mat4::Identity();
+        M.topLeftCorner<3, 3>() = a.orientation.slerp(share, b.orientation).toRotationMatrix() *
+                                  ((1.0 - share) * stretchOf(a, A) + share * stretchOf(b, B));
+        M.topRightCorner<3, 1>() = (1.0 - share) * a.position + share * b.position;
+        return M;
     }
 
     MatrixTrack ownTrack(const std::vector<StoredProperty>& properties,
@@ -248,9 +280,13 @@ private:
         if (mesh.triangles.cols() == 0) return;
         ImportedNode node;
         node.name = name;
-        const Mat3 L = fileFromMesh.matrices.front().topLeftCorner<3, 3>();
+        const auto shown =
+            std::find_if_not(fileFromMesh.matrices.begin(), fileFromMesh.matrices.end(), isHidden);
+        const Mat4& M =
+            shown == fileFromMesh.matrices.end() ? fileFromMesh.matrices.front() : *shown;
+        const Mat3 L = M.topLeftCorner<3, 3>();
         const Mat3 S = rotationOf(L).transpose() * L;
-        node.fileFromNode = poseOf(fileFromMesh.matrices.front());
+        node.fileFromNode = poseOf(M);
         readKeys(fileFromMesh, S, node);
         if (!S.isApprox(Mat3::Identity(), kScaleIsOne)) mesh.points = S * mesh.points;
         if (S.determinant() < 0.0) turnInsideOut(mesh);
@@ -309,6 +345,7 @@ private:
     {
         for (std::size_t i = 0; i < fileFromMesh.seconds.size(); ++i) {
             const Mat4& M = fileFromMesh.matrices[i];
+            if (isHidden(M)) continue;
             const Pose pose = poseOf(M);
             const Mat3 stretch = pose.orientation.conjugate() * M.topLeftCorner<3, 3>();
             if (!stretch.isApprox(S, kScaleMoves)) {
@@ -319,6 +356,9 @@ private:
             node.keys.push_back({fileFromMesh.seconds[i], pose});
         }
     }
+
+    /// No size is how many programs, this one too, hide what is not there yet.
+    static bool isHidden(const Mat4& M) { return M.topLeftCorner<3, 3>().isZero(kNoSize); }
 
     static Pose poseOf(const Mat4& M)
     {

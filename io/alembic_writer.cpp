@@ -71,6 +71,15 @@ Channels channelsOf(const Pose& parentFromChild)
     return channels;
 }
 
+/// Where a body will be born, in no size. Blender shows what is not `visible` all the same, and
+/// coins that have yet to be poured would hang in the air.
+Channels hiddenAt(const Pose& parentFromChild)
+{
+    Channels channels = channelsOf(parentFromChild);
+    for (const std::size_t column : {0, 4, 8}) std::fill_n(&channels[column], 3, 0.0);
+    return channels;
+}
+
 std::string shortestText(double value)
 {
     std::array<char, 32> letters;
@@ -269,7 +278,9 @@ void AlembicWriter::writeFrame(const SceneFrame& frame)
     for (std::size_t body = 0; body < bodies_.size(); ++body) {
         TransformTrack& track = bodies_[body];
         if (!scene_->bodies[body].moves && track.samples.count() > 0) continue;
-        addSample(track, channelsOf(frame.worldFromAsset[body]));
+        const Pose& pose = frame.worldFromAsset[body];
+        const bool isHidden = !isThere(scene_->bodies[body], frame.frame);
+        addSample(track, isHidden ? hiddenAt(pose) : channelsOf(pose));
     }
     inheritsEverySample_.append(inheritsSample_);
     opsEverySample_.append(opsSample_);

@@ -5,6 +5,9 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <system_error>
 
@@ -155,6 +158,27 @@ void AtomicFile::fail(const char* what, int errorNumber) const
 {
     throw Error(ErrorKind::inputOutput, std::string(what) + " \"" + target_.string() +
                                             "\" failed: " + std::strerror(errorNumber));
+}
+
+void removeAbandoned(const fs::path& target)
+{
+    constexpr std::chrono::hours kQuiet{1};
+    const std::string start = "." + target.filename().string() + ".";
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folderOf(target), code)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(start)) continue;
+        int process = 0, end = 0;
+        unsigned count = 0;
+        const char* rest = name.c_str() + start.size();
+        std::sscanf(rest, "%9d-%9u.tmp%n", &process, &count, &end);
+        if (end == 0 || rest[end] != '\0' || process <= 0) continue;
+        if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+        std::error_code ignored;
+        const auto written = fs::last_write_time(entry.path(), ignored);
+        if (ignored || fs::file_time_type::clock::now() - written < kQuiet) continue;
+        fs::remove(entry.path(), ignored);
+    }
 }
 
 }  // namespace scree

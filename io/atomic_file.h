@@ -13,7 +13,7 @@ namespace scree {
 
 /// Not a std::ofstream because that can neither sync nor say why it failed. Temporaries are named
 /// ".<name>.<process>-<count>.tmp"; one that a killed process left behind is nobody's data and may
-/// be deleted by whoever owns the folder.
+/// be deleted by whoever owns the folder, as removeAbandoned() does.
 class AtomicFile {
 public:
     /// Throws Error{cannotCreate} when nothing can be created beside `target`, or when `target` is
@@ -53,5 +53,11 @@ private:
     std::uint64_t size_ = 0;
     std::string pending_;  // the last bytes of the file, not handed to the system yet
 };
+
+/// Removes what killed processes left of earlier writes to `target`: a cache half written is as
+/// large as a cache, and nobody sees it. Its process must be gone and, since it may have run on
+/// another machine of the farm, an hour must have passed since it wrote. It reads the folder, so it
+/// is for files that are few and large.
+void removeAbandoned(const std::filesystem::path& target);
 
 }  // namespace scree

@@ -180,13 +180,13 @@ private:
         return known->second;
     }
 
-    /// What is wrong with a mesh is told with keys that may help: those of a shape.
+    /// What is wrong with a mesh is told with keys that may help: in an import, they help all.
     static std::string adviceFor(const ShotShape& shape, const std::string& message)
     {
         const bool namesKeys = message.find(" = { ") != std::string::npos;
         if (!std::holds_alternative<NodeSpec>(shape.source) || !namesKeys) return "";
-        return "; an [[import]] has none of a shape's keys: a node that needs one comes as "
-               "[shape.NAME] file = \"…\", from a file of its own";
+        return "; a key of an [[import]] holds for all of its nodes: one that needs another has an "
+               "[[import]] of its own";
     }
 
     std::shared_ptr<const Shape> buildShape(const ShotShape& shape) const

@@ -75,6 +75,18 @@ void readJoins(const Json& file, std::map<std::string, SampleJoin>& joins)
     }
 }
 
+/// The node whose skin leaves out how its mesh was bound; empty: there is none.
+std::string looselySkinnedNode(const Json& file)
+{
+    for (const Json& node : memberOf(file, "nodes")) {
+        const Json& skin = itemOf(memberOf(file, "skins"), memberOf(node, "skin"));
+        if (!skin.is_object() || !memberOf(skin, "inverseBindMatrices").is_null()) continue;
+        const std::string name = textOf(memberOf(node, "name"));
+        return name.empty() ? "without a name" : name;
+    }
+    return "";
+}
+
 }  // namespace
 
 GltfReading readGltf(const std::string& bytes)
@@ -85,6 +97,7 @@ GltfReading readGltf(const std::string& bytes)
         const auto lost = std::find(kLost.begin(), kLost.end(), textOf(used));
         if (lost != kLost.end()) reading.lostExtension = *lost;
     }
+    reading.looselySkinned = looselySkinnedNode(file);
     readJoins(file, reading.joins);
     return reading;
 }

@@ -11,6 +11,8 @@ enum class SampleJoin { straight, jump, curve };
 
 struct GltfReading {
     std::string lostExtension;  ///< one that moves, copies or packs points; empty: there is none
+    /// A node whose skin has no inverse bind matrices: the format allows it, assimp crashes on it.
+    std::string looselySkinned;
     /// By the name of the node, which of its moves do not go straight from sample to sample; nodes
     /// without a name are not told.
     std::map<std::string, SampleJoin> joins;

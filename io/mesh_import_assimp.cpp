@@ -140,6 +140,10 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     if (!gltf.lostExtension.empty())
         throw Error(ErrorKind::badInput, "it uses the glTF extension " + gltf.lostExtension +
                                              ", which is not read here: export it without");
+    if (!gltf.looselySkinned.empty())
+        throw Error(ErrorKind::badInput, "bones bend its node '" + gltf.looselySkinned +
+                                             "' without 'inverseBindMatrices', which are needed "
+                                             "here: export it with its deformers applied");
     if (ending == "ply" && !endsItsHeader(path))
         throw Error(ErrorKind::badInput, "its header has no end: the file is cut short");
     Assimp::Importer importer;

@@ -124,6 +124,11 @@ private:
 
     void checkName(const std::string& name, const SourceLocation& where)
     {
+        if (name.size() > kLongestName) {
+            problems_.add(where, "a name of " + std::to_string(name.size()) +
+                                     " letters is too long for a file: at most " +
+                                     std::to_string(kLongestName));
+        }
         if (isPlainName(name)) return;
         problems_.add(where, "name " + toTomlText(std::string_view(name)) +
                                  " must be letters, digits and _, not beginning with a digit");
@@ -229,8 +234,12 @@ private:
 
     bool refuse(const ShotNode& node, const ShotKey& key)
     {
+        // Of a text, the default shows the form: a number of frames is no range of them.
+        const bool hasExample = key.type == KeyType::text && *key.byDefault;
         problems_.add(node.where, "'" + std::string(nameOf(key)) + "' must be " +
-                                      expectationOf(key) + ", not " + quoted(node));
+                                      expectationOf(key) +
+                                      (hasExample ? std::string(", like ") + key.byDefault : "") +
+                                      ", not " + quoted(node));
         return false;
     }
 

@@ -282,6 +282,7 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
         const ImportedNode& imported = file.nodes[i];
         PlacedNode placed;
         placed.name = imported.name.empty() ? "node" : plainName(imported.name);
+        placed.name.resize(std::min(placed.name.size(), kLongestName));
         TriMesh mesh =
             transformed(imported.mesh, Pose(), Vec3::Constant(placement.metresPerUnit()));
         placed.shape = {path, pool.share(std::move(mesh))};

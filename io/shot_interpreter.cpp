@@ -86,6 +86,11 @@ private:
                 report(*name, "name " + toTomlText(std::string_view(name->text)) +
                                   " must be letters, digits and _, not beginning with a digit");
             }
+            if (name->text.size() > kLongestName) {
+                report(*name, "a name of " + std::to_string(name->text.size()) +
+                                  " letters is too long for a folder: at most " +
+                                  std::to_string(kLongestName));
+            }
         }
         const ShotNode& frames = *table->find("frames");
         if (!readFrameRange(frames.text, shot_.firstFrame, shot_.lastFrame)) {
@@ -170,6 +175,10 @@ private:
         const ShotNode *file = node.find("file"), *material = node.find("material");
         if (material) requireKnown(*material, "material", materialNames_);
         if (!file || !material) return;
+        const ShapeSettings settings =
+            readShapeSettings(node, isStrict_, shot_.metresPerUnit, problems_);
+        const CollisionGroups groups = groups_.read(node);
+        bool isRight = true;  // what is wrong with all of them is told of one
         for (PlacedNode& placed :
              readImportedNodes(node, besideShot(file->text), shot_, problems_)) {
             if (!hasRoomFor(1.0, node)) return;
@@ -180,18 +189,34 @@ private:
                 body.name = placed.name + "_" + std::to_string(i);
             }
             ownerOfName_.emplace(body.name, node.where);
-            body.shape = shapeOfNode(placed, node.where);
+            body.shape = shapeOfNode(placed, settings, node.where);
             body.material = material->text;
             body.kind = kindOf(node.find("motion")->text);
             body.worldFromAsset = placed.worldFromNode;
             body.keys = std::move(placed.keys);
             body.interpolation = placed.interpolation;
-            readSleep(node, body);
+            body.groups = groups;
+            if (isRight) isRight = readImportedStart(node, body);
             shot_.bodies.push_back(std::move(body));
         }
     }
 
-    std::string shapeOfNode(const PlacedNode& placed, const SourceLocation& where)
+    /// How a body of an import begins. False, and a report, when it cannot.
+    bool readImportedStart(const ShotNode& node, ShotBody& body)
+    {
+        const std::size_t problemsBefore = problems_.count();
+        if (const ShotNode* velocity = node.find("velocity")) {
+            body.velocity = toVec3(*velocity) * shot_.metresPerUnit;
+            if (body.kind != BodyKind::dynamic) {
+                report(*velocity, "only dynamic bodies have a 'velocity'");
+            }
+        }
+        readSleep(node, body);
+        return problems_.count() == problemsBefore;
+    }
+
+    std::string shapeOfNode(const PlacedNode& placed, const ShapeSettings& settings,
+                            const SourceLocation& where)
     {
         for (const ShotShape& shape : shot_.shapes) {
             const auto* known = std::get_if<NodeSpec>(&shape.source);
@@ -205,7 +230,7 @@ private:
             shape.name += "_";
         }
         shape.source = placed.shape;
-        if (isStrict_) shape.settings.field = FieldMode::grid;
+        shape.settings = settings;
         shape.location = where;
         shapeNames_.push_back(shape.name);
         shot_.shapes.push_back(shape);
@@ -229,10 +254,12 @@ private:
         if (problems_.count() > problemsBefore || !isComplete(node)) return;
         if (!claim(node, emitter.name, ownerOfItem_)) return;
 
+        const CollisionGroups groups = groups_.read(node);
         for (int i = 0; i < emitter.count; ++i) {
             ShotBody body = emittedBody(emitter, shot_, i);
             body.name = nameOfCopy(emitter.name, static_cast<std::size_t>(i));
             body.location = node.where;
+            body.groups = groups;
             if (!claimName(node, body.name)) return;
             shot_.bodies.push_back(std::move(body));
         }

@@ -280,18 +280,20 @@ void readMaterialPairs(const ShotNode& tree, Shot& shot, ProblemList& problems)
 GroupNames::GroupNames(const ShotNode& tree, ProblemList& problems)
     : names_{""}, problems_(problems)
 {
-    const ShotNode* bodies = tree.find("body");
-    if (!bodies) return;
-    for (const ShotNode& body : bodies->items) {
-        const ShotNode* group = body.find("group");
-        if (!group || std::find(names_.begin(), names_.end(), group->text) != names_.end()) {
-            continue;
+    for (const char* table : {"body", "import", "emitter"}) {
+        const ShotNode* list = tree.find(table);
+        if (!list) continue;
+        for (const ShotNode& item : list->items) {
+            const ShotNode* group = item.find("group");
+            if (!group || std::find(names_.begin(), names_.end(), group->text) != names_.end()) {
+                continue;
+            }
+            if (names_.size() == kMostGroups) {
+                problems.add(group->where, "the shot has more than 63 groups");
+                return;
+            }
+            names_.push_back(group->text);
         }
-        if (names_.size() == kMostGroups) {
-            problems.add(group->where, "the shot has more than 63 groups");
-            return;
-        }
-        names_.push_back(group->text);
     }
 }
 

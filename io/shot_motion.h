@@ -27,10 +27,10 @@ void readMaterialPairs(const ShotNode& tree, Shot& shot, ProblemList& problems);
 /// The groups of all bodies of a shot: a bit for each name.
 class GroupNames {
 public:
-    /// Finds the names that bodies give themselves; reports when they are too many.
+    /// Finds the names that bodies, imports and emitters give; reports when they are too many.
     GroupNames(const ShotNode& tree, ProblemList& problems);
 
-    /// Reads `group`, `collides` and `unmoved_by` of a [[body]].
+    /// Reads `group`, `collides` and `unmoved_by` of a [[body]], [[import]] or [[emitter]].
     CollisionGroups read(const ShotNode& node);
 
 private:

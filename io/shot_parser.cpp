@@ -279,13 +279,26 @@ std::string shotFileOf(const std::string& path)
     return std::filesystem::exists(inside, ignored) ? inside.string() : path;
 }
 
+/// What the parser's own words do not tell those who meet TOML for the first time.
+std::string adviceFor(std::string_view description)
+{
+    const auto tells = [&](const char* words) {
+        return description.find(words) != std::string_view::npos;
+    };
+    if (tells("could not determine value type")) {
+        return "; a text stands in straight quotes, \"wood\", a list in square brackets, [0, 1, 0]";
+    }
+    if (tells("invalid utf-8")) return "; a shot is a text file in UTF-8";
+    return "";
+}
+
 ShotNode readTree(const std::string& text, const std::string& path)
 {
     try {
         return readToml(text, path);
     } catch (const toml::parse_error& error) {
         throw Error(ErrorKind::badInput, placeOf(error.source(), path),
-                    std::string(error.description()));
+                    std::string(error.description()) + adviceFor(error.description()));
     }
 }
 

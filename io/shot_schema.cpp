@@ -207,7 +207,14 @@ std::string explainKey(const std::string& path)
     }
     if (!text.empty()) return text;
 
-    std::string hint = didYouMean(withoutGivenName(path), paths);
+    // Of a table that there is, its own keys are nearer than any word elsewhere.
+    const std::string plain = withoutGivenName(path);
+    const std::vector<std::string> inside =
+        namesInside(plain.substr(0, std::min(plain.rfind('.'), plain.size())));
+    std::string hint = didYouMean(plain, paths);
+    if (hint.empty() && plain.find('.') != std::string::npos && !inside.empty()) {
+        hint = " (valid: " + joined(inside) + ")";
+    }
     if (hint.empty()) hint = didYouMean(path.substr(path.rfind('.') + 1), names);
     if (hint.empty()) hint = "; the file's tables are: " + joined(namesInside(""));
     throw Error(ErrorKind::usage, "no key '" + path + "' in shot files" + hint);

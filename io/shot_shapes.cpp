@@ -6,6 +6,42 @@
 namespace scree {
 namespace {
 
+std::string wordOf(const ShotNode& node, const char* key)
+{
+    const ShotNode* value = node.find(key);
+    return value ? value->text : "";
+}
+
+void readField(const ShotNode& sdf, double metresPerUnit, ShapeSettings& settings)
+{
+    if (const ShotNode* resolution = sdf.find("resolution")) {
+        settings.resolution = static_cast<int>(resolution->integer);
+    }
+    if (const ShotNode* voxel = sdf.find("voxel")) {
+        settings.voxel = voxel->number * metresPerUnit;
+    }
+    const std::string storage = wordOf(sdf, "storage");
+    settings.storage = storage == "dense"    ? FieldStorage::dense
+                       : storage == "bricks" ? FieldStorage::bricks
+                                             : FieldStorage::automatic;
+}
+
+void readRepair(const ShotNode& mesh, double metresPerUnit, ShapeSettings& settings,
+                ProblemList& problems)
+{
+    const ShotNode* repair = mesh.find("repair");
+    const ShotNode* thickness = mesh.find("thickness");
+    const bool isShell = repair && repair->text == "shell";
+    settings.repair = isShell                            ? MeshRepair::shell
+                      : repair && repair->text == "wrap" ? MeshRepair::wrap
+                                                         : MeshRepair::none;
+    if (isShell && !mesh.mentions("thickness")) {
+        problems.add(repair->where, "a \"shell\" needs a 'thickness'");
+    }
+    if (!isShell && thickness) problems.add(thickness->where, "only a \"shell\" has a 'thickness'");
+    if (thickness) settings.shellThickness = thickness->number * metresPerUnit;
+}
+
 class ShapeReader {
 public:
     ShapeReader(const std::filesystem::path& folder, bool isStrict, Shot& shot,
@@ -28,7 +64,8 @@ public:
             const ShotNode& scale = *entry.node.find("scale");
             shape.scale =
                 scale.kind == ShotNode::Kind::list ? toVec3(scale) : Vec3::Constant(scale.number);
-            readShapeSettings(entry.node, shape.settings);
+            shape.settings =
+                readShapeSettings(entry.node, isStrict_, shot_.metresPerUnit, problems_);
             readCollide(entry.node, shape);
             readCollisionMesh(entry.node, shape);
             shot_.shapes.push_back(shape);
@@ -73,47 +110,6 @@ private:
                                            "] says nothing of its form; give it "
                                            "torus, box, sphere, cylinder, capsule or file");
         }
-    }
-
-    void readShapeSettings(const ShotNode& node, ShapeSettings& settings)
-    {
-        if (const ShotNode* sdf = node.find("sdf")) {
-            if (const ShotNode* resolution = sdf->find("resolution")) {
-                settings.resolution = static_cast<int>(resolution->integer);
-            }
-            if (const ShotNode* voxel = sdf->find("voxel")) {
-                settings.voxel = voxel->number * shot_.metresPerUnit;
-            }
-            const std::string& storage = sdf->find("storage")->text;
-            settings.storage = storage == "dense"    ? FieldStorage::dense
-                               : storage == "bricks" ? FieldStorage::bricks
-                                                     : FieldStorage::automatic;
-        }
-        const bool isGrid = isStrict_ || node.find("field")->text == "grid";
-        settings.field = isGrid ? FieldMode::grid : FieldMode::refined;
-        const std::string& normals = node.find("normals")->text;
-        settings.normals = normals == "true"     ? NormalMode::trueNormals
-                           : normals == "smooth" ? NormalMode::smooth
-                                                 : NormalMode::automatic;
-        if (const ShotNode* samples = node.find("edge_samples")) {
-            settings.edgeSamples = samples->boolean;
-        }
-        if (const ShotNode* mesh = node.find("mesh")) readRepair(*mesh, settings);
-    }
-
-    void readRepair(const ShotNode& mesh, ShapeSettings& settings)
-    {
-        const ShotNode& repair = *mesh.find("repair");
-        const ShotNode* thickness = mesh.find("thickness");
-        const bool isShell = repair.text == "shell";
-        settings.repair = isShell                 ? MeshRepair::shell
-                          : repair.text == "wrap" ? MeshRepair::wrap
-                                                  : MeshRepair::none;
-        if (isShell && !mesh.mentions("thickness")) {
-            report(repair, "a \"shell\" needs a 'thickness'");
-        }
-        if (!isShell && thickness) report(*thickness, "only a \"shell\" has a 'thickness'");
-        if (thickness) settings.shellThickness = thickness->number * shot_.metresPerUnit;
     }
 
     /// A formula stands for few solids, and has neither field nor normals to choose.
@@ -192,6 +188,26 @@ private:
 };
 
 }  // namespace
+
+ShapeSettings readShapeSettings(const ShotNode& node, bool isStrict, double metresPerUnit,
+                                ProblemList& problems)
+{
+    ShapeSettings settings;
+    if (const ShotNode* sdf = node.find("sdf")) readField(*sdf, metresPerUnit, settings);
+    const bool isGrid = isStrict || wordOf(node, "field") == "grid";
+    settings.field = isGrid ? FieldMode::grid : FieldMode::refined;
+    const std::string normals = wordOf(node, "normals");
+    settings.normals = normals == "true"     ? NormalMode::trueNormals
+                       : normals == "smooth" ? NormalMode::smooth
+                                             : NormalMode::automatic;
+    if (const ShotNode* samples = node.find("edge_samples")) {
+        settings.edgeSamples = samples->boolean;
+    }
+    if (const ShotNode* mesh = node.find("mesh")) {
+        readRepair(*mesh, metresPerUnit, settings, problems);
+    }
+    return settings;
+}
 
 std::vector<std::string> readShapes(const ShotNode& tree, const std::filesystem::path& folder,
                                     bool isStrict, Shot& shot, ProblemList& problems)

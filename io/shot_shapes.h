@@ -17,4 +17,9 @@ namespace scree {
 std::vector<std::string> readShapes(const ShotNode& tree, const std::filesystem::path& folder,
                                     bool isStrict, Shot& shot, ProblemList& problems);
 
+/// Reads `sdf`, `field`, `normals`, `edge_samples` and `mesh` of a checked [shape.NAME], or of an
+/// [[import]], which has them for all of its shapes; reports what fits badly.
+ShapeSettings readShapeSettings(const ShotNode& node, bool isStrict, double metresPerUnit,
+                                ProblemList& problems);
+
 }  // namespace scree

@@ -15,6 +15,7 @@
 #include "io/build_world.h"
 #include "io/file_bytes.h"
 #include "io/ply_mesh.h"
+#include "io/shot_difference.h"
 
 namespace scree {
 namespace {
@@ -319,11 +320,13 @@ void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
 {
     const std::string name = "\"" + paths_.root.string() + "\"";
     if (info.shotHash != shotHash_)
-        throw Error(ErrorKind::badInput,
-                    name + " was made from another shot: the resolved shot has hash " +
-                        toHex(shotHash_) + ", the take's is " + toHex(info.shotHash) +
-                        ". Compare `scree check SHOT --resolved` with \"shot\" in take.json, or "
-                        "write to another folder with -o");
+        throw Error(
+            ErrorKind::badInput,
+            name + " was made from another shot: this one has " +
+                someDifferences(shotDifferences(now.resolvedShot, info.resolvedShot, "the take")) +
+                ". -o writes to another folder, there --from \"" + paths_.root.string() +
+                "@FRAME\" begins with this take's frames up to that one; --overwrite begins "
+                "anew");
     for (std::size_t i = 0; i < std::min(info.inputs.size(), now.inputs.size()); ++i)
         if (info.inputs[i].hash != now.inputs[i].hash)
             throw Error(ErrorKind::badInput, name + " was made from another \"" +

@@ -100,8 +100,9 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
     const TakePaths from{branch.take};
     const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());
     requireSameCast(branch, theirs, info);
-    if (branch.frame < shot.firstFrame || branch.frame >= shot.lastFrame) {
-        refuse(branch, "frame " + std::to_string(branch.frame) + " leaves nothing of the shot's " +
+    // With the last frame too, all is taken over: a finished take gets another camera or colour.
+    if (branch.frame < shot.firstFrame || branch.frame > shot.lastFrame) {
+        refuse(branch, "frame " + std::to_string(branch.frame) + " is none of the shot's " +
                            std::to_string(shot.firstFrame) + "-" + std::to_string(shot.lastFrame));
     }
     for (int frame = shot.firstFrame; frame <= branch.frame; ++frame) {

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/math/rotation.h"
+#include "io/shot_difference.h"
 
 namespace scree {
 namespace {
@@ -165,7 +166,10 @@ int stepsOf(const TakeReader& take, int frame)
 void noteSettings(const TakeReader& a, const TakeReader& b, TakeComparison& comparison)
 {
     if (a.info().shotHash != b.info().shotHash) {
-        comparison.notes.push_back("their resolved shots differ");
+        comparison.notes.push_back(
+            "their shots differ: the first has " +
+            someDifferences(
+                shotDifferences(a.info().resolvedShot, b.info().resolvedShot, "the second")));
     }
     if (a.info().programVersion != b.info().programVersion) {
         comparison.notes.push_back("made by scree " + a.info().programVersion + " and " +

@@ -1,11 +1,15 @@
 // Names for objects of a file that is stricter about them than a shot is.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <unordered_set>
 
 namespace scree {
+
+/// Names become those of files, with endings and the like; systems take 255 letters.
+inline constexpr std::size_t kLongestName = 200;
 
 /// A letter or _, then letters, digits and _: what a shot and USD take as a name.
 bool isPlainName(std::string_view name);

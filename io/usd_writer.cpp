@@ -28,7 +28,7 @@ private:
     void writeMovingBodies(UsdText& text);
     void writeStaticBodies(UsdText& text) const;
     void openBody(UsdText& text, std::size_t body) const;
-    void writeBirth(UsdText& text, const SceneBody& body) const;
+    void writeOpsAndBirth(UsdText& text, const SceneBody& body) const;
 
     fs::path output_;
     UsdForm form_;
@@ -42,6 +42,12 @@ private:
 
 constexpr const char* kPlaceOps =
     "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]";
+constexpr const char* kPlaceAndSizeOps =
+    "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\", "
+    "\"xformOp:scale\"]";
+
+/// Values are joined steadily from time to time: what jumps does so within this [frames].
+constexpr double kJump = 1e-3;
 
 std::string translationText(const MotionSample& sample)
 {
@@ -111,15 +117,24 @@ void UsdWriter::openBody(UsdText& text, std::size_t body) const
     writeUsdOldName(text, scenes.name, names_->bodies[body]);
 }
 
-/// Nothing for a body that is always there. Values hold until the next time that has one.
-void UsdWriter::writeBirth(UsdText& text, const SceneBody& body) const
+/// The body's order of transforms, and when it becomes visible if that is not from the first frame
+/// on; visibility holds until the next time that has one. Blender does not read it, so the body has
+/// no size either until then.
+void UsdWriter::writeOpsAndBirth(UsdText& text, const SceneBody& body) const
 {
-    if (isThere(body, firstFrame_)) return;
+    if (isThere(body, firstFrame_)) return text.line(kPlaceOps);
+    const bool comes = isThere(body, firstFrame_ + frameCount_ - 1);
+    text.openTimes("double3 xformOp:scale");
+    text.time(firstFrame_, "(0, 0, 0)");
+    if (comes) {
+        if (body.birthFrame - kJump > firstFrame_) text.time(body.birthFrame - kJump, "(0, 0, 0)");
+        text.time(body.birthFrame, "(1, 1, 1)");
+    }
+    text.closeTimes();
+    text.line(kPlaceAndSizeOps);
     text.openTimes("token visibility");
     text.time(firstFrame_, "\"invisible\"");
-    if (isThere(body, firstFrame_ + frameCount_ - 1)) {
-        text.time(body.birthFrame, "\"inherited\"");
-    }
+    if (comes) text.time(body.birthFrame, "\"inherited\"");
     text.closeTimes();
 }
 
@@ -143,8 +158,7 @@ void UsdWriter::writeMovingBodies(UsdText& text)
         openBody(text, motion_->bodies()[k]);
         writeTrack(text, "quatd xformOp:orient", motion_->times(), track, orientationText);
         writeTrack(text, "double3 xformOp:translate", motion_->times(), track, translationText);
-        text.line(kPlaceOps);
-        writeBirth(text, scene_->bodies[motion_->bodies()[k]]);
+        writeOpsAndBirth(text, scene_->bodies[motion_->bodies()[k]]);
         text.closePrim();
     });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/scene/camera_motion.h"
@@ -42,30 +43,57 @@ Mat4 clipFromView(const Camera& camera, double aspect, const DepthRange& range)
     return clip;
 }
 
-Camera frameAll(const Aabb& box, const Vec3& towardEye, const Vec3& up, double aspect,
-                double fovDegrees)
+Framing::Framing(const Vec3& towardEye, const Vec3& up, double aspect, double fovDegrees)
 {
-    Camera camera;
-    camera.fovDegrees = fovDegrees;
-    camera.up = up;
-    camera.target = box.isEmpty() ? Vec3(Vec3::Zero()) : box.centre();
-    camera.eye = camera.target + towardEye;
-    if (box.isEmpty()) return camera;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    camera_.fovDegrees = fovDegrees;
+    camera_.up = up;
+    viewFromWorldAxes_ = worldFromViewAxes(towardEye, Vec3::Zero(), up).transpose();
+    tanY_ = tanHalfFov(camera_) / kFrameMargin;
+    tanX_ = tanY_ * aspect;
+    right_ = left_ = top_ = bottom_ = nearest_ = -kInfinity;
+    farthest_ = kInfinity;
+}
 
-    // A corner at (x, y, z) from the target, in view axes, is inside the picture when the eye is at
-    // least |x| / tan(half the horizontal field) + z away, and likewise for y.
-    const Mat3 viewFromWorldAxes =
-        worldFromViewAxes(camera.eye, camera.target, camera.up).transpose();
-    const double tanY = tanHalfFov(camera) / kFrameMargin, tanX = tanY * aspect;
-    double distance = 0.0;
+void Framing::include(const Vec3& point)
+{
+    const Vec3 view = viewFromWorldAxes_ * point;
+    right_ = std::max(right_, view.z() * tanX_ + view.x());
+    left_ = std::max(left_, view.z() * tanX_ - view.x());
+    top_ = std::max(top_, view.z() * tanY_ + view.y());
+    bottom_ = std::max(bottom_, view.z() * tanY_ - view.y());
+    nearest_ = std::max(nearest_, view.z());
+    farthest_ = std::min(farthest_, view.z());
+}
+
+void Framing::include(const Aabb& box)
+{
     for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 side(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
-        const Vec3 view = viewFromWorldAxes * box.size().cwiseProduct(side);
-        distance = std::max(
-            {distance, std::abs(view.x()) / tanX + view.z(), std::abs(view.y()) / tanY + view.z()});
+        include(Vec3((corner & 1) ? box.max.x() : box.min.x(),
+                     (corner & 2) ? box.max.y() : box.min.y(),
+                     (corner & 4) ? box.max.z() : box.min.z()));
     }
-    if (distance == 0.0) distance = 1.0;  // a box that is one point
-    camera.eye = camera.target + distance * viewFromWorldAxes.row(2).transpose();
+}
+
+// A point at (x, y, z) is inside the right side of the picture of an eye at (a, b, c) when
+// x - a <= (c - z) tan, which is c tan + a >= z tan + x, and inside the left one when
+// c tan - a >= z tan - x: the sum of both bounds c, their difference gives a.
+Camera Framing::camera() const
+{
+    Vec3 eye = Vec3::Zero();
+    double middle = -1.0;
+    if (!isEmpty()) {
+        eye << 0.5 * (right_ - left_), 0.5 * (top_ - bottom_),
+            std::max(0.5 * (right_ + left_) / tanX_, 0.5 * (top_ + bottom_) / tanY_);
+        // Things in one line with the eye hide each other, but are in front of it.
+        const double depth = nearest_ - farthest_;
+        eye.z() = std::max(eye.z(), nearest_ + 0.1 * depth);
+        middle = 0.5 * (nearest_ + farthest_);
+        if (eye.z() == middle) eye.z() += 1.0;  // all that is seen is one point
+    }
+    Camera camera = camera_;
+    camera.eye = viewFromWorldAxes_.transpose() * eye;
+    camera.target = viewFromWorldAxes_.transpose() * Vec3(eye.x(), eye.y(), middle);
     return camera;
 }
 

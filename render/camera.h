@@ -30,12 +30,33 @@ Mat4 viewFromWorld(const Camera& camera);
 /// width divided by height.
 Mat4 clipFromView(const Camera& camera, double aspect, const DepthRange& range);
 
-/// A camera that looks from `towardEye` (any length) at the middle of `box` from just far enough
-/// for the whole box to be in the picture with a small margin.
-Camera frameAll(const Aabb& box, const Vec3& towardEye, const Vec3& up, double aspect,
-                double fovDegrees = 35.0);
+/// Finds the nearest camera that looks along a given direction and has all it was shown in its
+/// picture, with a small margin. It remembers six numbers however much that is: of every point,
+/// how far back the eye must be for it to be inside each of the picture's four sides. One box
+/// around a whole action would do with less, and leave most of the picture empty where something
+/// flies off to one side only.
+class Framing {
+public:
+    /// The eye is found in the direction `towardEye` (any length) from what is seen.
+    Framing(const Vec3& towardEye, const Vec3& up, double aspect, double fovDegrees = 35.0);
 
-/// Direction in which frameAll finds the eye when nobody asked for another: the three-quarter view.
+    void include(const Vec3& point);
+    void include(const Aabb& box);
+    bool isEmpty() const { return nearest_ < farthest_; }
+
+    /// Looks at the middle of the depth of what is seen.
+    Camera camera() const;
+
+private:
+    Camera camera_;  // without its place
+    Mat3 viewFromWorldAxes_;
+    double tanX_, tanY_;  // of half the angles of view, less the margin
+    // The largest x + z tan, z tan - x, and likewise for y, in view axes.
+    double right_, left_, top_, bottom_;
+    double nearest_, farthest_;  // largest and smallest z
+};
+
+/// Direction in which the eye is found when nobody asked for another: the three-quarter view.
 Vec3 threeQuarterView(bool zUp);
 
 }  // namespace scree

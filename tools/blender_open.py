@@ -20,7 +20,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from read_take import camera_at, read_motion  # noqa: E402
+from read_take import camera_at, read_frame, read_motion  # noqa: E402
 
 CREASE = math.radians(40)  # as in the exports: sharper edges are meant to be seen
 PLANE_GROWTH = 60  # a plane is infinite: this keeps its edge behind the horizon
@@ -118,6 +118,30 @@ def key_motion(body, times, positions, orientations):
             curve.keyframe_points.foreach_set("interpolation", [1] * len(times))  # linear
 
 
+def hide_until(body, birth, first):
+    """Not to be seen before its birth, the number of a frame, or never without one."""
+    action = body.animation_data_create().action or bpy.data.actions.new(body.name)
+    body.animation_data.action = action
+    for path in ("hide_render", "hide_viewport"):
+        curve = action.fcurves.new(path)
+        for frame, value in [(first, 1.0)] + ([(birth, 0.0)] if birth is not None else []):
+            curve.keyframe_points.insert(frame, value).interpolation = "CONSTANT"
+
+
+def births_of(folder, info):
+    """Frames of birth, None for who never came; nothing where all are there from the start."""
+    last = max(folder.glob("frames/*.scree"), key=lambda path: int(path.stem.split(".")[-1]))
+    born_at = read_frame(last)[1].get("body.born_at")
+    if born_at is None:
+        return {}
+    first = info["frames"][0]
+    return {
+        number: first + int(born) if born >= 0 else None
+        for number, born in enumerate(born_at[:, 0])
+        if born != 0
+    }
+
+
 def build_take(folder, info):
     samples = list(read_motion(folder))
     if not samples:
@@ -137,7 +161,7 @@ def build_take(folder, info):
         for shape in info["shapes"]
     }
     reach = np.abs(positions).max() + 1.0
-    meshes = {}
+    meshes, births = {}, births_of(folder, info)
     for number, entry in enumerate(info["bodies"]):
         key = entry.get("shape", entry.get("plane")), entry["material"]
         if key not in meshes:
@@ -152,8 +176,10 @@ def build_take(folder, info):
         body.location = positions[0, number]
         body.rotation_quaternion = orientations[0, number]
         bpy.context.collection.objects.link(body)
-        if entry["motion"] == "dynamic":
+        if entry["motion"] != "static":
             key_motion(body, times, positions[:, number], orientations[:, number])
+        if number in births:
+            hide_until(body, births[number], info["frames"][0])
 
 
 # ---- range, camera, light, materials ------------------------------------------------------------

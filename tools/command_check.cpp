@@ -83,26 +83,27 @@ ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
     return report;
 }
 
+/// Mass, and inertia of the body with the greatest mass.
 std::string massText(const ShapeUse& use)
 {
-    if (use.heaviest == 0.0) return "immovable, of 1 kg/m3";
-    char mass[64];
+    if (use.heaviest == 0.0) return "immovable";
+    char mass[64], inertia[96];
     std::snprintf(mass, sizeof mass,
                   use.lightest == use.heaviest ? "mass %.4g kg" : "mass %.4g ... %.4g kg",
                   use.lightest, use.heaviest);
-    return mass;
+    const MassProperties& unit = use.shape->unitMass;
+    const Vec3 moments = unit.moments * (use.heaviest / unit.volume);
+    std::snprintf(inertia, sizeof inertia, ", inertia %.4g %.4g %.4g kg m2", moments[0], moments[1],
+                  moments[2]);
+    return std::string(mass) + inertia;
 }
 
 void printShape(const std::string& name, const ShapeUse& use)
 {
     const Shape& shape = *use.shape;
     const ShapeReport& report = use.report;
-    // Of the body with the greatest mass; without one, of a cubic metre per kilogram.
-    const Vec3 inertia =
-        shape.unitMass.moments * (use.heaviest > 0.0 ? use.heaviest / shape.unitMass.volume : 1.0);
-    std::printf("%s: %d %s, %s, inertia %.4g %.4g %.4g kg m2\n", name.c_str(), use.bodies,
-                use.bodies == 1 ? "body" : "bodies", massText(use).c_str(), inertia[0], inertia[1],
-                inertia[2]);
+    std::printf("%s: %d %s, %s\n", name.c_str(), use.bodies, use.bodies == 1 ? "body" : "bodies",
+                massText(use).c_str());
     std::printf("  mesh    closed, outward; %zu triangles, %zu points, %d part%s, %.4g m long\n",
                 report.triangles, report.points, report.parts, report.parts == 1 ? "" : "s",
                 report.longestEdge);

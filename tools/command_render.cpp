@@ -32,13 +32,14 @@ struct RenderOptions {
 };
 
 /// Shot, frame, time, bodies, worst overlap: what a supervisor asks of a picture.
-std::string burnInText(const TakeReader& take, int frame, const std::map<int, FrameSummary>& stats)
+std::string burnInText(const TakeReader& take, int frame, std::size_t bodyCount,
+                       const std::map<int, FrameSummary>& stats)
 {
     const TakeInfo& info = take.info();
     char time[64];
     std::snprintf(time, sizeof time, "%.2f s", (frame - info.firstFrame) / info.framesPerSecond);
     std::string text = info.name + "  " + std::to_string(frame) + "  " + time + "  " +
-                       std::to_string(info.bodies.size()) + " bodies";
+                       std::to_string(bodyCount) + (bodyCount == 1 ? " body" : " bodies");
     if (const auto found = stats.find(frame); found != stats.end()) {
         char overlap[64];
         std::snprintf(overlap, sizeof overlap, "  overlap %.2f%%",
@@ -177,7 +178,9 @@ private:
         const fs::path picture =
             hasFramePattern(pattern_) ? expandFramePattern(pattern_, frame) : pattern_;
         if (options_.skipExisting && isUpToDate(picture, take_.paths().frame(frame))) return;
-        const std::string text = hasBurnIn_ ? burnInText(take_, frame, stats_) : std::string();
+        const std::string text = hasBurnIn_
+                                     ? burnInText(take_, frame, painter.bodyCountAt(frame), stats_)
+                                     : std::string();
         writePng(picture, painter.paint(frame, text), originText(take_, frame, stats_));
     }
 

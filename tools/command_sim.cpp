@@ -157,10 +157,12 @@ private:
         for (int frame = shot_.firstFrame; frame <= lastFrame_; ++frame)
             missing += !take_->hasFrame(frame);
         if (missing == 0) return 0;
-        console_.info(shot_.name + ": " + std::to_string(world_.bodyCount()) + " bodies, frames " +
+        console_.info(shot_.name + ": " + std::to_string(world_.bodyCount()) +
+                      (world_.bodyCount() == 1 ? " body" : " bodies") + ", frames " +
                       std::to_string(shot_.firstFrame) + "-" + std::to_string(lastFrame_) + ", " +
                       std::to_string(total - missing) + " there already, " +
-                      std::to_string(threadCount()) + " threads");
+                      std::to_string(threadCount()) +
+                      (threadCount() == 1 ? " thread" : " threads"));
 
         Progress progress(console_, progressMode_, "sim", total, total - missing);
         Stepper stepper(shot_.settings);
@@ -414,7 +416,8 @@ Command addSimCommand(CLI::App& program)
         ->excludes(resume);
     command->add_option("--from", options->from,
                         "TAKE@FRAME: begin with that take's frames up to this one; the shot may "
-                        "differ from the take's in settings, not in bodies. With --resume: begin "
+                        "differ from the take's in length, settings and looks, not in bodies: of "
+                        "its last frame, the same take with another camera. With --resume: begin "
                         "so when there is nothing to resume");
     command->add_flag("--no-cache", options->noCache,
                       "Build every distance field anew and keep none");

@@ -40,14 +40,14 @@ SceneFrame sampleAt(const std::vector<SceneFrame>& samples, double offset, doubl
     return result;
 }
 
-/// Around everything that movable bodies do, or around all bodies when none moves; planes not at
-/// all.
-Aabb actionBox(const TakeReader& take, const SceneDescription& scene)
+/// Everything that movable bodies do, or all bodies when none moves; planes not at all.
+Camera frameAction(const TakeReader& take, const SceneDescription& scene, double aspect)
 {
     std::vector<Aabb> meshBoxes;
     for (const SceneMesh& mesh : scene.meshes) meshBoxes.push_back(boxOf(mesh.points));
 
-    Aabb moving, all;
+    const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
+    Framing moving(threeQuarterView(scene.zUp), up, aspect), all = moving;
     for (const int number : take.frames()) {
         const SceneFrame frame = take.readFrame(number);
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
@@ -60,8 +60,9 @@ Aabb actionBox(const TakeReader& take, const SceneDescription& scene)
             if (scene.bodies[body].moves) moving.include(box);
         }
     }
-    if (!moving.isEmpty()) return moving;
-    return all.isEmpty() ? Aabb{-Vec3::Ones(), Vec3::Ones()} : all;
+    if (!moving.isEmpty()) return moving.camera();
+    if (all.isEmpty()) all.include(Aabb{-Vec3::Ones(), Vec3::Ones()});
+    return all.camera();
 }
 
 SceneCamera chooseCamera(const TakeReader& take, const SceneDescription& scene,
@@ -83,8 +84,7 @@ SceneCamera chooseCamera(const TakeReader& take, const SceneDescription& scene,
 
 SceneCamera viewOfAction(const TakeReader& take, const SceneDescription& scene, double aspect)
 {
-    const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
-    const Camera view = frameAll(actionBox(take, scene), threeQuarterView(scene.zUp), up, aspect);
+    const Camera view = frameAction(take, scene, aspect);
     SceneCamera camera;
     camera.name = "view";
     camera.eye = view.eye;
@@ -154,6 +154,12 @@ std::unique_ptr<PictureEngine> TakePainter::makeEngine() const
     RasterSettings settings{stage};
     if (settings_.samples > 0) settings.samples = settings_.samples;
     return std::make_unique<Rasterizer>(scene_, looks_.materials(), settings);
+}
+
+std::size_t TakePainter::bodyCountAt(int frame) const
+{
+    return static_cast<std::size_t>(std::ranges::count_if(
+        scene_.bodies, [&](const SceneBody& body) { return isThere(body, frame); }));
 }
 
 int TakePainter::usefulThreads() const

@@ -37,6 +37,9 @@ public:
     /// at once; each then has an engine of its own.
     Image paint(int frame, const std::string& burnedIn = "");
 
+    /// Those that are there: without who has not been born yet.
+    std::size_t bodyCountAt(int frame) const;
+
     /// How many threads painting at once are worth it: ray tracing shares its rows out by itself.
     int usefulThreads() const;
 

@@ -65,6 +65,21 @@ bool comesWithin(const RelativePair& pair, const ConvexEdge& edge, double reach)
     return false;
 }
 
+/// How deep an edge of the first lies in the second; 0 if it does not [m].
+double deepestAlong(const RelativePair& pair, const ConvexEdge& edge)
+{
+    constexpr double kLeastStep = 0.01;  // of the edge
+    const Vec3 start = pair * edge.start, direction = pair.rotation * edge.direction;
+    double deepest = 0.0;
+    for (double along = 0.0; along <= edge.length;) {
+        const double value = pair.second.distance.value(start + along * direction);
+        deepest = std::min(deepest, value);
+        // What is farther out than the deepest so far is deep cannot be deeper before that.
+        along += std::max(value - deepest, kLeastStep * edge.length);
+    }
+    return deepest;
+}
+
 /// Whether the lines of two edges that overlap are nearest where these are, or not far past an end
 /// of them. Of an edge that goes on straight the next piece speaks there. The edges themselves must
 /// be where edges that touch are looked for: near the other body, and not outside each other.
@@ -147,17 +162,6 @@ Sunk sunkBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const Conve
     const double onEdge = std::clamp(dip.along, -along, ofFirst.length - along);
     const double value = pair.second.distance.value(onFirst + onEdge * direction);
     return {value <= 0.5 * dip.height + rounding, value < reach, value};
-}
-
-/// How high above the surface of the second the edge of the first is, which crosses one of the
-/// second `-gap` inside along n, where it would be deepest in a wedge [m].
-double heightBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
-                    const Vec3& onFirst, const Vec3& n, double gap, double along)
-{
-    const Vec3 direction = pair.rotation * ofFirst.direction;
-    const double dip = placeOfDip(ofSecond, n, gap, direction);
-    const double onEdge = std::clamp(dip, -along, ofFirst.length - along);
-    return pair.second.distance.value(onFirst + onEdge * direction);
 }
 
 /// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a
@@ -277,10 +281,7 @@ FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_
     if (areWhatOverlaps && !isPast) return {FeatureContact{at->onFirst, n, gap}, {}};
     // Otherwise how deep their lines are means little. What of them is inside is inside all the
     // same; the other must be where edges that touch are looked for.
-    const double ofA =
-        std::min(first.gap, heightBeside(pair, a, b, at->onFirst, n, gap, at->alongFirst));
-    const double ofB =
-        std::min(second.gap, heightBeside(back, b, a, onSecond, nBack, gap, at->alongSecond));
+    const double ofA = deepestAlong(pair, a), ofB = deepestAlong(back, b);
     const double deepest = std::min(ofA, ofB);
     if (deepest >= -sharpness) return {};
     if (!(ofA < ofB ? comesWithin(back, b, reach) : comesWithin(pair, a, reach))) return {};

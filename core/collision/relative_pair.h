@@ -39,7 +39,7 @@ inline constexpr double kSharpness = 1e-3;
 /// "interferes", and the corners inside tell the way out.
 inline double deepestEdges(const RelativePair& pair)
 {
-    return 0.25 * std::min(pair.first.innerThickness, pair.second.innerThickness);
+    return 0.5 * std::min(pair.first.innerBall.radius, pair.second.innerBall.radius);
 }
 
 /// Bounding radius of the smaller shape [m]; planes have none.

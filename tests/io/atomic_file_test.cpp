@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 
 #include "core/base/error.h"
+#include "io/frame_writer.h"
 #include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
@@ -129,6 +133,37 @@ TEST(AtomicFile, FollowsASymbolicLinkInsteadOfReplacingIt)
     file.commit();
     EXPECT_TRUE(fs::is_symlink(folder / "link.bin"));
     EXPECT_EQ(contentOf(folder / "real.bin"), "new");
+}
+
+// An export that was killed left a hidden file as large as the cache, and each try another.
+TEST(AtomicFile, WhatAKilledProcessLeftIsRemovedOnceNobodyCanWriteIt)
+{
+    const test::TemporaryFolder folder;
+    // A process that is gone: our own child, waited for.
+    const pid_t gone = ::fork();
+    if (gone == 0) ::_exit(0);
+    ::waitpid(gone, nullptr, 0);
+    const std::string dead = std::to_string(gone), alive = std::to_string(::getpid());
+    const auto old = fs::file_time_type::clock::now() - std::chrono::hours(2);
+    const auto leave = [&](const std::string& name, bool isOld) {
+        std::ofstream(folder / name) << "half";
+        if (isOld) fs::last_write_time(folder / name, old);
+    };
+    leave(".x.abc." + dead + "-0.tmp", true);
+    leave(".x.abc." + dead + "-1.tmp", false);  // may be another machine's
+    leave(".x.abc." + alive + "-0.tmp", true);
+    leave(".y.abc." + dead + "-0.tmp", true);
+    leave(".x.abc." + dead + "-0.tmp.mine", true);
+    removeAbandoned(folder / "x.abc");
+    EXPECT_FALSE(fs::exists(folder / (".x.abc." + dead + "-0.tmp")));
+    EXPECT_TRUE(fs::exists(folder / (".x.abc." + dead + "-1.tmp")));
+    EXPECT_TRUE(fs::exists(folder / (".x.abc." + alive + "-0.tmp")));
+    EXPECT_TRUE(fs::exists(folder / (".y.abc." + dead + "-0.tmp")));
+    EXPECT_TRUE(fs::exists(folder / (".x.abc." + dead + "-0.tmp.mine")));
+
+    fs::last_write_time(folder / (".x.abc." + dead + "-1.tmp"), old);
+    makeFrameWriter(folder / "x.abc");
+    EXPECT_FALSE(fs::exists(folder / (".x.abc." + dead + "-1.tmp"))) << "the next export does it";
 }
 
 TEST(AtomicFile, AFullDiskIsAnErrorAndTheOldFileSurvives)

@@ -19,6 +19,7 @@
 #include "tests/support/export_scene.h"
 #include "tests/support/readers.h"
 #include "tests/support/refusal.h"
+#include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
 namespace scree {
@@ -101,6 +102,21 @@ TEST(Emitter, ALayoutIsFilledPlaceAfterPlaceAndTiltIsALimit)
     }
     EXPECT_LE(largest, 10.0);
     EXPECT_GT(largest, 1.0);
+}
+
+TEST(Emitter, ItsBodiesHaveItsGroup)
+{
+    const Shot shot = parseShotText(
+        test::shotTextOf({}, test::bodyText("hero", "unmoved_by = [\"debris\"]") +
+                                 "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = "
+                                 "\"wood\"\ncount = 2\ngroup = \"debris\"\ncollides = []\n"
+                                 "box = { min = [0, 5, 0], max = [9, 9, 9] }\n"),
+        "s.toml");
+    ASSERT_EQ(shot.bodies.size(), 4u);
+    for (const std::size_t emitted : {2, 3}) {
+        EXPECT_EQ(shot.bodies[emitted].groups.group, shot.bodies[1].groups.unmovedBy);
+        EXPECT_EQ(shot.bodies[emitted].groups.collidesWith, 0u);
+    }
 }
 
 TEST(Emitter, AFailingBirthAtTheFirstFrameIsALocatedError)

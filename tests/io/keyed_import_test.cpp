@@ -1,12 +1,14 @@
 // [[import]] with motion = "keyed": bodies of a shot stand at every frame where the file has them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <string>
 
 #include "core/base/error.h"
+#include "core/math/point_box.h"
 #include "core/math/rotation.h"
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
@@ -110,6 +112,30 @@ TEST(KeyedImports, ScaleThatChangesIsRefused)
     EXPECT_NE(message.find("'late' cannot be keyed: its scale changes over time"),
               std::string::npos)
         << message;
+}
+
+// Our own Alembic files give no size to who is not born yet, as other programs do to hide things.
+TEST(KeyedImports, WhatHasNoSizeAtFirstWaitsWhereItWillAppear)
+{
+    const test::TemporaryFolder folder;
+    SceneDescription scene = test::sceneOf({test::bodyNamed("late")});
+    scene.bodies[0].birthFrame = kFirst + 2;
+    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(folder / "x.abc");
+    writer->begin(scene, kFirst, kFrames);
+    for (int i = 0; i < kFrames; ++i) writer->write(test::tumblingFrame(scene, kFirst + i, kFirst));
+    writer->finish();
+    const Shot shot = parseShotText(shotText(folder / "x.abc", "*", ""), "s.toml");
+    ASSERT_EQ(shot.bodies.size(), 1u);
+    const auto& node = std::get<NodeSpec>(shot.shapes.at(0).source);
+    EXPECT_TRUE(
+        boxOf(node.mesh->points).size().isApprox(boxOf(scene.meshes[0].points).size(), 1e-6));
+    const MotionScript script(shot.bodies[0].keys, shot.bodies[0].interpolation);
+    for (int i = 0; i < kFrames; ++i) {
+        const Pose expected = test::tumblingPose(0, std::max(i, 2));
+        const Pose pose = script.at(i / shot.framesPerSecond);
+        EXPECT_LT((pose.position - expected.position).norm(), 1e-5) << "frame " << i;
+        EXPECT_LT(pose.orientation.angularDistance(expected.orientation), 1e-5) << "frame " << i;
+    }
 }
 
 /// A door, a tetrahedron two metres from the hinge on which it hangs, and a camera on the same

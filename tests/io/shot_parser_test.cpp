@@ -343,6 +343,9 @@ TEST(ShotSchema, AnUnknownKeyIsAnsweredWithTheNearest)
     EXPECT_EQ(message("solver.contact_iteration"),
               "no key 'solver.contact_iteration' in shot files; did you mean "
               "'solver.contact_iterations'?");
+    // "Did you mean 'fov'?" was no answer to who looks for a key of a body.
+    EXPECT_EQ(message("pair.bounciness"),
+              "no key 'pair.bounciness' in shot files (valid: of, friction, restitution)");
     EXPECT_EQ(message("frictoin"), "no key 'frictoin' in shot files; did you mean 'friction'?");
     EXPECT_EQ(message("qqqqqqqqqqqq"),
               "no key 'qqqqqqqqqqqq' in shot files; the file's tables are: scree, extends, shot, "

@@ -120,6 +120,18 @@ TEST_F(BranchTest, AVariantPartsFromItsOriginalAfterTheBranchAndOnlyInWhatItChan
 }
 
 // A block slept on a slope, and when its friction was taken from it, it slept on.
+// Another camera or colour meant to simulate the whole shot again.
+TEST_F(BranchTest, OfTheLastFrameIsTheWholeTakeWithOtherLooks)
+{
+    const TakeReader whole = simulate("whole", {});
+    const TakeReader painted =
+        simulate("painted", {"material.wood.color=[1, 0, 0]"}, TakeBranch{folder / "whole", 1009});
+    EXPECT_FALSE(compareTakes(whole, painted).difference);
+    EXPECT_EQ(painted.frames().size(), 9u);
+    EXPECT_EQ(painted.info().materials.at(0).color, Vec3(1, 0, 0));
+    EXPECT_EQ(painted.stats().size(), 9u);
+}
+
 TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
 {
     const auto with = [](const std::string& change, const std::string& frames = "1001-1080") {
@@ -209,7 +221,7 @@ TEST_F(BranchTest, OtherBodiesAreRefusedWithWhatDiffers)
               std::string::npos);
     EXPECT_NE(refusalOf({"shape.block.scale=1.5"}, branch).find("another"), std::string::npos);
     EXPECT_NE(refusalOf({"shot.fps=30"}, branch).find("frame rate"), std::string::npos);
-    EXPECT_NE(refusalOf({}, TakeBranch{folder / "whole", 1009}).find("leaves nothing"),
+    EXPECT_NE(refusalOf({}, TakeBranch{folder / "whole", 1010}).find("is none of the shot's"),
               std::string::npos);
     EXPECT_NE(refusalOf({}, TakeBranch{folder / "nowhere", 1005}).find("nowhere"),
               std::string::npos);
@@ -230,7 +242,7 @@ TEST_F(BranchTest, NothingIsRemovedBeforeTheBranchIsKnownToBeGood)
                          ExistingTake::overwrite);
     };
     EXPECT_NE(refusal("nowhere", 1005).find("nowhere"), std::string::npos);
-    EXPECT_NE(refusal("whole", 1009).find("leaves nothing"), std::string::npos);
+    EXPECT_NE(refusal("whole", 1010).find("is none of the shot's"), std::string::npos);
     EXPECT_NE(refusal("whole", 1005, {"material.wood.density=700"}).find("mass of 'block'"),
               std::string::npos);
     EXPECT_NE(refusal("damaged", 1005).find("frame.001003.scree"), std::string::npos);

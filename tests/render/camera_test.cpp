@@ -1,6 +1,8 @@
 #include "render/camera.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -59,22 +61,70 @@ TEST(Camera, LookingAlongItsUpDirectionStillSees)
     EXPECT_NEAR(axes.determinant(), 1.0, 1e-12);
 }
 
-TEST(FrameAll, AllCornersAreInsideAndOneIsNearTheBorder)
-{
-    Aabb box;
-    box.include({-3, 0, -2});
-    box.include({9, 4, 1});
-    const Camera camera = frameAll(box, threeQuarterView(false), Vec3::UnitY(), kAspect);
-    double widest = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 world((corner & 1) ? box.max.x() : box.min.x(),
-                         (corner & 2) ? box.max.y() : box.min.y(),
-                         (corner & 4) ? box.max.z() : box.min.z());
-        const Vec3 clip = clipped(camera, {0.1, 1000.0}, world);
-        widest = std::max({widest, std::abs(clip.x()), std::abs(clip.y())});
+/// The largest of |x| and |y| in the picture, 1 at its border, separately for its four sides.
+struct Reach {
+    double right = -9.0, left = -9.0, top = -9.0, bottom = -9.0;
+
+    Reach(const Camera& camera, const std::vector<Vec3>& points)
+    {
+        for (const Vec3& point : points) {
+            const Vec3 clip = clipped(camera, {0.01, 1000.0}, point);
+            right = std::max(right, clip.x());
+            left = std::max(left, -clip.x());
+            top = std::max(top, clip.y());
+            bottom = std::max(bottom, -clip.y());
+        }
     }
-    EXPECT_LT(widest, 1.0);
-    EXPECT_GT(widest, 0.9);  // the margin is 8 %
+    double most() const { return std::max({right, left, top, bottom}); }
+};
+
+// A ball that hung above one end of a long wall left three quarters of the picture empty: a box
+// around both had a corner where nothing was.
+TEST(Framing, TheActionFillsThePictureBetweenTwoSides)
+{
+    const std::vector<Vec3> points = {{-3, 0, 0}, {3, 0, 0}, {-3, 1, 0}, {3, 1, 0}, {0, 6, -9}};
+    Framing framing(threeQuarterView(false), Vec3::UnitY(), kAspect);
+    for (const Vec3& point : points) framing.include(point);
+    const Reach reach(framing.camera(), points);
+    constexpr double kBorder = 1.0 / 1.08;  // 8 % margin
+    EXPECT_NEAR(reach.most(), kBorder, 1e-9);
+    // One pair of opposite sides decides how near the eye can be; of the other, both are as far.
+    const bool isWide = std::abs(reach.right - kBorder) < 1e-9;
+    EXPECT_NEAR(isWide ? reach.left : reach.bottom, kBorder, 1e-9);
+    EXPECT_LT(isWide ? reach.top : reach.right, kBorder);
+}
+
+TEST(Framing, CornersOfABoxAreInsideOneNearTheBorder)
+{
+    const Aabb box{{-3, 0, -2}, {9, 4, 1}};
+    Framing framing(threeQuarterView(false), Vec3::UnitY(), kAspect);
+    framing.include(box);
+    std::vector<Vec3> corners;
+    for (const double x : {-3.0, 9.0})
+        for (const double y : {0.0, 4.0})
+            for (const double z : {-2.0, 1.0}) corners.emplace_back(x, y, z);
+    EXPECT_NEAR(Reach(framing.camera(), corners).most(), 1.0 / 1.08, 1e-9);
+}
+
+TEST(Framing, APointAndALineAlongTheSightAreInFrontOfTheEye)
+{
+    const Vec3 towardEye = threeQuarterView(true), point(3, 4, 5);
+    for (const double length : {0.0, 2.0}) {
+        Framing framing(towardEye, Vec3::UnitZ(), kAspect);
+        framing.include(point);
+        framing.include(Vec3(point + length * towardEye));
+        const Camera camera = framing.camera();
+        EXPECT_GT((camera.eye - point).dot(towardEye), length * towardEye.squaredNorm());
+        EXPECT_GT((camera.eye - camera.target).dot(towardEye), 0.0);
+        EXPECT_LT(Reach(camera, {point}).most(), 1e-6);
+    }
+}
+
+TEST(Framing, OfNothingIsStillACamera)
+{
+    const Camera camera = Framing(threeQuarterView(false), Vec3::UnitY(), kAspect).camera();
+    EXPECT_TRUE(camera.eye.allFinite());
+    EXPECT_GT((camera.eye - camera.target).norm(), 0.0);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 without any of our program's code. Prints what it measured; exit code 1 when a claim does not hold.
 
     blender_check.py poses EXPORT TAKE       matrices, at whole frames and between
+    blender_check.py births EXPORT TAKE      nobody is seen before its birth, all move after it
     blender_check.py shading EXPORT          flat boxes, round tori, names of materials
     blender_check.py camera EXPORT TAKE      field of view and line of sight of the first camera
     blender_check.py textures TAKE ASSET.obj EXPORT...   texture coordinates of every corner
@@ -91,6 +92,37 @@ def check_poses(export, take):
     if worst > TOLERANCE:
         return f"a matrix is off by {worst:.2e} of its size"
     return "" if compared else "nothing was compared"
+
+
+def check_births(export, take):
+    """At whole frames. EXPORT may be the take itself."""
+    info = read_info(take)
+    if pathlib.Path(export).is_dir():
+        blender_open.open_scene(blender_open.parse_options([export]))
+    else:
+        open_export(export)
+        bpy.context.scene.render.fps = round(info["fps"])
+    births = blender_open.births_of(pathlib.Path(take), info)
+    late = [number for number, birth in births.items() if birth is None or birth > info["frames"][0]]
+    if not late:
+        return "the shot has nobody who comes late"
+    turn = Z_UP_FROM_Y_UP if info["up"] == "+y" else np.eye(4)
+    for time, positions, _ in read_motion(take):
+        if time != round(time):
+            continue  # between frames somebody who is about to come may be there already
+        graph = set_time(time)
+        for number, body in enumerate(info["bodies"]):
+            thing = bpy.data.objects[body["name"]].evaluated_get(graph)
+            place = np.array(thing.matrix_world)
+            is_seen = np.abs(place[:3, :3]).max() > 1e-6 and not thing.hide_render
+            birth = births.get(number, info["frames"][0])
+            if is_seen != (birth is not None and time >= birth):
+                return f"{body['name']}, born at {birth}, is seen at {time}: {is_seen}"
+            wanted = turn[:3, :3] @ positions[number]
+            if is_seen and np.abs(place[:3, 3] - wanted).max() > TOLERANCE * max(1, np.abs(wanted).max()):
+                return f"{body['name']} is at {place[:3, 3]} at {time}, not at {wanted}"
+    print(f"{len(late)} bodies come late, and are seen from then on")
+    return ""
 
 
 def mesh_of(name):
@@ -359,6 +391,7 @@ def check_blur(export, take, name):
 if __name__ == "__main__":
     checks = {
         "poses": check_poses,
+        "births": check_births,
         "shading": check_shading,
         "camera": check_camera,
         "textures": check_textures,

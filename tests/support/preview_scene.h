@@ -63,8 +63,9 @@ inline PreviewScene strewnHeap(const TriMesh& mesh, double size, int count)
         heap.add(1, {Vec3(x, y, z), strewnTurn(i)}, {{0.72, 0.53, 0.30}, 0.4}, true);
     }
     heap.looks = variedLooks(heap.scene, heap.looks);
-    const Aabb box{{-reach, 0.0, -reach}, {reach, 0.9 * reach, reach}};
-    heap.camera = frameAll(box, threeQuarterView(false), Vec3::UnitY(), 16.0 / 9.0);
+    heap.camera.target = 0.45 * reach * Vec3::UnitY();
+    heap.camera.eye =
+        heap.camera.target + 4.511572592172724 * reach * threeQuarterView(false).normalized();
     return heap;
 }
 

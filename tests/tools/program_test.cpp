@@ -249,7 +249,11 @@ TEST_F(ProgramTest, ResumingAnotherShotExitsWith65)
     const Outcome outcome =
         runScree({"sim", shot(), "-o", output, "--resume", "--set", "material.wood.friction=0.9"});
     EXPECT_EQ(outcome.code, 65);
-    EXPECT_NE(outcome.err.find("another shot"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("another shot: this one has material.wood.friction = 0.9 (the take "
+                               "has 0.4)"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("--from"), std::string::npos) << outcome.err;
 }
 
 TEST_F(ProgramTest, ExitCodesTellWhatWentWrong)

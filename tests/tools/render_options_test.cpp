@@ -14,6 +14,7 @@
 #include "tests/support/readers.h"
 #include "tests/support/small_shot.h"
 #include "tools/picture_file.h"
+#include "tools/take_painter.h"
 
 namespace scree::test {
 namespace {
@@ -362,6 +363,25 @@ TEST_F(RenderOptions, AFilmSaysItsColoursAndShowsThoseOfThePictures)
     ASSERT_EQ(decoded.exitCode, 0) << decoded.output;
     const Color shift = meanOf(readPng(pictures / "decoded.png").image) - meanOf(picture(1001));
     EXPECT_LT(shift.cwiseAbs().maxCoeff(), 0.004F) << shift.transpose();
+}
+
+// "152 bodies" stood under a picture of three coins: the others had yet to be poured.
+TEST(TakePainter, CountsOnlyWhoIsThere)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "s.toml") << shotTextOf(
+        {.frames = "1001-1004"},
+        "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 2\nframes = "
+        "\"1001-1003\"\nlayout = { position = [0, 9, 0], grid = { count = [2, 1, 1], spacing = [3, "
+        "0, 0] } }\n");
+    const CommandResult made =
+        runCommand(quoted(SCREE_PROGRAM) + " sim -q " + quoted(folder / "s.toml") + " -o " +
+                   quoted(folder / "take"));
+    ASSERT_EQ(made.exitCode, 0) << made.output;
+    const TakeReader take(folder / "take");
+    const TakePainter painter(take, "", {160, 90});
+    EXPECT_EQ(painter.bodyCountAt(1001), 2u) << "the ground and one block";
+    EXPECT_EQ(painter.bodyCountAt(1004), 3u);
 }
 
 }  // namespace

@@ -100,6 +100,11 @@ TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
     const Outcome crumb = run("check drop.toml --estimate 0 --set shot.units=\\\"mm\\\"");
     EXPECT_TRUE(contains(crumb.out, "'low' is 0.0004 m long")) << crumb.out;
     EXPECT_FALSE(contains(run("check drop.toml --estimate 0").out, "shot.units"));
+    // "immovable, of 1 kg/m3, inertia …" was told of what nothing moves.
+    const Outcome fixed =
+        run("check drop.toml --estimate 0 --set body.low.motion=\\\"static\\\" --set "
+            "body.high.motion=\\\"static\\\"");
+    EXPECT_TRUE(contains(fixed.out, "block: 2 bodies, immovable\n")) << fixed.out << fixed.err;
     const Outcome heavy = run("check drop.toml --estimate 0 --set shot.gravity=[0,-981,0]");
     EXPECT_TRUE(contains(heavy.out, "100 times the earth's")) << heavy.out;
     const Outcome away = run(
@@ -143,7 +148,7 @@ TEST_F(ShotTools, DiffEndsWithOneAndNamesTheFrameAndTheBody)
     EXPECT_EQ(json["difference"]["frame"], 1004);
     EXPECT_EQ(json["difference"]["bodies"].size(), 2u);
     EXPECT_EQ(run("diff a nowhere").code, 66);
-    EXPECT_EQ(run("sim drop.toml -o d --from a@1006").code, 65);
+    EXPECT_EQ(run("sim drop.toml -o d --from a@1007").code, 65);
     EXPECT_EQ(run("sim drop.toml -o d --from a").code, 64);
 }
 
