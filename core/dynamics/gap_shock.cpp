@@ -170,11 +170,26 @@ double visibleSpeed(const World& world, const StepSettings& settings, double dt,
     return visible * smallerRadius(world, row.a, row.b) / dt;
 }
 
+/// How fast the surfaces at a row close beyond its target [m/s].
+double closingOf(const GapScratch& scratch, const GapRow& row)
+{
+    const Vec3 u = velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+    return row.target - u.dot(row.normal);
+}
+
+/// The fastest of these.
+double closingOf(const GapScratch& scratch, const std::vector<std::size_t>& rows)
+{
+    double closing = 0.0;
+    for (const std::size_t r : rows)
+        closing = std::max(closing, closingOf(scratch, scratch.rows[r]));
+    return closing;
+}
+
 bool closesVisibly(const World& world, const StepSettings& settings, double dt,
                    const GapScratch& scratch, const GapIsland& island, const GapRow& row)
 {
-    const double u = velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).dot(row.normal);
-    return row.target - u > visibleSpeed(world, settings, dt, island, row);
+    return closingOf(scratch, row) > visibleSpeed(world, settings, dt, island, row);
 }
 
 /// The pairs of those islands of a block of which a row still closes visibly.
@@ -223,6 +238,11 @@ void groupByLevel(const GapScratch& scratch, std::span<const std::size_t> pairs,
 
 /// Solves the rows of pairs that share bodies beside bodies that are pinned, if one closes visibly.
 /// The rows keep their impulses. False when nothing was to be done.
+///
+/// What closes as fast afterwards as it did before is left as it was. Friction of a brick that lies
+/// on three of which each goes its own way, pinned, cannot obey all of them: it turned, and those
+/// above it turned more. In 18 layers with a thousandth of a millimetre of air in each, 0.14 mm/s
+/// at the lowest became 40 at the top.
 bool shake(const World& world, const StepSettings& settings, double dt,
            std::span<const std::size_t> pairs, GapScratch& scratch)
 {
@@ -246,15 +266,16 @@ bool shake(const World& world, const StepSettings& settings, double dt,
         enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, island, row));
     }
     const LevelMotion before(scratch, rows);
+    const double closingBefore = closingOf(scratch, rows);
     solveRows(scratch, rows, enough);
-    const bool isThrown = before.isThrown(scratch, dt);
-    if (isThrown) before.restore(scratch);
+    const bool isUndone = before.isThrown(scratch, dt) || closingOf(scratch, rows) >= closingBefore;
+    if (isUndone) before.restore(scratch);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         GapRow& row = scratch.rows[rows[i]];
         const Vec3 withShock = row.worldImpulse(), coupleWithShock = row.couple;
         row.impulse = remembered[i].impulse;
         row.couple = remembered[i].couple;
-        if (isThrown) continue;
+        if (isUndone) continue;
         const Vec3 extra = withShock - row.worldImpulse();
         const Vec3 extraCouple = coupleWithShock - row.couple;
         if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra) + extraCouple;
