@@ -95,7 +95,8 @@ void stopWhatRestsOnStopped(double dt, const GapIsland& island, GapScratch& scra
         const Vec3 pull = a.isStopped ? Vec3(-b.pull) : a.pull;
         const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
         const bool rests = std::ranges::any_of(rows, [&](const GapRow& row) {
-            return endOfRow(row, a, b, pull, dt) < -kStops * dt * dt * pull.norm();
+            const bool isMoved = a.isStopped ? row.movesB : row.movesA;
+            return isMoved && endOfRow(row, a, b, pull, dt) < -kStops * dt * dt * pull.norm();
         });
         if (rests) a.isStopped = b.isStopped = true;
     }
