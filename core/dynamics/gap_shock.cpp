@@ -16,8 +16,8 @@ namespace scree {
 namespace {
 
 /// Sweeps up and down over the rows of one level, at most; its rows are few and near each other.
-/// Weights are handed down once: a block on a slope that begins without friction needs 40 of them
-/// to lie still to nine digits.
+/// Weights are handed down once: a block on a slope that begins without friction needs 30 to 60
+/// of them to lie still to nine digits.
 constexpr int kShockSweeps = 30, kWeightSweeps = 100;
 
 /// A row that closes this share of the smaller body past zero in a step calls for shock: where the
