@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_lanes.h"
@@ -72,6 +73,33 @@ void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
 {
     if (row.movesA) applyCoupleTo(a, couple);
     if (row.movesB) applyCoupleTo(b, -couple);
+}
+
+/// How far the surfaces at a row are from each other at the end of the step, if a pull acts on A
+/// against B that nothing answers [m].
+double endOfRow(const GapRow& row, const GapBody& a, const GapBody& b, const Vec3& pull, double dt)
+{
+    const double u = velocityAt(row, a, b).dot(row.normal);
+    return std::max(row.gap, 0.0) + shiftAt(row, a, b) + dt * (u + 0.5 * dt * pull.dot(row.normal));
+}
+
+/// What rests on what is stopped is stopped too. What pulls at both alike does not tell of that:
+/// all of a tower but its lowest layer was to fall freely in its first step, with weights handed
+/// down that were to hold it. Where something has carried before, that tells.
+void stopWhatRestsOnStopped(double dt, const GapIsland& island, GapScratch& scratch)
+{
+    for (const std::size_t i : island.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
+        if (a.isStopped == b.isStopped) continue;
+        const Vec3 pull = a.isStopped ? Vec3(-b.pull) : a.pull;
+        const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
+        const bool rests = std::ranges::any_of(rows, [&](const GapRow& row) {
+            const bool isMoved = a.isStopped ? row.movesB : row.movesA;
+            return isMoved && endOfRow(row, a, b, pull, dt) < -kStops * dt * dt * pull.norm();
+        });
+        if (rests) a.isStopped = b.isStopped = true;
+    }
 }
 
 /// What pulls a body throughout the step, and how far that does not move it: in the whole step if
@@ -253,9 +281,7 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
             const GapRow& row = scratch.rows[r];
             const GapBody& a = scratch.bodies[row.a];
             const GapBody& b = scratch.bodies[row.b];
-            const double g = (a.pull - b.pull).dot(row.normal);
-            const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
-                               dt * (velocityAt(row, a, b).dot(row.normal) + 0.5 * dt * g);
+            const double end = endOfRow(row, a, b, a.pull - b.pull, dt);
             const double little = kStops * dt * std::max(a.pull.norm(), b.pull.norm());
             stopsAny = end < -dt * little || row.impulse.x() * row.inverseNormalMass > little;
         }
@@ -269,6 +295,10 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
             body.isHeld = body.isHeld || pair.isCarried;
         }
     }
+    forIslands(scratch, block, [&](std::size_t i) {
+        const GapIsland& island = scratch.islands[i];
+        if (!island.isRemembered) stopWhatRestsOnStopped(dt, island, scratch);
+    });
     forEach(block.bodies.size(), kShortWork,
             [&](std::size_t n) { addForces(dt, scratch.bodies[block.bodies[n]]); });
     forPairs(block, [&](std::size_t i) {
