@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <limits>
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
@@ -16,6 +18,7 @@ namespace {
 /// A place that has moved less than this share of the smaller body since the last step may take
 /// over an impulse although its features have changed.
 constexpr double kSamePlace = 0.05;
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
 bool isBefore(const RememberedContact& contact, const BodyPair& bodies)
 {
@@ -75,15 +78,23 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
 }
 
 /// Hands the remembered impulses of one pair to its rows: by feature, and what is left to the
-/// nearest row that got none.
+/// nearest row that got none. Two round bodies may touch at several places of the same name, not
+/// all of which bore: those that belong together most closely come first.
 void warmStart(const World& world, double dt, const RememberedContact* begin,
                const RememberedContact* end, GapRow* firstRow, GapRow* lastRow,
                const std::vector<GapContact>& contacts)
 {
+    struct Match {
+        double away;  // [m]
+        std::size_t row, remembered;
+
+        auto operator<=>(const Match&) const = default;
+    };
     const BodyId a = firstRow->a;
     const double smaller = smallerRadius(world, firstRow->a, firstRow->b);
     const Mat3 worldFromA = world.motion[a].orientation.toRotationMatrix();
     thread_local std::vector<char> isTaken, isGiven;
+    thread_local std::vector<Match> matches;
     isTaken.assign(static_cast<std::size_t>(end - begin), 0);
     isGiven.assign(static_cast<std::size_t>(lastRow - firstRow), 0);
     const auto give = [&](std::size_t r, std::size_t m) {
@@ -94,32 +105,26 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
         row.couple = row.resistsSpin() ? Vec3(dt * begin[m].couple) : Vec3::Zero();
         isTaken[m] = isGiven[r] = 1;
     };
-    const auto distance = [&](std::size_t r, std::size_t m) {
-        return (firstRow[r].rA - worldFromA * begin[m].place).squaredNorm();
-    };
-    for (std::size_t r = 0; r < isGiven.size(); ++r) {
-        // Two round bodies may touch at several places of the same name.
-        std::size_t best = isTaken.size();
+    const auto giveNearestFirst = [&](double farthest, const auto& isMeant) {
+        matches.clear();
         for (std::size_t m = 0; m < isTaken.size(); ++m) {
-            if (isTaken[m] || begin[m].feature != contacts[r].feature) continue;
-            if (best < isTaken.size() && distance(r, m) >= distance(r, best)) continue;
-            best = m;
+            if (isTaken[m]) continue;
+            const Vec3 place = worldFromA * begin[m].place;
+            for (std::size_t r = 0; r < isGiven.size(); ++r) {
+                if (isGiven[r] || !isMeant(r, m)) continue;
+                const double away = (firstRow[r].rA - place).norm();
+                if (away < farthest) matches.push_back({away, r, m});
+            }
         }
-        if (best < isTaken.size()) give(r, best);
-    }
-    for (std::size_t m = 0; m < isTaken.size(); ++m) {
-        if (isTaken[m]) continue;
-        const Vec3 place = worldFromA * begin[m].place;
-        double nearest = kSamePlace * smaller;
-        std::size_t taker = isGiven.size();
-        for (std::size_t r = 0; r < isGiven.size(); ++r) {
-            const double away = (firstRow[r].rA - place).norm();
-            if (isGiven[r] || away >= nearest) continue;
-            nearest = away;
-            taker = r;
+        std::sort(matches.begin(), matches.end());
+        for (const auto& [away, r, m] : matches) {
+            if (!isGiven[r] && !isTaken[m]) give(r, m);
         }
-        if (taker < isGiven.size()) give(taker, m);
-    }
+    };
+    giveNearestFirst(kAnywhere, [&](std::size_t r, std::size_t m) {
+        return begin[m].feature == contacts[r].feature;
+    });
+    giveNearestFirst(kSamePlace * smaller, [](std::size_t, std::size_t) { return true; });
 }
 
 }  // namespace

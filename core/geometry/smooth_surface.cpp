@@ -202,6 +202,8 @@ void SmoothSurface::findRoundFacets()
 {
     findRoundNormals();
     isRound_.assign(beyond_.size(), 0);
+    std::vector<char> isHollow(beyond_.size(), 0);
+    std::vector<double> sags(beyond_.size(), 0.0);  // the most along an edge [m]
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(beyond_.size()); ++f) {
         const Facet facet = facetAt(f);
         bool isRound = true;
@@ -211,7 +213,7 @@ void SmoothSurface::findRoundFacets()
             const int next = (k + 1) % 3;
             const Vec3 along = facet.points.col(next) - facet.points.col(k);
             const double sagging = sag(along, facet.normals.col(next) - facet.normals.col(k));
-            isRound = isRound && sagging >= kHollow * along.norm();
+            isHollow[f] = isHollow[f] || sagging < kHollow * along.norm();
             most = std::max(most, sagging);
             lengths[k] = along.norm();
             turns[k] = facet.normals.col(k).dot(facet.normals.col(next));
@@ -220,9 +222,17 @@ void SmoothSurface::findRoundFacets()
         lengths.maxCoeff(&longest);
         for (int k = 0; k < 3; ++k)
             isRound = isRound && turns[k] >= (k == longest ? kFineDiagonal : kFineFacet);
-        if (!isRound) continue;
-        isRound_[f] = 1;
-        bulge_ = std::max(bulge_, most / 3.0);  // products of weights add up to a third at most
+        isRound_[f] = isRound;
+        sags[f] = most;
+    }
+    // What is between round and hollow is faced in strips: where a body lies there, the next hair
+    // of a tilt finds another place, or none.
+    for (std::size_t f = 0; f < beyond_.size(); ++f) {
+        const bool isBesideHollow = std::ranges::any_of(
+            beyond_[f], [&](std::int32_t other) { return other >= 0 && isHollow[other]; });
+        if (isHollow[f] || isBesideHollow) isRound_[f] = 0;
+        // Products of weights add up to a third at most.
+        if (isRound_[f]) bulge_ = std::max(bulge_, sags[f] / 3.0);
     }
 }
 

@@ -39,7 +39,7 @@ public:
     /// that it is felt and seen as a facet.
     std::optional<Vec3> placeFacing(std::int32_t vertex, const Vec3& direction) const;
 
-    /// Whether any facet is round: fine, and nowhere hollow.
+    /// Whether any facet is round: fine, and neither hollow nor beside one that is.
     bool hasRoundFacets() const { return bulge_ > 0.0; }
     /// No place of a round facet lies farther below the smooth surface than this [m].
     double bulge() const { return bulge_; }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -226,6 +227,35 @@ double heightOf(const World& world, BodyId body)
         lowest = std::min(lowest, p.y());
     }
     return lowest;
+}
+
+// The facets between the ring and the hollow are as round as those outside, every other of them,
+// and an apple that stood there found its places now on these and now at the corners: it never came
+// to rest.
+TEST(RoundContacts, WhatStandsOnTheRingAroundAHollowComesToRest)
+{
+    struct Ring {
+        std::array<int, 2> segments;
+        double depth;  // of the hollow side of the tube, as a share of the other
+    };
+    for (const Ring& ring : {Ring{{28, 20}, 2.0}, Ring{{24, 16}, 1.5}}) {
+        TriMesh mesh = makeTorus(1.0, 0.4, ring.segments);
+        for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
+            const double radius = std::hypot(mesh.points(0, v), mesh.points(2, v));
+            if (radius >= 1.0) continue;
+            const double share = (1.0 - ring.depth * (1.0 - radius)) / radius;
+            mesh.points(0, v) *= share;
+            mesh.points(2, v) *= share;
+        }
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.0);
+        addPlane(world, material);
+        const BodyId body = addBody(world, buildMeshShape("ring", mesh), material,
+                                    {{0.0, 0.5, 0.0}, exponentialMap(Vec3(0.1, 0.0, 0.05))});
+        Stepper stepper(screeSettings());
+        for (int f = 0; f < 48; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+        EXPECT_TRUE(world.contactMemory.isAsleep(body)) << ring.depth;
+    }
 }
 
 TEST(RoundContacts, ABallOfTrianglesRollsOnAtItsSpeedAtAnyStep)
