@@ -186,9 +186,10 @@ double FeatureMemory::lookAtEdges(const RelativePair& pair, const RelativePair& 
     if (first.edges().empty() || second.edges().empty()) return kInfinity;
     thread_local std::vector<std::int32_t> nearA, nearB;
     thread_local std::vector<FacingLanes> eightsOfA, eightsOfB;
-    const double apartA = findEdgesNear(pair, clearance_, nearA);
+    const double clearance = clearance_ + reachOfBlades(pair);
+    const double apartA = findEdgesNear(pair, clearance, nearA);
     if (nearA.empty()) return apartA;
-    const double apartB = findEdgesNear(back, clearance_, nearB);
+    const double apartB = findEdgesNear(back, clearance, nearB);
     if (nearB.empty()) return apartB;
     inEights(first.lines(), nearA, eightsOfA);
     inEights(second.lines(), nearB, eightsOfB);

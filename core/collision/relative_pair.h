@@ -42,6 +42,14 @@ inline double deepestEdges(const RelativePair& pair)
     return 0.5 * std::min(pair.first.innerBall.radius, pair.second.innerBall.radius);
 }
 
+/// How far from the other body an edge may be and still be where a blade, an edge sharper than
+/// kBlade, has sunk in: the edge it has crossed is outside then [m].
+inline double reachOfBlades(const RelativePair& pair)
+{
+    const bool hasBlades = pair.first.features.hasBlades() || pair.second.features.hasBlades();
+    return hasBlades ? deepestEdges(pair) : 0.0;
+}
+
 /// Bounding radius of the smaller shape [m]; planes have none.
 double smallerRadius(const Shape& a, const Shape& b);
 

@@ -88,6 +88,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         }
         if (rises > -kFlat) continue;
         edge.outward = (edge.faceNormal[0] + edge.faceNormal[1]).normalized();
+        hasBlades_ = hasBlades_ || edge.faceNormal[0].dot(edge.faceNormal[1]) < kBlade;
         edges_.push_back(edge);
         lines_.push_back(lineOf(edge));
         edgeSpheres.push_back({0.5 * (start + end), 0.5 * length});

@@ -41,6 +41,9 @@ struct Crease {
 /// Cosine of the bend from which an inward edge is a crease. The facets of a ring bend by less.
 inline constexpr double kCrease = 0.9;
 
+/// Cosine of the bend from which an outward edge is a blade: about 63 degrees between its faces.
+inline constexpr double kBlade = -0.45;
+
 /// What tells how far apart edges are and from where they can be touched, in single precision: one
 /// line of the cache.
 struct alignas(64) EdgeLine {
@@ -63,6 +66,7 @@ public:
     /// Those where at least three faces of different directions meet.
     const std::vector<std::int32_t>& corners() const { return corners_; }
     const std::vector<ConvexEdge>& edges() const { return edges_; }
+    bool hasBlades() const { return hasBlades_; }
     const std::vector<EdgeLine>& lines() const { return lines_; }  ///< of edges()
     const std::vector<Crease>& creases() const { return creases_; }
     const SphereLaneTree& cornerTree() const { return cornerTree_; }  ///< over corners()
@@ -86,6 +90,7 @@ private:
     std::vector<ConvexEdge> edges_;
     std::vector<EdgeLine> lines_;
     std::vector<Crease> creases_;
+    bool hasBlades_ = false;
     SphereLaneTree cornerTree_, edgeTree_, creaseTree_;
 };
 
