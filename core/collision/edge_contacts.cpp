@@ -184,7 +184,6 @@ Dip deepestBeside(const ConvexEdge& edge, const Vec3& n, double gap, const Vec3&
 struct Sunk {
     bool isAsDeep;  // in the second as under the nearer of the faces beside that edge, about
     bool isNear;    // to the second, by `reach`
-    double gap;     // to the second, where it is deepest [m]
 };
 
 Sunk sunkBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const ConvexEdge& ofSecond,
@@ -195,7 +194,7 @@ Sunk sunkBeside(const RelativePair& pair, const ConvexEdge& ofFirst, const Conve
     const double rounding = kRounding * (ofFirst.length + ofSecond.length);
     const double onEdge = std::clamp(dip.along, -along, ofFirst.length - along);
     const double value = pair.second.distance.value(onFirst + onEdge * direction);
-    return {value <= 0.5 * dip.height + rounding, value < reach, value};
+    return {value <= 0.5 * dip.height + rounding, value < reach};
 }
 
 /// Whether the edge of the first, which crosses one of the second at `onFirst`, comes in under a

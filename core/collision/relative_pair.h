@@ -36,7 +36,8 @@ struct FeatureContact {
 inline constexpr double kSharpness = 1e-3;
 
 /// Edges deeper in each other than this are not what touches [m]: in a deep overlap every far edge
-/// "interferes", and the corners inside tell the way out.
+/// "interferes", and the corners inside tell the way out. By what is thickest: a shard is thin at
+/// its rim, and that sinks in deeper than it is thick in a step.
 inline double deepestEdges(const RelativePair& pair)
 {
     return 0.5 * std::min(pair.first.innerBall.radius, pair.second.innerBall.radius);

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
+#include "core/base/random.h"
+#include "core/collision/interference.h"
 #include "core/collision/near_features.h"
 #include "core/dynamics/stepper.h"
 #include "core/math/rotation.h"
@@ -68,6 +73,71 @@ void expectNoOverlapUntold(std::uint64_t seed)
 TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
 {
     for (const std::uint64_t seed : {1000, 2000, 5000, 8000, 21000}) expectNoOverlapUntold(seed);
+}
+
+/// The hull of ten random points, half a metre across and a twentieth thick.
+std::shared_ptr<const Shape> shardShape(std::uint64_t seed)
+{
+    constexpr int kPoints = 10;
+    Points points(3, kPoints);
+    for (int k = 0; k < kPoints; ++k)
+        points.col(k) =
+            0.24 *
+            signedUnits(seed, 3 * static_cast<std::uint64_t>(k)).cwiseProduct(Vec3(1.0, 0.12, 1.0));
+    std::vector<std::array<int, 3>> faces;
+    const auto addIfOutside = [&](int a, int b, int c) {
+        const Vec3 normal = (points.col(b) - points.col(a)).cross(points.col(c) - points.col(a));
+        const Eigen::RowVectorXd heights = normal.transpose() * (points.colwise() - points.col(a));
+        if (heights.maxCoeff() <= 1e-12) faces.push_back({a, b, c});
+        if (heights.minCoeff() >= -1e-12) faces.push_back({a, c, b});
+    };
+    for (int a = 0; a < kPoints; ++a) {
+        for (int b = a + 1; b < kPoints; ++b) {
+            for (int c = b + 1; c < kPoints; ++c) addIfOutside(a, b, c);
+        }
+    }
+    Triangles triangles(3, static_cast<Eigen::Index>(faces.size()));
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        for (int k = 0; k < 3; ++k) triangles(k, static_cast<Eigen::Index>(f)) = faces[f][k];
+    }
+    ShapeSettings settings;
+    settings.resolution = 160;
+    return buildMeshShape("shard", mergeEqualPoints({points, triangles}), settings);
+}
+
+/// How deep a shard that falls on the edge of a step, and off it, has ever been in it at the end of
+/// a frame, as a share of its size.
+double deepestInStep(const std::shared_ptr<const Shape>& shard, std::uint64_t seed)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.3, 0.2, 1000.0);
+    const BodyId step = addBody(world, boxShape({0.6, 0.5, 3.0}, 1), material,
+                                {Vec3(0.0, -0.25, 0.0), Quat::Identity()}, 0.0);
+    world.mass[step] = BodyMass{};
+    const Vec3 velocity(1.0 + 3.0 * randomUnit(7, seed, 9), -3.0 * randomUnit(7, seed, 10), 0.0);
+    addBody(world, shard, material,
+            {Vec3(0.0, 0.5, 0.0), exponentialMap(3.0 * signedUnits(seed, 0))}, 1.0, velocity,
+            8.0 * signedUnits(seed, 3));
+    Stepper stepper(screeSettings());
+    double deepest = 0.0;
+    for (int frame = 0; frame < 12; ++frame) {
+        stepper.advanceFrame(world, 1.0 / 24.0);
+        const PlacedPair pair{&world.shapeOf(0), &world.shapeOf(1), poseOf(world, 0),
+                              poseOf(world, 1)};
+        if (const auto touch = deepestTouch(pair, 0.0))
+            deepest = std::max(deepest, -touch->phi / shard->boundingRadius);
+    }
+    return deepest;
+}
+
+// One in seven cut through, or stayed in the step.
+TEST(SharpHeap, ShardsThatFallOnTheEdgeOfAStepDoNotCutIntoIt)
+{
+    for (std::uint64_t kind = 0; kind < 4; ++kind) {
+        const auto shard = shardShape(300 + kind);
+        for (std::uint64_t seed = 0; seed < 40; ++seed)
+            EXPECT_LT(deepestInStep(shard, seed), 0.02) << kind << ", " << seed;
+    }
 }
 
 }  // namespace
