@@ -82,6 +82,16 @@ public:
         if (!unsupported_ || contact.gap < unsupported_->gap) unsupported_ = contact;
     }
 
+    /// Of what lies inside without being a contact only what is deeper may speak in the end [m].
+    double deepEnough() const
+    {
+        double gap = 0.0;
+        for (std::size_t i = first_; i < contacts_.size(); ++i)
+            gap = std::min(gap, contacts_[i].gap);
+        const double speaks = gap - sharpness_;
+        return unsupported_ ? std::min(speaks, unsupported_->gap) : speaks;
+    }
+
     /// In a deep overlap the geometry of touching means little. A corner inside is still a corner
     /// inside: without any contact about as deep, the deepest one speaks. A ring that had slid over
     /// the rim of another, a corner first, sank 26 mm into it: its faces sloped too much to stand

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "core/collision/edge_inside.h"
 
 namespace scree {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of lengths
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Sine of the angle by which a face may lean out from the way on which an edge leaves, and still
 /// be taken for one along it. Of boxes flush with each other faces lean by rounding, to either
@@ -52,66 +52,6 @@ std::optional<Crossing> crossing(const Vec3& startA, const Vec3& dA, double leng
 bool isNear(const Shape& shape, const Vec3& place, double reach)
 {
     return shape.distance.value(place) < reach;
-}
-
-/// Places along an edge of the first, told to look(along, distance from the second), which answers
-/// below what distance others matter: those that can be nearer are told of, but for what is
-/// shorter than `least` [m].
-template <class Look>
-void lookAlong(const RelativePair& pair, const ConvexEdge& edge, double least, const Look& look)
-{
-    const Vec3 start = pair * edge.start, direction = pair.rotation * edge.direction;
-    const SignedDistance& field = pair.second.distance;
-    for (double along = 0.0; along <= edge.length;) {
-        const Vec3 place = start + along * direction;
-        const double value = field.value(place), below = look(along, value);
-        // Of values far away nobody knows whether they are above the true distance.
-        const double apart = value < field.refinementBand() ? value : field.lowerBound(place);
-        along += std::max(apart - below, least);
-    }
-}
-
-constexpr double kLeastWay = 0.01;  // along an edge, of its length
-
-/// Whether an edge of the first comes within `reach` of the second.
-bool comesWithin(const RelativePair& pair, const ConvexEdge& edge, double reach)
-{
-    const double least = std::min(kLeastWay * edge.length, std::max(reach, kRounding));
-    bool isNear = false;
-    lookAlong(pair, edge, least, [&](double, double apart) {
-        isNear = isNear || apart < reach;
-        return isNear ? -kInfinity : reach;  // nothing else matters
-    });
-    return isNear;
-}
-
-/// How deep an edge of the first lies in the second, about [m]: of where it may dip in `near` is
-/// one place, others are looked for.
-double deepestAlong(const RelativePair& pair, const ConvexEdge& edge, double near)
-{
-    constexpr int kHalvings = 10;
-    const Vec3 start = pair * edge.start, direction = pair.rotation * edge.direction;
-    double least = kInfinity, at = 0.0;
-    const auto offer = [&](double along, double value) {
-        if (value < least) {
-            least = value;
-            at = along;
-        }
-        return least;
-    };
-    const auto look = [&](double along) {
-        const double place = std::clamp(along, 0.0, edge.length);
-        offer(place, pair.second.distance.value(start + place * direction));
-    };
-    look(near);
-    double step = kLeastWay * edge.length;
-    lookAlong(pair, edge, step, offer);
-    for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
-        const double middle = at;
-        look(middle - step);
-        look(middle + step);
-    }
-    return least;
 }
 
 /// Whether the lines of two edges that overlap are nearest where these are, or not far past an end
@@ -312,15 +252,27 @@ FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_
     const bool areWhatOverlaps = areSunk && !leavesByFace(pair, a, b, at->onFirst, n, -gap) &&
                                  !leavesByFace(back, b, a, onSecond, nBack, -gap);
     if (areWhatOverlaps && !isPast) return {FeatureContact{at->onFirst, n, gap}, {}};
-    // Otherwise how deep their lines are means little. What of them is inside is inside all the
-    // same; the other must be where edges that touch are looked for.
-    const double ofA = deepestAlong(pair, a, at->alongFirst);
-    const double ofB = deepestAlong(back, b, at->alongSecond);
+    return {{}, PassingEdges{at->onFirst, n, gap, at->alongFirst, at->alongSecond}};
+}
+
+std::optional<FeatureContact> touchInPassing(const RelativePair& pair, std::int32_t ofFirst,
+                                             std::int32_t ofSecond, const PassingEdges& passing,
+                                             double reach, double below)
+{
+    // Only as deep as it lies there, which is no more than how deep their lines are.
+    if (passing.gap >= below) return {};
+    const ConvexEdge& a = pair.first.features.edges()[ofFirst];
+    const ConvexEdge& b = pair.second.features.edges()[ofSecond];
+    const RelativePair back = pair.reversed();
+    const double ofA = deepestAlong(pair, a, passing.alongFirst, below);
+    const double ofB = deepestAlong(back, b, passing.alongSecond, below);
     const double deepest = std::min(ofA, ofB);
-    if (deepest >= -sharpness) return {};
+    if (deepest >= below) return {};
+    // What of them is inside is inside all the same; the other must be where edges that touch are
+    // looked for.
     const double within = reach + reachOfBlades(pair);
     if (!(ofA < ofB ? comesWithin(back, b, within) : comesWithin(pair, a, within))) return {};
-    return {{}, FeatureContact{at->onFirst, n, std::max(gap, deepest)}};
+    return FeatureContact{passing.onFirst, passing.normal, std::max(passing.gap, deepest)};
 }
 
 }  // namespace scree

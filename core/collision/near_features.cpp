@@ -114,15 +114,24 @@ void touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach, 
 {
     const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
     thread_local std::vector<EdgePair> mayTouch;
+    thread_local std::vector<std::pair<EdgePair, PassingEdges>> passing;
     memory.findEdges(pair, reach, isNew, mayTouch);
-    for (const auto& [ofA, ofB] : mayTouch) {
-        const FacedEdges faced = faceEdges(pair, ofA, ofB, reach, sharpness);
-        const std::uint64_t feature = featureId(FeatureKind::edges, ofA, ofB);
+    passing.clear();
+    for (const EdgePair& edges : mayTouch) {
+        const FacedEdges faced = faceEdges(pair, edges.ofA, edges.ofB, reach, sharpness);
         if (faced.contact) {
-            list.add(pair, {Part::edge, ofA}, {Part::edge, ofB}, toWorld, feature, *faced.contact);
-        } else if (faced.unsupported) {
-            list.addUnsupported(toWorld(feature, *faced.unsupported));
+            list.add(pair, {Part::edge, edges.ofA}, {Part::edge, edges.ofB}, toWorld,
+                     featureId(FeatureKind::edges, edges.ofA, edges.ofB), *faced.contact);
+        } else if (faced.passing) {
+            passing.emplace_back(edges, *faced.passing);
         }
+    }
+    // How deep edges lie is dear to find, and most of them have nothing to say in the end.
+    for (const auto& [edges, how] : passing) {
+        const auto touched =
+            touchInPassing(pair, edges.ofA, edges.ofB, how, reach, list.deepEnough());
+        if (!touched) continue;
+        list.addUnsupported(toWorld(featureId(FeatureKind::edges, edges.ofA, edges.ofB), *touched));
     }
 }
 

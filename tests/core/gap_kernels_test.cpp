@@ -143,17 +143,21 @@ TEST(NearFeatures, WhatStarsAndPrismsInEachOtherRememberChangesNoContact)
 double smallestGap(const RelativePair& pair, double reach, double sharpness)
 {
     double smallest = reach, unsupported = std::numeric_limits<double>::infinity();
-    const auto take = [&](const auto& faced) {
-        if (faced.contact) smallest = std::min(smallest, faced.contact->gap);
-        if (faced.unsupported) unsupported = std::min(unsupported, faced.unsupported->gap);
-    };
     for (const RelativePair& way : {pair, pair.reversed()}) {
-        for (const std::int32_t corner : way.first.features.corners())
-            take(faceCorner(way, corner, reach, sharpness));
+        for (const std::int32_t corner : way.first.features.corners()) {
+            const FacedCorner faced = faceCorner(way, corner, reach, sharpness);
+            if (faced.contact) smallest = std::min(smallest, faced.contact->gap);
+            if (faced.unsupported) unsupported = std::min(unsupported, faced.unsupported->gap);
+        }
     }
     for (std::int32_t a = 0; a < std::ssize(pair.first.features.edges()); ++a) {
-        for (std::int32_t b = 0; b < std::ssize(pair.second.features.edges()); ++b)
-            take(faceEdges(pair, a, b, reach, sharpness));
+        for (std::int32_t b = 0; b < std::ssize(pair.second.features.edges()); ++b) {
+            const FacedEdges faced = faceEdges(pair, a, b, reach, sharpness);
+            if (faced.contact) smallest = std::min(smallest, faced.contact->gap);
+            if (!faced.passing) continue;
+            const auto touched = touchInPassing(pair, a, b, *faced.passing, reach, -sharpness);
+            if (touched) unsupported = std::min(unsupported, touched->gap);
+        }
     }
     const bool isSpokenFor = smallest < std::min(unsupported + sharpness, 0.0);
     return isSpokenFor ? smallest : std::min(smallest, unsupported);
