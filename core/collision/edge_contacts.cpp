@@ -264,8 +264,8 @@ std::optional<FeatureContact> touchInPassing(const RelativePair& pair, std::int3
     const ConvexEdge& a = pair.first.features.edges()[ofFirst];
     const ConvexEdge& b = pair.second.features.edges()[ofSecond];
     const RelativePair back = pair.reversed();
-    const double ofA = deepestAlong(pair, a, passing.alongFirst, below);
-    const double ofB = deepestAlong(back, b, passing.alongSecond, below);
+    const double ofA = deepestAlong(pair, a, below);
+    const double ofB = deepestAlong(back, b, below);
     const double deepest = std::min(ofA, ofB);
     if (deepest >= below) return {};
     // What of them is inside is inside all the same; the other must be where edges that touch are

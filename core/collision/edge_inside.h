@@ -12,6 +12,6 @@ bool comesWithin(const RelativePair& pair, const ConvexEdge& edge, double reach)
 /// How deep an edge of the first lies in the second, about [m]: of where it may dip in `near` is
 /// one place [m from its start], others are looked for. Where nothing is below `enough`, some value
 /// that is not.
-double deepestAlong(const RelativePair& pair, const ConvexEdge& edge, double near, double enough);
+double deepestAlong(const RelativePair& pair, const ConvexEdge& edge, double enough);
 
 }  // namespace scree
