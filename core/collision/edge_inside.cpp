@@ -1,7 +1,6 @@
 #include "core/collision/edge_inside.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace scree {
@@ -28,25 +27,36 @@ struct PlacedEdge {
     double distanceAt(double along) const { return second.distance.value(at(along)); }
 };
 
-/// A part of an edge, by the way from its start [m], and the faces that it ends at, if any.
+/// A part of an edge, by the way from its start [m].
 struct Part {
     double from, to;
-    std::array<int, 2> faces = {-1, -1};
+
+    double middle() const { return 0.5 * (from + to); }
 };
 
-/// Whether no place of a part lies deeper than that: the distance to a face is convex, and so no
-/// greater anywhere than at the end that is not on it.
-bool isShallow(const PlacedEdge& edge, const Part& part, double depth)
+/// Whether a part of an edge that lies inside lies no deeper than that, give or take what is
+/// shorter than `least` [m]. The distance to a face is convex: none between two places of a line is
+/// farther away from it than both.
+bool isShallow(const PlacedEdge& edge, const Part& part, double depth, double least)
 {
-    const auto distance = [&](double along, int face) {
-        const auto corner = [&](int k) -> Vec3 {
-            return edge.second.mesh.points.col(edge.second.mesh.triangles(k, face));
-        };
-        const Vec3 place = edge.at(along);
-        return (place - closestOnTriangle(place, corner(0), corner(1), corner(2)).point).norm();
+    const Vec3 place = edge.at(part.middle());
+    const double sunk = -edge.second.distance.value(place);
+    if (sunk > depth) return false;
+    const double half = part.to - part.middle();
+    if (sunk + half <= depth || half < least) return true;
+    const TriMesh& mesh = edge.second.mesh;
+    const int face = edge.second.rays.closestTriangle(place, depth);
+    const auto isNearFace = [&](double along) {
+        const Vec3 end = edge.at(along);
+        const Vec3 closest = closestOnTriangle(end, mesh.points.col(mesh.triangles(0, face)),
+                                               mesh.points.col(mesh.triangles(1, face)),
+                                               mesh.points.col(mesh.triangles(2, face)))
+                                 .point;
+        return (end - closest).norm() <= depth;
     };
-    return (part.faces[0] >= 0 && distance(part.to, part.faces[0]) <= depth) ||
-           (part.faces[1] >= 0 && distance(part.from, part.faces[1]) <= depth);
+    if (isNearFace(part.from) && isNearFace(part.to)) return true;
+    return isShallow(edge, {part.from, part.middle()}, depth, least) &&
+           isShallow(edge, {part.middle(), part.to}, depth, least);
 }
 
 /// Places along a part of an edge, told to look(along, distance from the second), which answers
@@ -65,25 +75,24 @@ void lookAlong(const PlacedEdge& edge, const Part& part, double least, const Loo
     }
 }
 
-/// Tells `visit` the parts of an edge that lie in the second and may be deeper there than `depth`,
-/// and maybe others.
+/// Tells `visit` the parts of an edge that lie in the second and are deeper there than `depth`,
+/// give or take what is shorter than `least` [m]; where a formula is the surface, all of the edge.
 template <class Visit>
-void visitParts(const PlacedEdge& edge, double depth, const Visit& visit)
+void visitDeepParts(const PlacedEdge& edge, double depth, double least, const Visit& visit)
 {
     if (edge.second.distance.solid()) return visit(Part{0.0, edge.length});
-    double seen = 0.0;
-    for (Part part{0.0, 0.0}; part.from < edge.length && seen < edge.length;) {
+    // What is as deep is twice as long, so that after a face something may go unseen.
+    for (double from = 0.0, seen = 0.0; seen < edge.length;) {
         const auto hit = edge.second.rays.firstHit(edge.at(seen), edge.direction,
                                                    edge.length - seen, SurfaceRays::Facing::any);
-        part.faces[1] = hit ? hit->triangle : -1;
-        part.to = hit ? std::clamp(seen + hit->distance, seen, edge.length) : edge.length;
-        // What is as deep is twice as long.
-        if (part.to - part.from > 2.0 * depth && !isShallow(edge, part, depth) &&
-            edge.distanceAt(0.5 * (part.from + part.to)) < 0.0) {
+        const double to = hit ? std::clamp(seen + hit->distance, seen, edge.length) : edge.length;
+        const Part part{from, to};
+        if (to - from > 2.0 * depth && edge.distanceAt(part.middle()) < 0.0 &&
+            !isShallow(edge, part, depth, least)) {
             visit(part);
         }
-        part = {part.to, part.to, {part.faces[1], -1}};
-        seen = part.from + depth;
+        from = to;
+        seen = to + depth;
     }
 }
 
@@ -105,8 +114,8 @@ double deepestAlong(const RelativePair& pair, const ConvexEdge& edge, double eno
     constexpr int kHalvings = 10;
     const PlacedEdge placed(pair, edge);
     double least = kInfinity;
-    visitParts(placed, -enough, [&](const Part& part) {
-        double at = 0.0;
+    visitDeepParts(placed, -enough, kLeastWay * edge.length, [&](const Part& part) {
+        double at = part.middle();
         const auto offer = [&](double along, double value) {
             if (value < least) {
                 least = value;
@@ -115,9 +124,7 @@ double deepestAlong(const RelativePair& pair, const ConvexEdge& edge, double eno
             return std::min(least, enough);
         };
         double step = kLeastWay * edge.length;
-        const double before = least;
         lookAlong(placed, part, step, offer);
-        if (least == before) return;
         // The last halving ends within two steps of here.
         for (int i = 0; i < kHalvings && least - 2.0 * step < enough; ++i, step *= 0.5) {
             const double middle = at;
