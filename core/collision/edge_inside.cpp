@@ -39,20 +39,15 @@ struct Part {
 /// farther away from it than both.
 bool isShallow(const PlacedEdge& edge, const Part& part, double depth, double least)
 {
+    const SignedDistance& field = edge.second.distance;
     const Vec3 place = edge.at(part.middle());
-    const double sunk = -edge.second.distance.value(place);
-    if (sunk > depth) return false;
+    if (!field.isRefined(field.gridValue(place))) return false;
+    const SignedDistance::Nearest nearest = field.nearest(place);
+    if (nearest.value < -depth) return false;
     const double half = part.to - part.middle();
-    if (sunk + half <= depth || half < least) return true;
-    const TriMesh& mesh = edge.second.mesh;
-    const int face = edge.second.rays.closestTriangle(place, depth);
+    if (half - nearest.value <= depth || half < least) return true;
     const auto isNearFace = [&](double along) {
-        const Vec3 end = edge.at(along);
-        const Vec3 closest = closestOnTriangle(end, mesh.points.col(mesh.triangles(0, face)),
-                                               mesh.points.col(mesh.triangles(1, face)),
-                                               mesh.points.col(mesh.triangles(2, face)))
-                                 .point;
-        return (end - closest).norm() <= depth;
+        return field.distanceToFace(nearest.face, edge.at(along)) <= depth;
     };
     if (isNearFace(part.from) && isNearFace(part.to)) return true;
     return isShallow(edge, {part.from, part.middle()}, depth, least) &&

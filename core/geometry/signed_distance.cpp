@@ -176,7 +176,7 @@ double SignedDistance::signedValue(const Closest& closest, const Vec3& point) co
 SignedDistance::Nearest SignedDistance::nearestOf(const Closest& closest, double value) const
 {
     return {value, closest.point, closest.feature == TriangleFeature::face,
-            faces_[closest.face].normal};
+            faces_[closest.face].normal, closest.face};
 }
 
 double SignedDistance::exact(const Vec3& point) const
@@ -188,6 +188,12 @@ SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
 {
     const Closest closest = closestInCell(point, point);
     return nearestOf(closest, signedValue(closest, point));
+}
+
+double SignedDistance::distanceToFace(std::uint32_t face, const Vec3& point) const
+{
+    const auto& [a, b, c] = faces_[face].corner;
+    return (point - closestOnTriangle(point, a, b, c).point).norm();
 }
 
 std::optional<SignedDistance::Nearest> SignedDistance::nearestFromAfar(const Vec3& point) const

@@ -103,9 +103,13 @@ public:
         Vec3 point;    ///< [m]
         bool onFace;   ///< inside a face: else on an edge or a corner
         Vec3 normal;   ///< of the face [-]
+        std::uint32_t face = 0;
     };
     /// Only for points where |gridValue| < refinementBand().
     Nearest nearest(const Vec3& point) const;
+
+    /// Of one face, unsigned [m].
+    double distanceToFace(std::uint32_t face, const Vec3& point) const;
 
     /// For points outside that are farther away than that: a place of the surface that is the
     /// closest, or hardly farther, sought where the slope of the field leads. None where it leads
