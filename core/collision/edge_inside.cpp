@@ -39,19 +39,25 @@ struct Part {
 /// farther away from it than both.
 bool isShallow(const PlacedEdge& edge, const Part& part, double depth, double least)
 {
+    constexpr int kHalvings = 6;
     const SignedDistance& field = edge.second.distance;
-    const Vec3 place = edge.at(part.middle());
-    if (!field.isRefined(field.gridValue(place))) return false;
-    const SignedDistance::Nearest nearest = field.nearest(place);
-    if (nearest.value < -depth) return false;
-    const double half = part.to - part.middle();
-    if (half - nearest.value <= depth || half < least) return true;
-    const auto isNearFace = [&](double along) {
-        return field.distanceToFace(nearest.face, edge.at(along)) <= depth;
-    };
-    if (isNearFace(part.from) && isNearFace(part.to)) return true;
-    return isShallow(edge, {part.from, part.middle()}, depth, least) &&
-           isShallow(edge, {part.middle(), part.to}, depth, least);
+    for (double along = part.from; along < part.to;) {
+        const Vec3 place = edge.at(along);
+        if (!field.isRefined(field.gridValue(place))) return false;
+        const SignedDistance::Nearest nearest = field.nearest(place);
+        if (nearest.value < -depth) return false;
+        const auto isNearFace = [&](double to) {
+            return field.distanceToFace(nearest.face, edge.at(to)) <= depth;
+        };
+        if (isNearFace(part.to)) return true;
+        double near = along, far = part.to;
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (near + far);
+            (isNearFace(middle) ? near : far) = middle;
+        }
+        along = std::max(near, along + least);
+    }
+    return true;
 }
 
 /// Places along a part of an edge, told to look(along, distance from the second), which answers
