@@ -82,14 +82,15 @@ public:
         if (!unsupported_ || contact.gap < unsupported_->gap) unsupported_ = contact;
     }
 
-    /// Of what lies inside without being a contact only what is deeper may speak in the end [m].
-    double deepEnough() const
+    /// What lies inside by more than the sharpness is heard in the end only if it is deeper than
+    /// this [m].
+    double heardBelow() const
     {
-        double gap = 0.0;
+        double deepest = 0.0;
         for (std::size_t i = first_; i < contacts_.size(); ++i)
-            gap = std::min(gap, contacts_[i].gap);
-        const double speaks = gap - sharpness_;
-        return unsupported_ ? std::min(speaks, unsupported_->gap) : speaks;
+            deepest = std::min(deepest, contacts_[i].gap);
+        const double notSpokenFor = deepest - sharpness_;
+        return unsupported_ ? std::min(notSpokenFor, unsupported_->gap) : notSpokenFor;
     }
 
     /// In a deep overlap the geometry of touching means little. A corner inside is still a corner

@@ -252,11 +252,11 @@ FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_
     const bool areWhatOverlaps = areSunk && !leavesByFace(pair, a, b, at->onFirst, n, -gap) &&
                                  !leavesByFace(back, b, a, onSecond, nBack, -gap);
     if (areWhatOverlaps && !isPast) return {FeatureContact{at->onFirst, n, gap}, {}};
-    return {{}, PassingEdges{at->onFirst, n, gap, at->alongFirst, at->alongSecond}};
+    return {{}, FeatureContact{at->onFirst, n, gap}};
 }
 
 std::optional<FeatureContact> touchInPassing(const RelativePair& pair, std::int32_t ofFirst,
-                                             std::int32_t ofSecond, const PassingEdges& passing,
+                                             std::int32_t ofSecond, const FeatureContact& passing,
                                              double reach, double below)
 {
     // Only as deep as it lies there, which is no more than how deep their lines are.
@@ -272,7 +272,7 @@ std::optional<FeatureContact> touchInPassing(const RelativePair& pair, std::int3
     // looked for.
     const double within = reach + reachOfBlades(pair);
     if (!(ofA < ofB ? comesWithin(back, b, within) : comesWithin(pair, a, within))) return {};
-    return FeatureContact{passing.onFirst, passing.normal, std::max(passing.gap, deepest)};
+    return FeatureContact{passing.point, passing.normal, std::max(passing.gap, deepest)};
 }
 
 }  // namespace scree

@@ -17,28 +17,22 @@ inline constexpr double kParallel = 1e-3;
 /// overlap may still be what touches, in the notch of a hollow outline.
 inline constexpr double kPastEnds = 5.0;
 
-/// Two edges of which one may lie in the other body, but where their lines are nearest is past the
-/// end of one, or tells no way out. In the frame of the second.
-struct PassingEdges {
-    Vec3 onFirst, normal;
-    double gap;                      ///< of their lines [m]
-    double alongFirst, alongSecond;  ///< from the starts of the edges [m]
-};
-
 /// What two edges are to each other, if anything.
 struct FacedEdges {
     std::optional<FeatureContact> contact;
-    std::optional<PassingEdges> passing;
+    /// If not: where their lines are nearest is past the end of one, or tells no way out, but one
+    /// may lie in the other body all the same. The gap is that of their lines.
+    std::optional<FeatureContact> passing;
 };
 
 /// An edge of either, when their gap is below `reach`.
 FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_t ofSecond,
                      double reach, double sharpness);
 
-/// As though passing edges touched, when one lies in the other body deeper than where the distance
-/// is `below` < 0 [m]: only as deep as it lies there.
+/// As though edges that pass each other touched, when one lies in the other body where the distance
+/// is `below` < 0 or less [m]: only as deep as it lies there.
 std::optional<FeatureContact> touchInPassing(const RelativePair& pair, std::int32_t ofFirst,
-                                             std::int32_t ofSecond, const PassingEdges& passing,
+                                             std::int32_t ofSecond, const FeatureContact& passing,
                                              double reach, double below);
 
 }  // namespace scree

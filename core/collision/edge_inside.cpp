@@ -34,13 +34,13 @@ struct Part {
     double middle() const { return 0.5 * (from + to); }
 };
 
-/// Whether a part of an edge that lies inside lies no deeper than that, give or take what is
-/// shorter than `least` [m]. The distance to a face is convex: none between two places of a line is
-/// farther away from it than both.
-bool isShallow(const PlacedEdge& edge, const Part& part, double depth, double least)
+/// Whether a part of an edge that lies inside is seen to lie no deeper than that [m]. The distance
+/// to a face is convex: none between two places of a line is farther away from it than both.
+bool isShallow(const PlacedEdge& edge, const Part& part, double depth)
 {
     constexpr int kHalvings = 6;
     const SignedDistance& field = edge.second.distance;
+    const double leastStep = 1e-3 * (part.to - part.from);
     for (double along = part.from; along < part.to;) {
         const Vec3 place = edge.at(along);
         if (!field.isRefined(field.gridValue(place))) return false;
@@ -50,12 +50,14 @@ bool isShallow(const PlacedEdge& edge, const Part& part, double depth, double le
             return field.distanceToFace(nearest.face, edge.at(to)) <= depth;
         };
         if (isNearFace(part.to)) return true;
-        double near = along, far = part.to;
-        for (int i = 0; i < kHalvings; ++i) {
+        // No distance changes faster than the way.
+        double near = along + depth + nearest.value, far = part.to;
+        for (int i = 0; i < kHalvings && near < far; ++i) {
             const double middle = 0.5 * (near + far);
             (isNearFace(middle) ? near : far) = middle;
         }
-        along = std::max(near, along + least);
+        if (near < along + leastStep) return false;
+        along = near;
     }
     return true;
 }
@@ -76,20 +78,20 @@ void lookAlong(const PlacedEdge& edge, const Part& part, double least, const Loo
     }
 }
 
-/// Tells `visit` the parts of an edge that lie in the second and are deeper there than `depth`,
-/// give or take what is shorter than `least` [m]; where a formula is the surface, all of the edge.
+/// Tells `visit` the parts of an edge that lie in the second and may be deeper there than `depth`
+/// [m]; where a formula is the surface, all of the edge.
 template <class Visit>
-void visitDeepParts(const PlacedEdge& edge, double depth, double least, const Visit& visit)
+void visitDeepParts(const PlacedEdge& edge, double depth, const Visit& visit)
 {
     if (edge.second.distance.solid()) return visit(Part{0.0, edge.length});
-    // What is as deep is twice as long, so that after a face something may go unseen.
+    // Nothing shorter than the depth is as deep, so that just behind a face some may go unseen.
     for (double from = 0.0, seen = 0.0; seen < edge.length;) {
         const auto hit = edge.second.rays.firstHit(edge.at(seen), edge.direction,
                                                    edge.length - seen, SurfaceRays::Facing::any);
         const double to = hit ? std::clamp(seen + hit->distance, seen, edge.length) : edge.length;
         const Part part{from, to};
-        if (to - from > 2.0 * depth && edge.distanceAt(part.middle()) < 0.0 &&
-            !isShallow(edge, part, depth, least)) {
+        if (to - from > depth && edge.distanceAt(part.middle()) < 0.0 &&
+            !isShallow(edge, part, depth)) {
             visit(part);
         }
         from = to;
@@ -115,7 +117,7 @@ double deepestAlong(const RelativePair& pair, const ConvexEdge& edge, double eno
     constexpr int kHalvings = 10;
     const PlacedEdge placed(pair, edge);
     double least = kInfinity;
-    visitDeepParts(placed, -enough, kLeastWay * edge.length, [&](const Part& part) {
+    visitDeepParts(placed, -enough, [&](const Part& part) {
         double at = part.middle();
         const auto offer = [&](double along, double value) {
             if (value < least) {

@@ -114,24 +114,25 @@ void touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach, 
 {
     const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
     thread_local std::vector<EdgePair> mayTouch;
-    thread_local std::vector<std::pair<EdgePair, PassingEdges>> passing;
+    thread_local std::vector<std::pair<EdgePair, FeatureContact>> passing;
     memory.findEdges(pair, reach, isNew, mayTouch);
     passing.clear();
-    for (const EdgePair& edges : mayTouch) {
-        const FacedEdges faced = faceEdges(pair, edges.ofA, edges.ofB, reach, sharpness);
+    for (const auto& [ofA, ofB] : mayTouch) {
+        const FacedEdges faced = faceEdges(pair, ofA, ofB, reach, sharpness);
         if (faced.contact) {
-            list.add(pair, {Part::edge, edges.ofA}, {Part::edge, edges.ofB}, toWorld,
-                     featureId(FeatureKind::edges, edges.ofA, edges.ofB), *faced.contact);
+            list.add(pair, {Part::edge, ofA}, {Part::edge, ofB}, toWorld,
+                     featureId(FeatureKind::edges, ofA, ofB), *faced.contact);
         } else if (faced.passing) {
-            passing.emplace_back(edges, *faced.passing);
+            passing.push_back({{ofA, ofB}, *faced.passing});
         }
     }
-    // How deep edges lie is dear to find, and most of them have nothing to say in the end.
-    for (const auto& [edges, how] : passing) {
-        const auto touched =
-            touchInPassing(pair, edges.ofA, edges.ofB, how, reach, list.deepEnough());
-        if (!touched) continue;
-        list.addUnsupported(toWorld(featureId(FeatureKind::edges, edges.ofA, edges.ofB), *touched));
+    // How deep edges lie is dear to find, and most of them are not heard in the end: of a thousand
+    // rings where they are most crowded 8 of 258 000.
+    for (const auto& [edges, lines] : passing) {
+        const auto [ofA, ofB] = edges;
+        const auto touched = touchInPassing(pair, ofA, ofB, lines, reach, list.heardBelow());
+        if (touched)
+            list.addUnsupported(toWorld(featureId(FeatureKind::edges, ofA, ofB), *touched));
     }
 }
 
