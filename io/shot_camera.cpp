@@ -3,6 +3,7 @@
 #include "core/scene/camera_motion.h"
 #include "io/emitter.h"
 #include "io/shot_import.h"
+#include "io/shot_values.h"
 
 namespace scree {
 namespace {
@@ -23,7 +24,7 @@ public:
         }
         if (const ShotNode* keys = node.find("keys")) readKeys(*keys);
         if (const ShotNode* orbit = node.find("orbit")) readOrbit(*orbit);
-        if (!node.mentions("eye") && !node.mentions("keys") && !node.mentions("orbit"))
+        if (!mentionsAny(node, {"eye", "keys", "orbit", "file"}))
             problems_.add(node.where,
                           "camera '" + camera_.name +
                               "' needs 'eye', 'keys', 'orbit' or 'file' to stand somewhere");

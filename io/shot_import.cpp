@@ -270,7 +270,7 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     const bool isKeyed = motion.text == "keyed";
     const ShotNode* interpolate = node.find("interpolate");
     if (isKeyed) requireMotion(motion, file, isChosen, problems);
-    if (interpolate && !isKeyed) {
+    if (interpolate && !isKeyed && !node.isUnclear("motion")) {
         problems.add(interpolate->where, "'interpolate' is for imports with motion = \"keyed\"");
     }
     requireBodies(node, file, path, isChosen, problems);

@@ -323,6 +323,8 @@ private:
         }
         report(reference, "no [" + table + "." + reference.text + "] in the shot" +
                               didYouMean(reference.text, names) +
+        const bool isTableMisspelt = !tree_.entry(table) && tree_.mentions(table);
+        if (isTableMisspelt) return;
                               (names.empty() ? "" : " (known: " + joined(names) + ")"));
     }
 
@@ -340,7 +342,7 @@ private:
             }
         }
         body.plane = spec;
-        if (node.find("motion")->text != "static") {
+        if (node.find("motion")->text != "static" && !node.isUnclear("motion")) {
             report(plane, "a plane cannot move: write motion = \"static\"");
         }
     }

@@ -157,7 +157,7 @@ private:
         field_.falloff = falloffOf(falloff.text);
         if (const ShotNode* reach = node_.find("reach")) {
             field_.reach = reach->number * shot_.metresPerUnit;
-            if (field_.falloff == Falloff::none) {
+            if (field_.falloff == Falloff::none && !node_.isUnclear("falloff")) {
                 report(*reach, "'reach' means nothing without a 'falloff'");
             }
         } else if (field_.falloff != Falloff::none && !node_.mentions("reach")) {
@@ -183,7 +183,8 @@ void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, Pro
 {
     if (body.kind != BodyKind::keyed) {
         for (const char* key : {"keys", "interpolate", "keyed_from", "release"}) {
-            if (const ShotNode* stray = node.find(key)) {
+            const ShotNode* stray = node.find(key);
+            if (stray && !node.isUnclear("motion")) {
                 problems.add(stray->where,
                              "'" + std::string(key) + "' is for bodies with motion = \"keyed\"");
             }
