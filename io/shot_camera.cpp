@@ -109,6 +109,14 @@ SceneCamera interpretCamera(const ShotNode& node, const std::filesystem::path& f
     if (const ShotNode* nodeOfFile = node.find("node")) {
         problems.add(nodeOfFile->where, "'node' chooses a camera of a 'file', and there is none");
     }
+    for (const char* key : {"position", "rotation", "orientation", "scale"}) {
+        const ShotNode* placement = node.find(key);
+        if (!placement || node.mentions("eye")) continue;
+        problems.add(placement->where, "'" + std::string(key) +
+                                           "' places the camera of a 'file', and there is none; "
+                                           "where a camera stands is its 'eye'");
+        return SceneCamera();
+    }
     return CameraInterpreter(shot, problems).interpret(node);
 }
 

@@ -13,6 +13,7 @@
 #include "io/shot_check.h"
 #include "io/shot_import.h"
 #include "io/shot_motion.h"
+#include "io/shot_pose.h"
 #include "io/shot_shapes.h"
 #include "io/shot_solver.h"
 #include "io/shot_values.h"
@@ -397,17 +398,7 @@ private:
             return hasRoomFor(static_cast<double>(copies.size()), *poses) ? copies
                                                                           : std::vector<Pose>();
         }
-        Pose base;
-        if (const ShotNode* position = node.find("position")) base.position = toVec3(*position);
-        if (const ShotNode* rotation = node.find("rotation")) {
-            base.orientation = fromEulerXyz(toVec3(*rotation) * kRadiansPerDegree);
-        } else if (const ShotNode* q = node.find("orientation")) {
-            const std::vector<ShotNode>& wxyz = q->items;
-            if (!toOrientation(wxyz[0].number, wxyz[1].number, wxyz[2].number, wxyz[3].number,
-                               base.orientation)) {
-                report(*q, "'orientation' must not be zero");
-            }
-        }
+        const Pose base = readPose(node, problems_);
         if (const ShotNode* grid = node.find("grid")) return readGrid(*grid, base);
         return hasRoomFor(1.0, node) ? std::vector<Pose>{base} : std::vector<Pose>();
     }
