@@ -131,8 +131,7 @@ public:
                 : options.output;
         if (asked.size() > 1 || options.slate || hasFramePattern(pattern_))
             expandFramePattern(pattern_, asked[0]);
-        requirePngName(pattern_);
-        createFolderOf(pattern_);
+        createFolderOf(pattern_, console);
         size_ = options.size.empty() ? take_.info().pictureSize : parseSize(options.size);
         for (const FrameSummary& frame : take_.stats()) stats_[frame.frame] = frame;
         hasBurnIn_ = options.burnIn || (take_.info().burnIn && !options.noBurnIn);

@@ -184,7 +184,7 @@ private:
             reach = std::max(reach, 1.5 * pose.position.norm());
         }
         const SceneDescription scene = describeScene(shot_, world_, reach);
-        createFolderOf(options_.output);
+        createFolderOf(options_.output, console_);
         if (isJson()) {
             writeFileBytes(options_.output, encodePoses(scene, frame));
             return;
