@@ -144,7 +144,7 @@ private:
     {
         ShotBody body;
         body.location = node.where;
-        if (const ShotNode* name = node.find("name")) body.name = name->text;
+        if (const ShotNode* name = node.find("name")) body.name = body.item = name->text;
         const bool hasOwnName = claim(node, body.name, ownerOfItem_);
         readReferences(node, body);
         if (const ShotNode* plane = node.find("plane")) readPlane(node, *plane, body);
@@ -259,6 +259,7 @@ private:
         for (int i = 0; i < emitter.count; ++i) {
             ShotBody body = emittedBody(emitter, shot_, i);
             body.name = nameOfCopy(emitter.name, static_cast<std::size_t>(i));
+            body.item = emitter.name;
             body.location = node.where;
             body.groups = groups;
             if (!claimName(node, body.name)) return;
@@ -322,10 +323,10 @@ private:
         for (const std::string& name : names) {
             if (name == reference.text) return;
         }
-        report(reference, "no [" + table + "." + reference.text + "] in the shot" +
-                              didYouMean(reference.text, names) +
         const bool isTableMisspelt = !tree_.entry(table) && tree_.mentions(table);
         if (isTableMisspelt) return;
+        report(reference, "no [" + table + "." + reference.text + "] in the shot" +
+                              didYouMean(reference.text, names) +
                               (names.empty() ? "" : " (known: " + joined(names) + ")"));
     }
 
