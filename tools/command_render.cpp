@@ -129,6 +129,7 @@ public:
             options.output.empty()
                 ? (take_.paths().root / "images" / (take_.info().name + ".####.png")).string()
                 : options.output;
+        requirePngName(pattern_);
         if (asked.size() > 1 || options.slate || hasFramePattern(pattern_))
             expandFramePattern(pattern_, asked[0]);
         createFolderOf(pattern_, console);
