@@ -411,6 +411,16 @@ TEST(ShotErrors, AllProblemsOfAFileComeAtOnceInTheOrderOfTheText)
               "bad.toml:11:12: 'position' must be 3 numbers [x, y, z], not 3");
 }
 
+TEST(ShotErrors, APoseFileThatIsNotThereIsToldOnce)
+{
+    const std::string emitter =
+        kBase + "[[emitter]]\nname = \"e\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 3\n";
+    const test::Refusal refusal = test::refusalBy(
+        [&] { parseShotText(emitter + "poses = \"no_such.poses\"\n", "bad.toml"); });
+    EXPECT_EQ(refusal.kind, ErrorKind::missingInput);
+    EXPECT_EQ(refusal.message, "bad.toml:12:9: pose file 'no_such.poses' does not exist");
+}
+
 // The second message only hid the first, which knows what is wrong.
 TEST(ShotErrors, AKeyReportedAsMisspeltIsNotReportedAgainAsMissing)
 {
