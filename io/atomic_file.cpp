@@ -9,10 +9,12 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <system_error>
 
 #include "core/base/check.h"
 #include "core/base/error.h"
+#include "io/frame_pattern.h"
 
 namespace scree {
 
@@ -58,6 +60,27 @@ void syncFolder(const fs::path& folder)
     if (descriptor < 0) return;
     ::fsync(descriptor);
     ::close(descriptor);
+}
+
+struct TemporaryName {
+    std::string target;  // without its folder
+    int process;
+};
+
+/// Of ".<target>.<process>-<count>.tmp"; nothing of another name.
+std::optional<TemporaryName> readTemporaryName(const std::string& name)
+{
+    constexpr std::string_view kEnding = ".tmp";
+    if (!name.starts_with('.') || !name.ends_with(kEnding)) return std::nullopt;
+    const std::size_t dot = name.rfind('.', name.size() - kEnding.size() - 1);
+    if (dot == std::string::npos || dot == 0) return std::nullopt;
+    int process = 0, end = 0;
+    unsigned count = 0;
+    std::sscanf(name.c_str() + dot, ".%9d-%9u.tmp%n", &process, &count, &end);
+    if (end == 0 || dot + static_cast<std::size_t>(end) != name.size() || process <= 0) {
+        return std::nullopt;
+    }
+    return TemporaryName{name.substr(1, dot - 1), process};
 }
 
 }  // namespace
@@ -160,25 +183,32 @@ void AtomicFile::fail(const char* what, int errorNumber) const
                                             "\" failed: " + std::strerror(errorNumber));
 }
 
-void removeAbandoned(const fs::path& target)
+int removeAbandoned(const fs::path& target)
+{
+    const std::string name = target.filename().string();
+    const bool isPattern = hasFramePattern(name);
+    return removeAbandonedIn(folderOf(target), [&](const std::string& other) {
+        return isPattern ? isFrameOf(name, other) : name == other;
+    });
+}
+
+int removeAbandonedIn(const fs::path& folder,
+                      const std::function<bool(const std::string& name)>& isTarget)
 {
     constexpr std::chrono::hours kQuiet{1};
-    const std::string start = "." + target.filename().string() + ".";
+    int removed = 0;
     std::error_code code;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folderOf(target), code)) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with(start)) continue;
-        int process = 0, end = 0;
-        unsigned count = 0;
-        const char* rest = name.c_str() + start.size();
-        std::sscanf(rest, "%9d-%9u.tmp%n", &process, &count, &end);
-        if (end == 0 || rest[end] != '\0' || process <= 0) continue;
-        if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+        const std::optional<TemporaryName> name =
+            readTemporaryName(entry.path().filename().string());
+        if (!name || !isTarget(name->target)) continue;
+        if (::kill(name->process, 0) == 0 || errno != ESRCH) continue;
         std::error_code ignored;
         const auto written = fs::last_write_time(entry.path(), ignored);
         if (ignored || fs::file_time_type::clock::now() - written < kQuiet) continue;
-        fs::remove(entry.path(), ignored);
+        if (fs::remove(entry.path(), ignored)) ++removed;
     }
+    return removed;
 }
 
 }  // namespace scree

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -54,10 +55,14 @@ private:
     std::string pending_;  // the last bytes of the file, not handed to the system yet
 };
 
-/// Removes what killed processes left of earlier writes to `target`: a cache half written is as
-/// large as a cache, and nobody sees it. Its process must be gone and, since it may have run on
-/// another machine of the farm, an hour must have passed since it wrote. It reads the folder, so it
-/// is for files that are few and large.
-void removeAbandoned(const std::filesystem::path& target);
+/// Removes what killed processes left of earlier writes to `target`, which may be a frame pattern:
+/// a cache half written is as large as a cache, and nobody sees it. Its process must be gone and,
+/// since it may have run on another machine of the farm, an hour must have passed since it wrote.
+/// Says how many there were. It reads the folder, so it is asked once for all files of a run.
+int removeAbandoned(const std::filesystem::path& target);
+
+/// The same for all targets in a folder whose names a predicate holds for.
+int removeAbandonedIn(const std::filesystem::path& folder,
+                      const std::function<bool(const std::string& name)>& isTarget);
 
 }  // namespace scree

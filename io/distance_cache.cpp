@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "io/atomic_file.h"
 #include "io/byte_cursor.h"
 #include "io/file_bytes.h"
 #include "io/take_info.h"
@@ -176,6 +177,8 @@ void DistanceCache::keep(std::uint64_t key, const DistanceField& field)
     try {
         std::error_code failure;
         std::filesystem::create_directories(folder_, failure);
+        const auto isField = [](const std::string& name) { return name.ends_with(kEnding); };
+        if (kept_ == 0) removeAbandonedIn(folder_, isField);
         writeFileBytes(fileOf(key), bytesOfField(key, field));
         ++kept_;
     } catch (const Error& error) {

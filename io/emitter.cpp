@@ -143,7 +143,6 @@ void readPlaces(const ShotNode& node, const Shot& shot, const std::string& folde
         const auto path = (std::filesystem::path(folder) / poses->text).lexically_normal();
         emitter.places = readPoseFile(path.string(), poses->where, problems);
         emitter.placesHaveOrientations = true;
-        if (emitter.places.empty()) problems.add(poses->where, "'poses' has no poses");
         for (Pose& place : emitter.places) place.position *= shot.metresPerUnit;
     } else if (!node.mentions("box") && !node.mentions("layout") && !node.mentions("poses")) {
         problems.add(node.where, "[[emitter]]" +

@@ -1,6 +1,7 @@
 #include "io/frame_pattern.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -116,6 +117,21 @@ std::string expandFramePattern(std::string_view path, int frame)
     const Place& place = places.front();
     return std::string(path.substr(0, place.begin)) + withDigits(frame, place.width) +
            std::string(path.substr(place.begin + place.length));
+}
+
+bool isFrameOf(std::string_view pattern, std::string_view name)
+{
+    const std::vector<Place> places = findPlaces(pattern);
+    if (places.size() != 1) return false;
+    const std::string_view before = pattern.substr(0, places[0].begin);
+    const std::string_view after = pattern.substr(places[0].begin + places[0].length);
+    if (name.size() <= before.size() + after.size()) return false;
+    const std::string_view number =
+        name.substr(before.size(), name.size() - before.size() - after.size());
+    int frame = 0;
+    const char* const end = number.data() + number.size();
+    const auto [read, error] = std::from_chars(number.data(), end, frame);
+    return error == std::errc() && read == end && expandFramePattern(pattern, frame) == name;
 }
 
 std::string framePath(std::string_view path, int frame)

@@ -14,7 +14,11 @@ bool hasFramePattern(std::string_view path);
 /// Error{usage} when the file name has no such place or several.
 std::string expandFramePattern(std::string_view path, int frame);
 
-/// The same for one frame alone, whose name may do without such a place: it stays as it is.
+/// Whether expandFramePattern makes the file name `name` of some frame. Neither has folders.
+bool isFrameOf(std::string_view pattern, std::string_view name);
+
+/// expandFramePattern for one frame alone, whose name may do without such a place: it stays as it
+/// is.
 std::string framePath(std::string_view path, int frame);
 
 }  // namespace scree

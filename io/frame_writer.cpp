@@ -10,7 +10,6 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "io/alembic_writer.h"
-#include "io/atomic_file.h"
 #include "io/frame_pattern.h"
 #include "io/gltf_writer.h"
 #include "io/mesh_sequence_writer.h"
@@ -197,8 +196,6 @@ std::unique_ptr<FrameWriter> makeFrameWriter(const fs::path& output)
         throw Error(ErrorKind::usage, "\"" + output.string() + "\": one " +
                                           std::string(format.ending) +
                                           " file holds all frames; leave out the frame number");
-    } else {
-        removeAbandoned(output);
     }
     return format.make(output);
 }

@@ -58,19 +58,24 @@ SampleJoin joinOf(const Json& sampler, const Json& accessors)
     return said == "CUBICSPLINE" ? SampleJoin::curve : SampleJoin::straight;
 }
 
-void readJoins(const Json& file, std::map<std::string, SampleJoin>& joins)
+void readJoins(const Json& file, GltfReading& reading)
 {
     for (const Json& animation : memberOf(file, "animations")) {
         for (const Json& channel : memberOf(animation, "channels")) {
             const Json& target = memberOf(channel, "target");
             const std::string path = textOf(memberOf(target, "path"));
-            if (path != "translation" && path != "rotation") continue;
+            if (path != "translation" && path != "rotation" && path != "scale") continue;
             const std::string node =
                 textOf(memberOf(itemOf(memberOf(file, "nodes"), memberOf(target, "node")), "name"));
             const SampleJoin join =
                 joinOf(itemOf(memberOf(animation, "samplers"), memberOf(channel, "sampler")),
                        memberOf(file, "accessors"));
-            if (join != SampleJoin::straight && !node.empty()) joins.try_emplace(node, join);
+            if (join == SampleJoin::straight || node.empty()) continue;
+            if (path != "scale") {
+                reading.joins.try_emplace(node, join);
+            } else if (join == SampleJoin::jump) {
+                reading.jumpingScales.insert(node);
+            }
         }
     }
 }
@@ -98,7 +103,7 @@ GltfReading readGltf(const std::string& bytes)
         if (lost != kLost.end()) reading.lostExtension = *lost;
     }
     reading.looselySkinned = looselySkinnedNode(file);
-    readJoins(file, reading.joins);
+    readJoins(file, reading);
     return reading;
 }
 

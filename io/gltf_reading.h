@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace scree {
@@ -16,6 +17,7 @@ struct GltfReading {
     /// By the name of the node, which of its moves do not go straight from sample to sample; nodes
     /// without a name are not told.
     std::map<std::string, SampleJoin> joins;
+    std::set<std::string> jumpingScales;  ///< nodes whose scale jumps, as of what appears and hides
 };
 
 /// Of a .glb or .gltf; of bytes that are neither, nothing.

@@ -151,8 +151,8 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     auto* files = new FolderSystem(fs::weakly_canonical(fs::absolute(path)).parent_path());
     importer.SetIOHandler(files);  // which deletes it
     if (ending == "obj") {
-        std::string text = readFileBytes(path);
-        if (closeObjNames(text)) files->replace(path, std::move(text));
+        std::optional<std::string> text = textWithObjNames(readFileBytes(path));
+        if (text) files->replace(path, std::move(*text));
     }
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (!files->refused().empty()) {

@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kMostKeys = 10'000'000;  // of all nodes
 constexpr float kScaleMoves = 1e-3f;           // relative; of sampled rotations times scale
 constexpr float kRounding = 1e-5f;             // relative; of products of single precision
+constexpr float kHiddenScale = 1e-9f;          // far below what anybody draws
+constexpr double kSameSeconds = 1e-9;          // ticks and back again
 
 Pose poseOf(const aiQuaternion& q, const aiVector3D& p)
 {
@@ -73,11 +75,18 @@ private:
     std::vector<aiVector3D> known_{aiVector3D(1.0f)};
 };
 
-/// The node's transform as an animation has it, in double precision between its keys.
+/// Whether a scale draws nothing of what is drawn at `rest`: so files hide what is not there yet.
+bool isHidden(const aiVector3D& scale, const aiVector3D& rest)
+{
+    return scale.Length() < 1e-6f * rest.Length();
+}
+
+/// The node's transform as an animation has it, in double precision between its keys. What has no
+/// size keeps so little that it still shows how it is turned.
 class Channel {
 public:
-    Channel(const aiNodeAnim& keys, double ticksPerSecond)
-        : keys_(keys), ticksPerSecond_(ticksPerSecond)
+    Channel(const aiNodeAnim& keys, double ticksPerSecond, bool scaleJumps)
+        : keys_(keys), ticksPerSecond_(ticksPerSecond), scaleJumps_(scaleJumps)
     {
     }
 
@@ -89,6 +98,15 @@ public:
         add(keys_.mPositionKeys, keys_.mNumPositionKeys);
         add(keys_.mRotationKeys, keys_.mNumRotationKeys);
         add(keys_.mScalingKeys, keys_.mNumScalingKeys);
+        // Who pops up or vanishes within a frame or two has no size between; who takes longer
+        // grows.
+        constexpr double kPopSeconds = 0.1;
+        for (unsigned i = 1; i < keys_.mNumScalingKeys && !scaleJumps_; ++i) {
+            const double before = keys_.mScalingKeys[i - 1].mTime / ticksPerSecond_;
+            const double after = keys_.mScalingKeys[i].mTime / ticksPerSecond_;
+            const bool grows = keys_.mScalingKeys[i].mValue != keys_.mScalingKeys[i - 1].mValue;
+            if (grows && after - before > kPopSeconds) seconds.insert(0.5 * (before + after));
+        }
     }
 
     /// Whether two of its keys differ.
@@ -120,7 +138,12 @@ public:
         };
         between(keys_.mPositionKeys, keys_.mNumPositionKeys, ticks, mix, position);
         between(keys_.mRotationKeys, keys_.mNumRotationKeys, ticks, turn, rotation);
-        between(keys_.mScalingKeys, keys_.mNumScalingKeys, ticks, mix, scale);
+        if (scaleJumps_) {
+            hold(keys_.mScalingKeys, keys_.mNumScalingKeys, ticks, scale);
+        } else {
+            between(keys_.mScalingKeys, keys_.mNumScalingKeys, ticks, mix, scale);
+        }
+        if (scale.Length() < kHiddenScale) scale = aiVector3D(kHiddenScale);
         return aiMatrix4x4(scale, rotation, position);
     }
 
@@ -140,8 +163,18 @@ private:
         value = mix(before.mValue, after->mValue, static_cast<float>(share));
     }
 
+    /// The value of the last key that has come.
+    void hold(const aiVectorKey* keys, unsigned count, double ticks, aiVector3D& value) const
+    {
+        const double now = ticks + kSameSeconds * ticksPerSecond_;
+        for (unsigned i = 0; i < count && (i == 0 || keys[i].mTime <= now); ++i) {
+            value = keys[i].mValue;
+        }
+    }
+
     const aiNodeAnim& keys_;
     double ticksPerSecond_;
+    bool scaleJumps_;
 };
 
 /// Fills `mesh` from the given point and face on.
@@ -226,7 +259,8 @@ public:
             const double rate = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : 1.0;
             for (unsigned c = 0; c < animation.mNumChannels; ++c) {
                 const aiNodeAnim& keys = *animation.mChannels[c];
-                channels_.try_emplace(keys.mNodeName.C_Str(), keys, rate);
+                const std::string name = keys.mNodeName.C_Str();
+                channels_.try_emplace(name, keys, rate, gltf && gltf->jumpingScales.contains(name));
             }
         }
         countNames(*scene.mRootNode, 0);
@@ -286,9 +320,16 @@ private:
         const Parts parts(fileFromNode);
 
         ImportedNode result;
+        result.name = openedObjName(node.mName.C_Str());
+        if (parts.scale.x == 0.0f || parts.scale.y == 0.0f || parts.scale.z == 0.0f) {
+            result.unusable =
+                "is scaled to nothing where the file is at rest: export it from a "
+                "frame in which it is visible";
+            nodes_.push_back(std::move(result));
+            return;
+        }
         result.mesh = meshOf(scene_, node, stretches_.of(fileFromNode, parts));
         if (result.mesh.triangles.cols() == 0) return;
-        result.name = openedObjName(node.mName.C_Str());
         result.fileFromNode = parts.pose();
         result.isBent = isBent(scene_, node);
         readKeys(parts.scale, result);
@@ -380,12 +421,17 @@ private:
         result.obstacle = doubt();
         if (!result.obstacle.empty()) return;
         bool keepsScale = true;
+        std::set<double> hidden;  // until it is seen it waits where it will appear
         result.keys = keysOf([&](double time) {
             const Parts now(chainAt(time));
+            if (isHidden(now.scale, scale)) hidden.insert(time);
             const float change = (now.scale - scale).Length();
-            keepsScale = keepsScale && change <= kScaleMoves * scale.Length();
+            keepsScale = keepsScale &&
+                         (isHidden(now.scale, scale) || change <= kScaleMoves * scale.Length());
             return now.pose();
         });
+        std::erase_if(result.keys,
+                      [&](const ImportedKey& key) { return hidden.contains(key.seconds); });
         if (keepsScale) return;
         result.keys.clear();
         result.obstacle = "its scale changes over time, and bodies are rigid";

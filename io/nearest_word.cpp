@@ -99,13 +99,19 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& c
     return best;
 }
 
-std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates)
+std::string meantWord(std::string_view word, const std::vector<std::string>& candidates)
 {
     std::string meant = nearestWord(word, candidates);
     for (const auto& [theirs, ours] : kElsewhere) {
         const bool isOffered = std::ranges::find(candidates, ours) != candidates.end();
         if (meant.empty() && isOffered && lowerCase(word) == theirs) meant = ours;
     }
+    return meant;
+}
+
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates)
+{
+    const std::string meant = meantWord(word, candidates);
     return meant.empty() ? "" : "; did you mean '" + meant + "'?";
 }
 

@@ -12,8 +12,11 @@ namespace scree {
 /// letters would have to change, though two slips are forgiven from four letters on.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "; did you mean 'x'?" of the nearest candidate, or of that which `word` is the name of in other
-/// programs; or nothing when there is neither.
+/// The nearest candidate, or that which `word` is the name of in other programs; empty when there
+/// is neither.
+std::string meantWord(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "; did you mean 'x'?" of the meant word, or nothing when there is none.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "a, b, c"

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "io/file_bytes.h"
+#include "io/number_text.h"
 
 namespace scree {
 namespace {
@@ -118,6 +119,21 @@ std::vector<Pose> readPoseFile(const std::string& path, const SourceLocation& wh
         problems.add(where, "pose file '" + path + "' has no poses");
     }
     return poses;
+}
+
+std::string encodePoseFile(const std::vector<Pose>& poses, const std::string& comment)
+{
+    std::string text = "# x y z qw qx qy qz of " + comment + "\n";
+    for (const Pose& pose : poses) {
+        const Vec3& p = pose.position;
+        const Quat& q = pose.orientation;
+        for (const double number : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) {
+            appendNumber(text, number);
+            text += ' ';
+        }
+        text.back() = '\n';
+    }
+    return text;
 }
 
 bool toOrientation(double w, double x, double y, double z, Quat& orientation)

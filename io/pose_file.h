@@ -15,6 +15,9 @@ namespace scree {
 std::vector<Pose> readPoseFile(const std::string& path, const SourceLocation& where,
                                ProblemList& problems);
 
+/// The file that holds these poses, all their digits kept; `comment` is one line at its head.
+std::string encodePoseFile(const std::vector<Pose>& poses, const std::string& comment);
+
 /// The quaternion w x y z normalised, or the identity and false when it is too short to have a
 /// direction.
 bool toOrientation(double w, double x, double y, double z, Quat& orientation);

@@ -80,6 +80,7 @@ void PovWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*
         materials_.emplace(material.name, materials_.size());
     }
     const AtomicFile probe(framePath(output_.string(), firstFrame));
+    removeAbandoned(includeFile());
     writeInclude();
 }
 

@@ -91,6 +91,7 @@ struct ShotBirth {
 /// One body of the finished shot: grids, pose files and emitters are already expanded.
 struct ShotBody {
     std::string name;
+    std::string item;  ///< name of the [[body]] or [[emitter]] it comes from; empty: an [[import]]
     std::optional<std::string> shape;  ///< a shape's name; exactly one of shape and plane is set
     std::optional<PlaneSpec> plane;
     std::string material;

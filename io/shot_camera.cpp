@@ -3,6 +3,7 @@
 #include "core/scene/camera_motion.h"
 #include "io/emitter.h"
 #include "io/shot_import.h"
+#include "io/shot_values.h"
 
 namespace scree {
 namespace {
@@ -23,7 +24,7 @@ public:
         }
         if (const ShotNode* keys = node.find("keys")) readKeys(*keys);
         if (const ShotNode* orbit = node.find("orbit")) readOrbit(*orbit);
-        if (!node.mentions("eye") && !node.mentions("keys") && !node.mentions("orbit"))
+        if (!mentionsAny(node, {"eye", "keys", "orbit", "file"}))
             problems_.add(node.where,
                           "camera '" + camera_.name +
                               "' needs 'eye', 'keys', 'orbit' or 'file' to stand somewhere");
@@ -107,6 +108,14 @@ SceneCamera interpretCamera(const ShotNode& node, const std::filesystem::path& f
     }
     if (const ShotNode* nodeOfFile = node.find("node")) {
         problems.add(nodeOfFile->where, "'node' chooses a camera of a 'file', and there is none");
+    }
+    for (const char* key : {"position", "rotation", "orientation", "scale"}) {
+        const ShotNode* placement = node.find(key);
+        if (!placement || node.mentions("eye")) continue;
+        problems.add(placement->where, "'" + std::string(key) +
+                                           "' places the camera of a 'file', and there is none; "
+                                           "where a camera stands is its 'eye'");
+        return SceneCamera();
     }
     return CameraInterpreter(shot, problems).interpret(node);
 }

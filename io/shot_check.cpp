@@ -68,6 +68,7 @@ private:
             problems_.add(entry.where, "unknown key '" + entry.key + "' in " + label +
                                            didYouMean(entry.key, names) +
                                            " (valid: " + joined(names) + ")");
+            entry.meant = meantWord(entry.key, names);
             return false;
         }
         switch (key->type) {
@@ -250,7 +251,7 @@ bool isExcluded(const ShotNode& table, const ShotKey& key)
 {
     const std::vector<std::string> excludes = splitWords(key.excludes);
     return std::any_of(excludes.begin(), excludes.end(),
-                       [&](const std::string& other) { return table.mentions(other); });
+                       [&](const std::string& other) { return table.entry(other) != nullptr; });
 }
 
 /// Gravity points down, and where down is another key says.
@@ -267,7 +268,11 @@ void completeTable(ShotNode& table, const std::string& path, ReadTomlValue readV
         const std::string name(nameOf(*key));
         if (*key->byDefault && !table.find(name) && !isExcluded(table, *key)) {
             ShotEntry* present = table.entry(name);
-            if (!present) present = &table.entries.emplace_back(ShotEntry{name, table.where, {}});
+            if (present) {
+                present->isStandIn = true;
+            } else {
+                present = &table.entries.emplace_back(ShotEntry{name, table.where});
+            }
             present->node = readValue(defaultTextOf(*key, table), table.where);
             present->isValid = true;
         }

@@ -11,6 +11,7 @@
 #include "io/file_bytes.h"
 #include "io/mesh_import.h"
 #include "io/nearest_word.h"
+#include "io/shot_pose.h"
 #include "io/unique_names.h"
 
 namespace scree {
@@ -62,23 +63,30 @@ private:
 };
 
 /// glTF's up is +y; a shot whose up is +z has its files turned upright.
-Pose worldFromFile(const Shot& shot, const ImportedFile& file)
+Pose uprightFromFile(const Shot& shot, const ImportedFile& file)
 {
     const bool isTurned = shot.zUp && file.isYUp;
     const double half = std::sqrt(0.5);
     return {Vec3::Zero(), isTurned ? Quat(half, half, 0.0, 0.0) : Quat::Identity()};
 }
 
-/// Turns what a file says into the shot's world.
+/// Turns what a file says into the shot's world, as an empty would above all that a scene holds:
+/// scaled and turned about the file's origin, then moved.
 class Placement {
 public:
-    Placement(const Shot& shot, const ImportedFile& file)
+    /// `node` is the [[import]] or [[camera]].
+    Placement(const ShotNode& node, const Shot& shot, const ImportedFile& file,
+              ProblemList& problems)
         : metres_(file.metresPerUnit.value_or(shot.metresPerUnit)),
-          worldFromFile_(worldFromFile(shot, file)),
+          worldFromFile_(readPose(node, problems)),
           startSeconds_(file.countsFramesFromZero ? shot.firstFrame / shot.framesPerSecond : 0.0)
     {
+        if (const ShotNode* scale = node.find("scale")) metres_ *= scale->number;
+        worldFromFile_.position *= shot.metresPerUnit;
+        worldFromFile_ = worldFromFile_ * uprightFromFile(shot, file);
     }
 
+    /// Length of one unit of the file in the shot, its scale included [m].
     double metresPerUnit() const { return metres_; }
 
     /// Of the shot's first frame, by the clock of the file.
@@ -86,9 +94,7 @@ public:
 
     Pose worldFrom(const Pose& fileFromNode) const
     {
-        Pose pose = worldFromFile_ * fileFromNode;
-        pose.position *= metres_;
-        return pose;
+        return worldFromFile_ * Pose{metres_ * fileFromNode.position, fileFromNode.orientation};
     }
 
     /// The animation of what stands at `still` if it has none. A smooth one goes its own way from
@@ -107,7 +113,7 @@ public:
 
 private:
     double metres_;
-    Pose worldFromFile_;
+    Pose worldFromFile_;  // of the file's axes, in metres
     double startSeconds_;
 };
 
@@ -270,12 +276,12 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     const bool isKeyed = motion.text == "keyed";
     const ShotNode* interpolate = node.find("interpolate");
     if (isKeyed) requireMotion(motion, file, isChosen, problems);
-    if (interpolate && !isKeyed) {
+    if (interpolate && !isKeyed && !node.isUnclear("motion")) {
         problems.add(interpolate->where, "'interpolate' is for imports with motion = \"keyed\"");
     }
     requireBodies(node, file, path, isChosen, problems);
     warnOfLosses(node, file, isChosen, isKeyed, problems);
-    const Placement placement(shot, file);
+    const Placement placement(node, shot, file, problems);
     MeshPool pool;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
         if (!isChosen[i] || !file.nodes[i].unusable.empty()) continue;
@@ -319,7 +325,7 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
                          "' is orthographic: only perspective ones can be used");
         return std::nullopt;
     }
-    const Placement placement(shot, file);
+    const Placement placement(node, shot, file, problems);
     // Between samples it turns steadily, as elsewhere; a key a frame keeps it from cutting corners.
     constexpr KeyInterpolation kSteady = KeyInterpolation::linear;
     const MotionScript script(placement.keysOf(imported->keys, imported->fileFromCamera, kSteady),

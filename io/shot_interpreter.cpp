@@ -13,6 +13,7 @@
 #include "io/shot_check.h"
 #include "io/shot_import.h"
 #include "io/shot_motion.h"
+#include "io/shot_pose.h"
 #include "io/shot_shapes.h"
 #include "io/shot_solver.h"
 #include "io/shot_values.h"
@@ -143,7 +144,7 @@ private:
     {
         ShotBody body;
         body.location = node.where;
-        if (const ShotNode* name = node.find("name")) body.name = name->text;
+        if (const ShotNode* name = node.find("name")) body.name = body.item = name->text;
         const bool hasOwnName = claim(node, body.name, ownerOfItem_);
         readReferences(node, body);
         if (const ShotNode* plane = node.find("plane")) readPlane(node, *plane, body);
@@ -258,6 +259,7 @@ private:
         for (int i = 0; i < emitter.count; ++i) {
             ShotBody body = emittedBody(emitter, shot_, i);
             body.name = nameOfCopy(emitter.name, static_cast<std::size_t>(i));
+            body.item = emitter.name;
             body.location = node.where;
             body.groups = groups;
             if (!claimName(node, body.name)) return;
@@ -321,6 +323,8 @@ private:
         for (const std::string& name : names) {
             if (name == reference.text) return;
         }
+        const bool isTableMisspelt = !tree_.entry(table) && tree_.mentions(table);
+        if (isTableMisspelt) return;
         report(reference, "no [" + table + "." + reference.text + "] in the shot" +
                               didYouMean(reference.text, names) +
                               (names.empty() ? "" : " (known: " + joined(names) + ")"));
@@ -340,7 +344,7 @@ private:
             }
         }
         body.plane = spec;
-        if (node.find("motion")->text != "static") {
+        if (node.find("motion")->text != "static" && !node.isUnclear("motion")) {
             report(plane, "a plane cannot move: write motion = \"static\"");
         }
     }
@@ -395,17 +399,7 @@ private:
             return hasRoomFor(static_cast<double>(copies.size()), *poses) ? copies
                                                                           : std::vector<Pose>();
         }
-        Pose base;
-        if (const ShotNode* position = node.find("position")) base.position = toVec3(*position);
-        if (const ShotNode* rotation = node.find("rotation")) {
-            base.orientation = fromEulerXyz(toVec3(*rotation) * kRadiansPerDegree);
-        } else if (const ShotNode* q = node.find("orientation")) {
-            const std::vector<ShotNode>& wxyz = q->items;
-            if (!toOrientation(wxyz[0].number, wxyz[1].number, wxyz[2].number, wxyz[3].number,
-                               base.orientation)) {
-                report(*q, "'orientation' must not be zero");
-            }
-        }
+        const Pose base = readPose(node, problems_);
         if (const ShotNode* grid = node.find("grid")) return readGrid(*grid, base);
         return hasRoomFor(1.0, node) ? std::vector<Pose>{base} : std::vector<Pose>();
     }

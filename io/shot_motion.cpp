@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "core/math/rotation.h"
 #include "io/nearest_word.h"
-#include "io/pose_file.h"
+#include "io/shot_pose.h"
 #include "io/shot_values.h"
 
 namespace scree {
@@ -31,17 +30,8 @@ MotionKey readMotionKey(const ShotNode& node, const Shot& shot, ProblemList& pro
 {
     MotionKey key;
     if (const ShotNode* frame = node.find("frame")) key.time = secondsOf(shot, frame->number);
-    if (const ShotNode* position = node.find("position")) {
-        key.pose.position = toVec3(*position) * shot.metresPerUnit;
-    }
-    if (const ShotNode* rotation = node.find("rotation")) {
-        key.pose.orientation = fromEulerXyz(toVec3(*rotation) * kRadiansPerDegree);
-    } else if (const ShotNode* q = node.find("orientation")) {
-        if (!toOrientation(q->items[0].number, q->items[1].number, q->items[2].number,
-                           q->items[3].number, key.pose.orientation)) {
-            problems.add(q->where, "'orientation' must not be zero");
-        }
-    }
+    key.pose = readPose(node, problems);
+    key.pose.position *= shot.metresPerUnit;
     return key;
 }
 
@@ -157,7 +147,7 @@ private:
         field_.falloff = falloffOf(falloff.text);
         if (const ShotNode* reach = node_.find("reach")) {
             field_.reach = reach->number * shot_.metresPerUnit;
-            if (field_.falloff == Falloff::none) {
+            if (field_.falloff == Falloff::none && !node_.isUnclear("falloff")) {
                 report(*reach, "'reach' means nothing without a 'falloff'");
             }
         } else if (field_.falloff != Falloff::none && !node_.mentions("reach")) {
@@ -183,7 +173,8 @@ void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, Pro
 {
     if (body.kind != BodyKind::keyed) {
         for (const char* key : {"keys", "interpolate", "keyed_from", "release"}) {
-            if (const ShotNode* stray = node.find(key)) {
+            const ShotNode* stray = node.find(key);
+            if (stray && !node.isUnclear("motion")) {
                 problems.add(stray->where,
                              "'" + std::string(key) + "' is for bodies with motion = \"keyed\"");
             }

@@ -289,7 +289,31 @@ const std::vector<ShotKey> kImportKeys = {
      .byDefault = "\"*\"",
      .help =
          "Names of nodes with * and ? for what may be anything: [\"Mug*\", \"Bowl_?\"]. A pattern "
-         "that fits no node is an error."},
+         "that fits no node is an error. Nodes of an OBJ file are its objects (o), the second of a "
+         "name called NAME.001, or its groups (g) where it has no two objects."},
+    {.path = "import.position",
+     .type = numbers,
+     .unit = "shot's unit of length",
+     .help = "Where the file's origin stands; without it, at that of the shot. The whole import is "
+             "moved, turned and scaled as if it hung on an empty: all bodies, and the motion of "
+             "keyed ones. A camera of the same file takes the same keys in its [[camera]]."},
+    {.path = "import.rotation",
+     .type = numbers,
+     .unit = "degrees",
+     .min = -360000,
+     .max = 360000,
+     .excludes = "orientation",
+     .help = "As body.rotation, of the whole import about the file's origin."},
+    {.path = "import.orientation",
+     .type = numbers,
+     .count = 4,
+     .excludes = "rotation",
+     .help = "Rotation as a quaternion [w, x, y, z], instead of rotation; it is normalised."},
+    {.path = "import.scale",
+     .min = 0,
+     .isOpen = true,
+     .help = "Factor of the whole import, of places and sizes alike, about the file's origin: 0.01 "
+             "brings an OBJ in centimetres into a shot in metres. It is baked into the meshes."},
     {.path = "import.motion",
      .type = word,
      .byDefault = "\"dynamic\"",
@@ -317,7 +341,7 @@ const std::vector<ShotKey> kImportKeys = {
     {.path = "import.velocity",
      .type = numbers,
      .unit = "shot's unit of length per second",
-     .help = "Of all dynamic bodies of the import at the first frame."},
+     .help = "Of all dynamic bodies of the import at the first frame, along the world's axes."},
     {.path = "import.group", .type = text, .help = "As body.group, of all bodies of the import."},
     {.path = "import.collides",
      .type = words,

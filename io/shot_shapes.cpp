@@ -38,7 +38,8 @@ void readRepair(const ShotNode& mesh, double metresPerUnit, ShapeSettings& setti
     if (isShell && !mesh.mentions("thickness")) {
         problems.add(repair->where, "a \"shell\" needs a 'thickness'");
     }
-    if (!isShell && thickness) problems.add(thickness->where, "only a \"shell\" has a 'thickness'");
+    if (!isShell && thickness && !mesh.isUnclear("repair"))
+        problems.add(thickness->where, "only a \"shell\" has a 'thickness'");
     if (thickness) settings.shellThickness = thickness->number * metresPerUnit;
 }
 

@@ -1,5 +1,6 @@
 #include "io/shot_tree.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 
@@ -21,6 +22,21 @@ const ShotEntry* ShotNode::entry(std::string_view key) const
 ShotEntry* ShotNode::entry(std::string_view key)
 {
     return const_cast<ShotEntry*>(static_cast<const ShotNode&>(*this).entry(key));
+}
+
+bool ShotNode::mentions(std::string_view key) const
+{
+    return std::any_of(entries.begin(), entries.end(), [&](const ShotEntry& candidate) {
+        return candidate.key == key || candidate.meant == key;
+    });
+}
+
+bool ShotNode::isUnclear(std::string_view key) const
+{
+    return std::any_of(entries.begin(), entries.end(), [&](const ShotEntry& candidate) {
+        const bool isWrong = !candidate.isValid || candidate.isStandIn;
+        return candidate.meant == key || (candidate.key == key && isWrong);
+    });
 }
 
 const ShotNode* ShotNode::find(std::string_view key) const

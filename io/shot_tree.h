@@ -38,14 +38,23 @@ struct ShotNode {
     /// The entry of a key, wrong or right; null when absent.
     const ShotEntry* entry(std::string_view key) const;
     ShotEntry* entry(std::string_view key);
-    bool mentions(std::string_view key) const { return entry(key) != nullptr; }
+
+    /// Whether there is an entry of the key, or one that was taken for a slip of it: what has been
+    /// reported as misspelt is not missing besides.
+    bool mentions(std::string_view key) const;
+
+    /// Whether what the text says of the key has been reported as wrong, or as a slip of it. What
+    /// follows from the default in its place is nobody's mistake.
+    bool isUnclear(std::string_view key) const;
 };
 
 struct ShotEntry {
     std::string key;
     SourceLocation where;  ///< of the key
-    ShotNode node;
+    ShotNode node{};
     bool isValid = true;  ///< cleared when the value was reported as wrong, so that it is not twice
+    bool isStandIn = false;  ///< a default in the place of a value that was reported as wrong
+    std::string meant{};     ///< of a key that was reported as unknown: which it may be a slip of
 };
 
 /// Shortest decimal text that reads back to the same double, always with a point or an exponent.

@@ -98,6 +98,9 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
                  const TakeInfo& info)
 {
     const TakePaths from{branch.take};
+    if (!std::filesystem::exists(from.info()))
+        throw Error(ErrorKind::missingInput, "cannot branch off \"" + branch.take.string() +
+                                                 "\": it is no take, for it has no take.json");
     const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());
     requireSameCast(branch, theirs, info);
     // With the last frame too, all is taken over: a finished take gets another camera or colour.

@@ -308,15 +308,15 @@ int runMovie(const MovieOptions& options, Console& console)
     const PictureSequence sequence = findPictures(options);
     const TakeFrames chosen = tellMissingPictures(options, sequence, console);
     const fs::path output = options.output;
-    createFolderOf(output);
+    createFolderOf(output, console);
     AtomicFile{output};  // says now, with its own error, when nothing can be created there
     console.info(shellLine(makeCommand(sequence, muxer, output.string())));
 
     requireWholePictures(sequence);
 
-    // Under another name first: an interrupted ffmpeg leaves half a film.
+    // Under another name first, such as AtomicFile gives: an interrupted ffmpeg leaves half a film.
     const fs::path temporary = output.parent_path() / ("." + output.filename().string() + "." +
-                                                       std::to_string(::getpid()) + ".tmp");
+                                                       std::to_string(::getpid()) + "-0.tmp");
     std::error_code code;
     try {
         runProgram(makeCommand(sequence, muxer, temporary.string()));

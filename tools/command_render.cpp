@@ -129,10 +129,10 @@ public:
             options.output.empty()
                 ? (take_.paths().root / "images" / (take_.info().name + ".####.png")).string()
                 : options.output;
+        requirePngName(pattern_);
         if (asked.size() > 1 || options.slate || hasFramePattern(pattern_))
             expandFramePattern(pattern_, asked[0]);
-        requirePngName(pattern_);
-        createFolderOf(pattern_);
+        createFolderOf(pattern_, console);
         size_ = options.size.empty() ? take_.info().pictureSize : parseSize(options.size);
         for (const FrameSummary& frame : take_.stats()) stats_[frame.frame] = frame;
         hasBurnIn_ = options.burnIn || (take_.info().burnIn && !options.noBurnIn);

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/dynamics/stepper.h"
 #include "core/scene/motion_script.h"
+#include "io/atomic_file.h"
 #include "io/build_world.h"
 #include "io/distance_cache.h"
 #include "io/file_bytes.h"
@@ -22,6 +23,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/settled_poses.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
 #include "tools/stoppable_fields.h"
@@ -78,15 +80,15 @@ double endOfEvents(const World& world)
 /// Asked before anything is simulated: a slip in a name must not cost the run.
 void requirePoseFormat(const std::string& output)
 {
-    constexpr std::array<const char*, 7> kEndings = {".json", ".usda", ".abc", ".glb",
-                                                     ".obj",  ".ply",  ".pov"};
+    constexpr std::array<const char*, 8> kEndings = {".poses", ".json", ".usda", ".abc",
+                                                     ".glb",   ".obj",  ".ply",  ".pov"};
     if (std::any_of(kEndings.begin(), kEndings.end(),
                     [&](const char* ending) { return output.ends_with(ending); })) {
         return;
     }
     throw Error(ErrorKind::usage, "cannot write a pose to '" + output +
-                                      "': expected a name ending in .json, .usda, .abc, .glb, "
-                                      ".obj, .ply or .pov");
+                                      "': expected a name ending in .poses, .json, .usda, "
+                                      ".abc, .glb, .obj, .ply or .pov");
 }
 
 /// Runs a shot until nothing has moved for a while.
@@ -97,6 +99,9 @@ public:
           console_(console),
           shot_(parseShot(options.shot, options.overrides, options.importLimits))
     {
+        if (writesPoses()) requirePosableBodies(shot_, options.output);
+        createFolderOf(options.output, console);
+        AtomicFile{options.output};  // says now that nothing can be created there
         setThreadCount(threadsToUse(options.threads));
         DistanceCache none({});
         StoppableFields fields(none, console);
@@ -111,8 +116,7 @@ public:
     {
         const bool isAtRest = simulate();
         heedStop();
-        write();
-        std::printf("%s\n", options_.output.c_str());
+        for (const std::string& file : write()) std::printf("%s\n", file.c_str());
         if (isAtRest) return kExitDone;
         console_.error("not at rest after " + describeDuration(options_.seconds) + ": " +
                        reasonOfUnrest() + "; the pose is written all the same");
@@ -176,26 +180,38 @@ private:
         if (!complaint.empty()) throw Error(ErrorKind::qualityLimit, complaint);
     }
 
-    void write() const
+    /// Says which files it wrote.
+    std::vector<std::string> write() const
     {
         const SceneFrame frame = captureFrame(shot_, world_);
+        if (writesPoses()) return writePoses(frame);
         double reach = 1.0;
         for (const Pose& pose : frame.worldFromAsset) {
             reach = std::max(reach, 1.5 * pose.position.norm());
         }
         const SceneDescription scene = describeScene(shot_, world_, reach);
-        createFolderOf(options_.output);
-        if (isJson()) {
+        if (options_.output.ends_with(".json")) {
             writeFileBytes(options_.output, encodePoses(scene, frame));
-            return;
+            return {options_.output};
         }
         const std::unique_ptr<FrameWriter> writer = makePoseWriter(options_.output);
         writer->begin(scene, frame.frame, 1);
         writer->write(frame);
         writer->finish();
+        return {options_.output};
     }
 
-    bool isJson() const { return options_.output.ends_with(".json"); }
+    std::vector<std::string> writePoses(const SceneFrame& frame) const
+    {
+        std::vector<std::string> written;
+        for (const PosesFile& file : settledPoses(shot_, world_, frame, options_.output)) {
+            writeFileBytes(file.path, file.text);
+            written.push_back(file.path);
+        }
+        return written;
+    }
+
+    bool writesPoses() const { return options_.output.ends_with(".poses"); }
 
     const SettleOptions& options_;
     Console& console_;
@@ -216,8 +232,8 @@ Command addSettleCommand(CLI::App& program)
     command->add_option("SHOT", options->shot, "The shot file")->required();
     command
         ->add_option("-o,--output", options->output,
-                     "The ending chooses the format: out.json, out.usda, out.abc, out.glb, "
-                     "out.obj, out.ply or out.pov")
+                     "The ending chooses the format: out.poses, out.json, out.usda, out.abc, "
+                     "out.glb, out.obj, out.ply or out.pov")
         ->required();
     command->add_option("--seconds", options->seconds, "Simulated time to give up after [30]")
         ->check(complaintIfNotFinite)
@@ -233,7 +249,9 @@ Command addSettleCommand(CLI::App& program)
     addOverrides(*command, options->overrides);
     command->footer(
         "Ends with 79 when something still moves at the end; the pose is written all the same.\n"
-        "Example:\n  scree settle shots/rings_100.toml -o rings.json");
+        "A .poses file is what [[body]] poses = \"rings.poses\" reads; there is one for each "
+        "[[body]] and [[emitter]] that moves, out_NAME.poses where they are several.\n"
+        "Example:\n  scree settle shots/rings_100.toml -o rings.poses");
     return {command, [options](Console& console) {
                 requirePoseFormat(options->output);
                 refuseTakeFile(options->output);

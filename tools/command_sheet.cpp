@@ -61,10 +61,11 @@ std::vector<LabelledImage> readPictures(const SheetOptions& options)
     return pictures;
 }
 
-void writeSheet(const SheetOptions& options, const std::vector<LabelledImage>& pictures)
+void writeSheet(const SheetOptions& options, const std::vector<LabelledImage>& pictures,
+                Console& console)
 {
     heedStop("no sheet was written");
-    createFolderOf(options.output);
+    createFolderOf(options.output, console);
     writePng(options.output, makeContactSheet(pictures, options.layout), {{"Software", "scree"}});
     std::printf("%s\n", options.output.c_str());
 }
@@ -78,12 +79,12 @@ int runSheet(const SheetOptions& options, Console& console)
     if (!isTake && !(options.frames.empty() && options.camera.empty()))
         throw Error(ErrorKind::usage, "--frames and --camera belong to a take, not to pictures");
     if (!isTake) {
-        writeSheet(options, readPictures(options));
+        writeSheet(options, readPictures(options), console);
         return kExitDone;
     }
     const TakeReader take(options.inputs[0]);
     const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
-    writeSheet(options, paintTake(options, take, chosen.frames));
+    writeSheet(options, paintTake(options, take, chosen.frames), console);
     return finishTakeFrames(chosen, options.output, console);
 }
 

@@ -37,7 +37,7 @@ std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count)
     return thumbnails;
 }
 
-int runStats(const StatsOptions& options)
+int runStats(const StatsOptions& options, Console& console)
 {
     requirePageName(options.output);
     setThreadCount(threadsToUse(std::nullopt));
@@ -46,7 +46,7 @@ int runStats(const StatsOptions& options)
         throw Error(ErrorKind::missingInput, "\"" + options.take + "\" has no frames");
     const std::filesystem::path output =
         options.output.empty() ? take.paths().statsPage() : std::filesystem::path(options.output);
-    createFolderOf(output);
+    createFolderOf(output, console);
     const std::vector<Thumbnail> thumbnails =
         options.pictures > 0 ? paintThumbnails(take, options.pictures) : std::vector<Thumbnail>();
     heedStop("no page was written");
@@ -68,7 +68,7 @@ Command addStatsCommand(CLI::App& program)
         ->add_option("--pictures", options->pictures, "Frames that are drawn, evenly spread [32]")
         ->check(CLI::Range(0, 1000));
     command->footer("Example:\n  scree stats takes/rings_100 -o rings.html");
-    return {command, [options](Console&) { return runStats(*options); }};
+    return {command, [options](Console& console) { return runStats(*options, console); }};
 }
 
 }  // namespace scree

@@ -64,13 +64,13 @@ std::string namesOf(const std::vector<BodyId>& bodies, const World& world)
     return text + (bodies.size() > kNamed ? ", …" : "");
 }
 
-/// Where a length would be that of a prop: "; in cm it would be 0.24 m long".
-std::string likelierUnits(double units)
+/// Other units in which a length would be that of a prop: "; in cm it would be 0.24 m long".
+std::string likelierUnits(double units, double metresPerUnit)
 {
     std::string text;
     for (const LengthUnit& unit : kUnits) {
         const double size = units * unit.metres;
-        if (size < 0.01 || size > 3.0) continue;
+        if (size < 0.01 || size > 3.0 || unit.metres == metresPerUnit) continue;
         text += (text.empty() ? "; in " : ", in ") + std::string(unit.name) +
                 (text.empty() ? " it would be" : "") + formatted(" %.3g m", size);
     }
@@ -142,9 +142,10 @@ void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>&
         if (!isTooLong && !isTooHeavy && size >= kSmallestProp) continue;
         warnings.push_back(
             "'" + world.info[body].name + "' is " + formatted("%.3g m", size) + " long" +
-            (isTooHeavy ? formatted(" and weighs %.3g t", mass / 1e3) : "") +
-            ": are shot.units and the asset's scale right? One unit is " +
-            formatted("%.3g m", shot.metresPerUnit) + likelierUnits(size / shot.metresPerUnit));
+            (isTooHeavy ? formatted(" and weighs %.3g t", mass / 1e3) : "") + ": are shot.units" +
+            (isTooHeavy ? ", the density" : "") + " and the asset's scale right? One unit is " +
+            formatted("%.3g m", shot.metresPerUnit) +
+            likelierUnits(size / shot.metresPerUnit, shot.metresPerUnit));
     }
     const double g = shot.settings.gravity.norm();
     if (g > 50.0) {

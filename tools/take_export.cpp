@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "io/atomic_file.h"
 #include "io/frame_writer.h"
 #include "tools/command_line.h"
 #include "tools/stop_signals.h"
@@ -23,7 +24,7 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
                     "an export needs frames without gaps, not " + describeFrames(frames));
 
     const std::unique_ptr<FrameWriter> writer = makeFrameWriter(output);
-    createFolderOf(output);
+    createFolderOf(output, console);
     SceneDescription scene = take.describe();
     // A cache shows what the previews show, from where they show it.
     if (scene.cameras.empty()) scene.cameras.push_back(viewOfAction(take, scene, scene.aspect));
@@ -54,16 +55,19 @@ std::filesystem::path defaultExport(const TakeReader& take, const std::string& e
            (take.info().name + (isSequence ? ".####." : ".") + ending);
 }
 
-void createFolderOf(const std::filesystem::path& file)
+void createFolderOf(const std::filesystem::path& file, Console& console)
 {
     refuseTakeFile(file);
-    if (!file.has_parent_path()) return;
     std::error_code code;
-    std::filesystem::create_directories(file.parent_path(), code);
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), code);
     if (code)
         throw Error(
             ErrorKind::cannotCreate,
             "cannot create the folder \"" + file.parent_path().string() + "\": " + code.message());
+    if (const int count = removeAbandoned(file); count > 0) {
+        console.info("removed " + std::to_string(count) + (count == 1 ? " file" : " files") +
+                     " that killed runs had left half written of \"" + file.string() + "\"");
+    }
 }
 
 }  // namespace scree

@@ -19,8 +19,9 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
 /// <take>/exports/<shot>.abc, or <shot>.####.obj for formats that are one file a frame.
 std::filesystem::path defaultExport(const TakeReader& take, const std::string& ending);
 
-/// Makes the folder that `file` will stand in. Throws Error{cannotCreate} when that does not work,
-/// or the file is one of those that a take consists of.
-void createFolderOf(const std::filesystem::path& file);
+/// Makes the folder that `file`, or the frames of this pattern, will stand in, and clears it of
+/// what killed runs left of earlier ones. Throws Error{cannotCreate} when that does not work, or
+/// the file is one of those that a take consists of.
+void createFolderOf(const std::filesystem::path& file, Console& console);
 
 }  // namespace scree

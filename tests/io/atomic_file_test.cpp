@@ -135,35 +135,55 @@ TEST(AtomicFile, FollowsASymbolicLinkInsteadOfReplacingIt)
     EXPECT_EQ(contentOf(folder / "real.bin"), "new");
 }
 
+/// A process that is gone: our own child, waited for.
+std::string deadProcess()
+{
+    const pid_t gone = ::fork();
+    if (gone == 0) ::_exit(0);
+    ::waitpid(gone, nullptr, 0);
+    return std::to_string(gone);
+}
+
+/// A file that was last written two hours ago.
+void leaveOld(const fs::path& path)
+{
+    std::ofstream(path) << "half";
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(2));
+}
+
 // An export that was killed left a hidden file as large as the cache, and each try another.
 TEST(AtomicFile, WhatAKilledProcessLeftIsRemovedOnceNobodyCanWriteIt)
 {
     const test::TemporaryFolder folder;
-    // A process that is gone: our own child, waited for.
-    const pid_t gone = ::fork();
-    if (gone == 0) ::_exit(0);
-    ::waitpid(gone, nullptr, 0);
-    const std::string dead = std::to_string(gone), alive = std::to_string(::getpid());
-    const auto old = fs::file_time_type::clock::now() - std::chrono::hours(2);
-    const auto leave = [&](const std::string& name, bool isOld) {
-        std::ofstream(folder / name) << "half";
-        if (isOld) fs::last_write_time(folder / name, old);
-    };
-    leave(".x.abc." + dead + "-0.tmp", true);
-    leave(".x.abc." + dead + "-1.tmp", false);  // may be another machine's
-    leave(".x.abc." + alive + "-0.tmp", true);
-    leave(".y.abc." + dead + "-0.tmp", true);
-    leave(".x.abc." + dead + "-0.tmp.mine", true);
-    removeAbandoned(folder / "x.abc");
+    const std::string dead = deadProcess(), alive = std::to_string(::getpid());
+    leaveOld(folder / (".x.abc." + dead + "-0.tmp"));
+    std::ofstream(folder / (".x.abc." + dead + "-1.tmp")) << "may be another machine's";
+    leaveOld(folder / (".x.abc." + alive + "-0.tmp"));
+    leaveOld(folder / (".y.abc." + dead + "-0.tmp"));
+    leaveOld(folder / (".x.abc." + dead + "-0.tmp.mine"));
+    EXPECT_EQ(removeAbandoned(folder / "x.abc"), 1);
     EXPECT_FALSE(fs::exists(folder / (".x.abc." + dead + "-0.tmp")));
     EXPECT_TRUE(fs::exists(folder / (".x.abc." + dead + "-1.tmp")));
     EXPECT_TRUE(fs::exists(folder / (".x.abc." + alive + "-0.tmp")));
     EXPECT_TRUE(fs::exists(folder / (".y.abc." + dead + "-0.tmp")));
     EXPECT_TRUE(fs::exists(folder / (".x.abc." + dead + "-0.tmp.mine")));
+}
 
-    fs::last_write_time(folder / (".x.abc." + dead + "-1.tmp"), old);
-    makeFrameWriter(folder / "x.abc");
-    EXPECT_FALSE(fs::exists(folder / (".x.abc." + dead + "-1.tmp"))) << "the next export does it";
+// Each frame of a sequence has a temporary of its own, and the next run another name for its.
+TEST(AtomicFile, WhatKilledRunsLeftOfASequenceIsRemovedToo)
+{
+    const test::TemporaryFolder folder;
+    const std::string dead = "." + deadProcess() + "-0.tmp";
+    for (const char* theirs : {"x.1001.png", "x.0007.png", "x.-003.png", "x.10001.png"}) {
+        leaveOld(folder / ("." + std::string(theirs) + dead));
+    }
+    const std::string others[] = {"x.12.png", "x.abcd.png", "x.1001.png.png", "y.1001.png"};
+    for (const std::string& other : others) leaveOld(folder / ("." + other + dead));
+    EXPECT_EQ(removeAbandoned(folder / "x.####.png"), 4);
+    for (const std::string& other : others) {
+        EXPECT_TRUE(fs::exists(folder / ("." + other + dead))) << other;
+    }
+    EXPECT_EQ(removeAbandoned("/no/such/folder/x.####.png"), 0);
 }
 
 TEST(AtomicFile, AFullDiskIsAnErrorAndTheOldFileSurvives)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "core/math/rotation.h"
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
+#include "io/mesh_import.h"
 #include "io/shot_parser.h"
 #include "tests/support/export_scene.h"
 #include "tests/support/small_shot.h"
@@ -96,36 +98,19 @@ TEST_P(KeyedImport, AFileThatMovesNothingIsRefused)
         << message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, KeyedImport, testing::Values("x.glb", "x.abc"));
-
-TEST(KeyedImports, ScaleThatChangesIsRefused)
-{
-    const test::TemporaryFolder folder;
-    // A body that is born late: glTF knows no visibility, so it grows from nothing.
-    SceneDescription scene = test::sceneOf({test::bodyNamed("late")});
-    scene.bodies[0].birthFrame = kFirst + 2;
-    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(folder / "x.glb");
-    writer->begin(scene, kFirst, kFrames);
-    for (int i = 0; i < kFrames; ++i) writer->write(test::tumblingFrame(scene, kFirst + i, kFirst));
-    writer->finish();
-    const std::string message = test::messageOfShot(shotText(folder / "x.glb", "*", ""));
-    EXPECT_NE(message.find("'late' cannot be keyed: its scale changes over time"),
-              std::string::npos)
-        << message;
-}
-
-// Our own Alembic files give no size to who is not born yet, as other programs do to hide things.
-TEST(KeyedImports, WhatHasNoSizeAtFirstWaitsWhereItWillAppear)
+// Our own files give no size to who is not born yet, as other programs do to hide things.
+TEST_P(KeyedImport, WhatHasNoSizeAtFirstWaitsWhereItWillAppear)
 {
     const test::TemporaryFolder folder;
     SceneDescription scene = test::sceneOf({test::bodyNamed("late")});
     scene.bodies[0].birthFrame = kFirst + 2;
-    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(folder / "x.abc");
+    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(folder / GetParam());
     writer->begin(scene, kFirst, kFrames);
     for (int i = 0; i < kFrames; ++i) writer->write(test::tumblingFrame(scene, kFirst + i, kFirst));
     writer->finish();
-    const Shot shot = parseShotText(shotText(folder / "x.abc", "*", ""), "s.toml");
+    const Shot shot = parseShotText(shotText(folder / GetParam(), "*", ""), "s.toml");
     ASSERT_EQ(shot.bodies.size(), 1u);
+    EXPECT_TRUE(shot.warnings.empty()) << shot.warnings[0];
     const auto& node = std::get<NodeSpec>(shot.shapes.at(0).source);
     EXPECT_TRUE(
         boxOf(node.mesh->points).size().isApprox(boxOf(scene.meshes[0].points).size(), 1e-6));
@@ -137,6 +122,8 @@ TEST(KeyedImports, WhatHasNoSizeAtFirstWaitsWhereItWillAppear)
         EXPECT_LT(pose.orientation.angularDistance(expected.orientation), 1e-5) << "frame " << i;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Formats, KeyedImport, testing::Values("x.glb", "x.abc"));
 
 /// A door, a tetrahedron two metres from the hinge on which it hangs, and a camera on the same
 /// hinge. It turns by a right angle about z in four frames; `join` is how, `path` what it moves.
@@ -176,6 +163,54 @@ void writeDoor(const std::filesystem::path& file, const std::string& join = "LIN
 "animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}}],
 "samplers":[{"input":1,"output":2,"interpolation":")"
                         << join << "\"}]}]}";
+}
+
+// A door that grows is no rigid one, whether it grows from nothing or not; one that pops up is.
+TEST(KeyedImports, ScaleThatChangesIsRefusedUnlessItOnlyShowsAndHides)
+{
+    const test::TemporaryFolder folder;
+    const std::string file = folder / "door.gltf";
+    const auto obstacleOf = [&](const std::string& join, float first, float seconds) {
+        writeDoor(file, join);
+        std::string text = readFileBytes(file);
+        const std::string rotation = "\"node\":0,\"path\":\"rotation\"",
+                          turns = "\"type\":\"VEC4\"";
+        text.replace(text.find(rotation), rotation.size(), "\"node\":1,\"path\":\"scale\"");
+        text.replace(text.find(turns), turns.size(), "\"type\":\"VEC3\"");
+        writeFileBytes(file, text);
+        std::string numbers = readFileBytes(folder / "door.bin");
+        const float scales[] = {first, first, first, 1.0f, 1.0f, 1.0f};
+        std::memcpy(numbers.data() + 52, &seconds, sizeof seconds);
+        std::memcpy(numbers.data() + 56, scales, sizeof scales);
+        writeFileBytes(folder / "door.bin", numbers);
+        return importFile(file).nodes.at(0).obstacle;
+    };
+    const std::string changes = "its scale changes over time, and bodies are rigid";
+    EXPECT_EQ(obstacleOf("LINEAR", 0.5f, 0.01f), changes);
+    EXPECT_EQ(obstacleOf("STEP", 0.5f, 1.0f), changes);
+    EXPECT_EQ(obstacleOf("LINEAR", 0.0f, 1.0f), changes);
+    EXPECT_EQ(obstacleOf("LINEAR", 0.0f, 0.04f), "");
+    EXPECT_EQ(obstacleOf("STEP", 0.0f, 1.0f), "");
+    const std::string shot = test::messageOfShot(shotText(file, "*", ""));
+    EXPECT_EQ(shot, "nothing was thrown");
+    obstacleOf("LINEAR", 0.5f, 1.0f);
+    const std::string message = test::messageOfShot(shotText(file, "*", ""));
+    EXPECT_NE(message.find("'door' cannot be keyed: " + changes), std::string::npos) << message;
+}
+
+TEST(KeyedImports, WhatTheFileScalesToNothingIsRefusedWhereItIsChosen)
+{
+    const test::TemporaryFolder folder;
+    const std::string file = folder / "door.gltf";
+    writeDoor(file);
+    std::string text = readFileBytes(file);
+    const std::string place = "\"mesh\":0,";
+    text.replace(text.find(place), place.size(), place + "\"scale\":[0,0,0],");
+    writeFileBytes(file, text);
+    const std::string message = test::messageOfShot(shotText(file, "*", ""));
+    EXPECT_NE(message.find("a mesh 'door' that is scaled to nothing where the file is at rest"),
+              std::string::npos)
+        << message;
 }
 
 TEST(KeyedImports, WhatHangsOnANodeThatTurnsGoesRoundBetweenItsKeys)

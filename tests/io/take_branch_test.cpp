@@ -241,7 +241,7 @@ TEST_F(BranchTest, NothingIsRemovedBeforeTheBranchIsKnownToBeGood)
         return refusalOf(overrides, TakeBranch{folder / take, frame}, "target",
                          ExistingTake::overwrite);
     };
-    EXPECT_NE(refusal("nowhere", 1005).find("nowhere"), std::string::npos);
+    EXPECT_NE(refusal("nowhere", 1005).find("nowhere\": it is no take"), std::string::npos);
     EXPECT_NE(refusal("whole", 1010).find("is none of the shot's"), std::string::npos);
     EXPECT_NE(refusal("whole", 1005, {"material.wood.density=700"}).find("mass of 'block'"),
               std::string::npos);

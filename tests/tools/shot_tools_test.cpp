@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file_bytes.h"
+#include "io/pose_file.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
@@ -36,6 +37,12 @@ protected:
         outcome.out = readFileBytes(folder / "out");
         outcome.err = readFileBytes(folder / "err");
         return outcome;
+    }
+
+    std::vector<Pose> posesIn(const std::string& name) const
+    {
+        ProblemList problems(name);
+        return readPoseFile(folder / name, {}, problems);
     }
 
     test::TemporaryFolder folder;
@@ -96,6 +103,12 @@ TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
     EXPECT_TRUE(contains(plate.out, "'low' is 24 m long")) << plate.out;
     EXPECT_TRUE(contains(plate.out, "in cm it would be 0.24 m, in mm 0.024 m, in in 0.61 m long"))
         << plate.out;
+    // A density in the wrong unit; the unit of length the shot has is no other one.
+    const Outcome lead = run("check drop.toml --estimate 0 --set material.wood.density=1e8");
+    EXPECT_TRUE(contains(lead.out,
+                         "are shot.units, the density and the asset's scale right? One "
+                         "unit is 1 m; in in it would be 0.0102 m, in ft 0.122 m long"))
+        << lead.out;
     // And the other way round: metres read as millimetres.
     const Outcome crumb = run("check drop.toml --estimate 0 --set shot.units=\\\"mm\\\"");
     EXPECT_TRUE(contains(crumb.out, "'low' is 0.0004 m long")) << crumb.out;
@@ -211,8 +224,73 @@ TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
     // Said at once, not after the run.
     const Outcome unknown = run("settle drop.toml -o pose.fbx --seconds 1e6 --tolerance 1e-12");
     EXPECT_EQ(unknown.code, 64);
-    EXPECT_TRUE(contains(unknown.err, "'pose.fbx': expected a name ending in .json, .usda"))
+    EXPECT_TRUE(contains(unknown.err, "'pose.fbx': expected a name ending in .poses, .json"))
         << unknown.err;
+}
+
+/// Two columns of the block that fall a little, and a plank beside them.
+std::string columns(const std::string& more)
+{
+    return test::shotTextOf({.name = "heap", .box = "[0.4, 0.2, 0.4]"},
+                            "[shape.plank]\nbox = { size = [1, 0.1, 0.3] }\n" +
+                                test::bodyText("plank", "position = [3, 0.06, 0]", "plank") +
+                                test::bodyText("brick", more));
+}
+
+// A heap is settled once and put into many shots.
+TEST_F(ShotTools, WhatSettleWritesAsPosesOtherShotsRead)
+{
+    writeFileBytes(folder / "heap.toml",
+                   columns("grid = { count = [2, 2, 1], spacing = [1, 0.21, 1] }\n"
+                           "position = [0, 0.22, 0]"));
+    const Outcome settled = run("settle heap.toml -o poses/heap.poses");
+    ASSERT_EQ(settled.code, 0) << settled.err;
+    EXPECT_EQ(settled.out, "poses/heap_plank.poses\nposes/heap_brick.poses\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "poses/heap.poses"));
+    EXPECT_TRUE(readFileBytes(folder / "poses/heap_brick.poses")
+                    .starts_with("# x y z qw qx qy qz of 4 of 'brick', shape 'block', settled in "
+                                 "shot 'heap'\n"));
+    writeFileBytes(folder / "again.toml",
+                   columns("poses = \"poses/heap_brick.poses\"\nstart = \"asleep\""));
+    const Outcome again = run("settle again.toml -o again.poses");
+    ASSERT_EQ(again.code, 0) << again.err;
+    // Who sleeps stays where it was put, but for the rounding on the way to its centre and back.
+    const std::vector<Pose> before = posesIn("poses/heap_brick.poses");
+    const std::vector<Pose> after = posesIn("again_brick.poses");
+    ASSERT_EQ(after.size(), 4u);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        EXPECT_LT((after[i].position - before[i].position).norm(), 1e-14);
+        EXPECT_LT((after[i].orientation.coeffs() - before[i].orientation.coeffs()).norm(), 1e-14);
+    }
+}
+
+TEST_F(ShotTools, PosesOfOneBodyAreInTheFileThatWasNamed)
+{
+    writeFileBytes(folder / "one.toml",
+                   test::shotTextOf({.name = "one"}, test::bodyText("b",
+                                                                    "position = [0, 0.51, "
+                                                                    "0]")));
+    const Outcome settled = run("settle one.toml -o one.poses");
+    ASSERT_EQ(settled.code, 0) << settled.err;
+    EXPECT_EQ(settled.out, "one.poses\n");
+    EXPECT_TRUE(contains(readFileBytes(folder / "one.poses"), "of 1 of 'b'"));
+}
+
+TEST_F(ShotTools, PosesOfWhatIsNoCopyAreRefusedBeforeTheRun)
+{
+    ASSERT_EQ(run("settle drop.toml -o drop.obj --seconds 0.1").code, 79);
+    const std::string import =
+        "[[import]]\nfile = \"drop.obj\"\nnodes = \"high\"\nmaterial = "
+        "\"wood\"\n";
+    writeFileBytes(folder / "import.toml", test::shotTextOf({}, import));
+    const Outcome refused = run("settle import.toml -o x.poses");
+    EXPECT_EQ(refused.code, 64);
+    EXPECT_TRUE(contains(refused.err, "'high' is a node of the [[import]] at import.toml:"))
+        << refused.err;
+    writeFileBytes(folder / "still.toml", test::shotTextOf({}, import + "motion = \"static\"\n"));
+    const Outcome still = run("settle still.toml -o x.poses");
+    EXPECT_EQ(still.code, 64);
+    EXPECT_TRUE(contains(still.err, "all of the shot is static or keyed")) << still.err;
 }
 
 // It went through a file of its own, pose.1001.obj, which could be somebody else's.
@@ -228,6 +306,10 @@ TEST_F(ShotTools, SettleTouchesNoFileButTheOneItWrites)
     std::filesystem::create_directories(folder / "taken.obj");
     const Outcome taken = run("settle drop.toml -o taken.obj --seconds 0.1");
     EXPECT_EQ(taken.code, 73) << taken.err;
+    // Neither does a place where nothing can be written cost the run.
+    const Outcome nowhere = run("settle drop.toml -o /proc/pose.obj --seconds 1e6");
+    EXPECT_EQ(nowhere.code, 73) << nowhere.err;
+    EXPECT_FALSE(contains(nowhere.err, "at rest")) << nowhere.err;
     EXPECT_TRUE(contains(taken.err, "taken.obj")) << taken.err;
 }
 
