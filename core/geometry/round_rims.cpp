@@ -106,9 +106,11 @@ Search RoundRims::findFacing(std::int32_t& rim, const Vec3& direction, RoundPlac
             }
             const double s = std::clamp(a / (a - b), 0.0, 1.0);
             const Vec3 chord = here.ends[1] - here.ends[0];
-            const Vec3 tangent = (here.tangents[0] + s * turn).normalized();
+            // The place moves along the chord; by how much, the tangent tells as it is between both
+            // ends. Along the tangent, two rims that cross at a flat angle crept up on each other.
+            const Vec3 tangent = here.tangents[0] + s * turn;
             place = {here.ends[0] + s * chord, 0.5 * s * (1.0 - s) * chord.norm() * (a - b),
-                     chord.norm() / (a - b) * tangent * tangent.transpose()};
+                     chord / (a - b) * tangent.transpose()};
             return Search::found;
         }
         const std::int32_t next = here.next[a < 0.0 ? 0 : 1];

@@ -61,6 +61,35 @@ TEST(RoundRims, ARimIsFacedWhereItsCircleIs)
     }
 }
 
+// Searches turn a normal by what the place says that it will move by. It said along the tangent,
+// where it moves along the chord: they crept up on the contact of two rims that cross at a flat
+// angle, and one in twenty-five was given up and told as of polygons, a thousandth of a coin apart.
+TEST(RoundRims, TheFacedPlaceAdvancesAsItSays)
+{
+    const auto shape = can(24);
+    constexpr double kTurn = 1e-6;
+    for (int i = 0; i < 200; ++i) {
+        const double turn = 0.0317 * i, lean = 1.2 * std::sin(i);
+        const Vec3 across(std::cos(turn), 0.0, std::sin(turn));
+        const Vec3 faced = shape->bodyFromAsset.orientation *
+                           Vec3(std::cos(lean) * across + std::sin(lean) * Vec3::UnitY());
+        Eigen::Index lowest = 0;
+        (faced.transpose() * shape->mesh.points).maxCoeff(&lowest);
+        std::int32_t rim = shape->rims.atCorner(static_cast<std::int32_t>(lowest));
+        RoundPlace here, there;
+        ASSERT_EQ(shape->rims.findFacing(rim, faced, here), SmoothSurface::Search::found);
+        for (const Vec3& aside : {faced.unitOrthogonal(), faced.cross(faced.unitOrthogonal())}) {
+            const Vec3 change = kTurn * aside;
+            std::int32_t next = rim;
+            ASSERT_EQ(shape->rims.findFacing(next, (faced + change).normalized(), there),
+                      SmoothSurface::Search::found);
+            if (next != rim) continue;  // beyond the corner the chord is another
+            const Vec3 moved = there.point - here.point;
+            EXPECT_LE((here.advance * change - moved).norm(), 1e-4 * moved.norm() + 1e-12) << i;
+        }
+    }
+}
+
 struct Rolled {
     double speed, height, across;
 };
