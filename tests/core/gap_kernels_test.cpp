@@ -186,7 +186,8 @@ TEST(NearFeatures, TheNearestOfAllFeaturesIsAmongThoseLookedAt)
         const RelativePair pair{*ring, other, a.orientation.toRotationMatrix(), a.position};
         if (findDeepContact(pair, pair.reversed())) continue;  // of no feature
         const double sharpness = kSharpness * smallerRadius(*ring, other);
-        EXPECT_NEAR(smallest, smallestGap(pair, reach, sharpness), 1e-12) << run;
+        // How deep edges lie is sought from other places when less is heard.
+        EXPECT_NEAR(smallest, smallestGap(pair, reach, sharpness), 1e-9) << run;
         near += smallest < reach;
     }
     EXPECT_GT(near, 40);
