@@ -283,13 +283,19 @@ TEST(ShotImport, MakesABodyOfEveryNodeThatAPatternFits)
     EXPECT_NEAR(world.shapeOf(0).unitMass.volume, 8.0 / 6.0, 1e-6);
 }
 
+/// A tetrahedron without a side.
+void writeOpenGltf(const test::TemporaryFolder& folder)
+{
+    test::writeGltf(folder);
+    std::string text = test::gltfText("data.bin");
+    text.replace(text.find("\"count\":12"), 10, "\"count\":9");
+    std::ofstream(folder / "set.gltf") << text;
+}
+
 TEST(ShotImport, AMeshThatIsNoSolidIsToldWhereItsRepairCanBeWritten)
 {
     const test::TemporaryFolder folder;
-    test::writeGltf(folder);
-    std::string text = test::gltfText("data.bin");
-    text.replace(text.find("\"count\":12"), 10, "\"count\":9");  // a tetrahedron without a side
-    std::ofstream(folder / "set.gltf") << text;
+    writeOpenGltf(folder);
     const test::Refusal refusal =
         test::refusalBy([&] { buildWorld(parseShotText(shotOf(folder, "\"Bowl\""), "s.toml")); });
     EXPECT_TRUE(refusal.mentions("a key of an [[import]] holds for all of its nodes"))
@@ -351,10 +357,7 @@ TEST(ShotImport, SaysForAllItsNodesHowTheyCollide)
 TEST(ShotImport, ClosesAnOpenNodeWhenAsked)
 {
     const test::TemporaryFolder folder;
-    test::writeGltf(folder);
-    std::string text = test::gltfText("data.bin");
-    text.replace(text.find("\"count\":12"), 10, "\"count\":9");  // a tetrahedron without a side
-    std::ofstream(folder / "set.gltf") << text;
+    writeOpenGltf(folder);
     const std::string keys = "mesh = { repair = \"wrap\" }\nsdf = { resolution = 32 }\n";
     const World world = buildWorld(parseShotText(shotOf(folder, "\"Bowl\"") + keys, "s.toml"));
     EXPECT_EQ(world.shapeOf(0).repairs.remeshed, MeshRepair::wrap);
