@@ -27,6 +27,9 @@ constexpr double kStrictly = 1e-6;
 /// Sine of the angle between the axes of two sides below which they lie along each other.
 constexpr double kParallel = 1e-2;
 
+/// Cosine, taken from 1, of the angle within which a normal is that of a face.
+constexpr double kSameFace = 1e-9;
+
 /// Of a triangle the one that is nearest to a place.
 std::int32_t nearestVertex(const Shape& shape, std::int32_t triangle, const Vec3& place)
 {
@@ -39,6 +42,14 @@ std::int32_t nearestVertex(const Shape& shape, std::int32_t triangle, const Vec3
         if (distance(k) < distance(nearest)) nearest = k;
     }
     return corners[nearest];
+}
+
+Vec3 normalOf(const TriMesh& mesh, int triangle)
+{
+    const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
+    const Vec3 b = mesh.points.col(mesh.triangles(1, triangle));
+    const Vec3 c = mesh.points.col(mesh.triangles(2, triangle));
+    return (b - a).cross(c - a).normalized();
 }
 
 const Mat3 kUnturned = Mat3::Identity();
@@ -166,6 +177,19 @@ std::optional<Vec3> turnFor(const Mat3& advance, const Vec3& n, const Vec3& t,
     return Vec3((d * tp - b * tq) / determinant * p + (a * tq - c * tp) / determinant * q);
 }
 
+/// Whether a place on the surface, give or take `tolerance`, is on a face with this normal, and not
+/// on an edge that is seen from aside. In the frame of the shape.
+bool isOnFace(const Shape& shape, const Vec3& place, const Vec3& normal, double tolerance)
+{
+    if (shape.isPlane || shape.distance.solid()) return true;
+    thread_local std::vector<int> triangles;
+    triangles.clear();
+    shape.rays.trianglesWithin(place, tolerance, triangles);
+    return std::any_of(triangles.begin(), triangles.end(), [&](int triangle) {
+        return normalOf(shape.mesh, triangle).dot(normal) > 1.0 - kSameFace;
+    });
+}
+
 /// A round body on a flat one: the flat one gives the normal.
 Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const FeatureContact& contact)
 {
@@ -176,17 +200,20 @@ Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const Featu
     if (search == Search::elsewhere) return {Result::elsewhere};
     const RoundPlace& place = round.place();
     const Vec3 onFlat = first.isRound() ? Vec3(contact.point - contact.gap * n) : contact.point;
+    const Shape& flat = first.isRound() ? pair.second : pair.first;
+    const auto inFlat = [&](const Vec3& at) {
+        return first.isRound() ? at : Vec3(pair.rotation.transpose() * (at - pair.translation));
+    };
+    const Vec3 outOfFlat = first.isRound() ? n : Vec3(-(pair.rotation.transpose() * n));
+    const double tolerance = kSharpness * smallerRadius(pair.first, pair.second);
+    if (!isOnFace(flat, inFlat(onFlat), outOfFlat, tolerance)) return {Result::elsewhere};
     const double side = first.isRound() ? 1.0 : -1.0;
     const double gap = side * n.dot(place.point - onFlat) - place.bulge;
     const Vec3 smooth = place.point - side * place.bulge * n;
     const Vec3 foot = smooth - side * gap * n;
 
     // Beyond the rim of what is flat something else is nearer.
-    const Shape& flat = first.isRound() ? pair.second : pair.first;
-    const Vec3 inFlat =
-        first.isRound() ? foot : pair.rotation.transpose() * (foot - pair.translation);
-    const double tolerance = kSharpness * smallerRadius(pair.first, pair.second);
-    if (!flat.isPlane && std::abs(flat.distance.value(inFlat)) > tolerance)
+    if (!flat.isPlane && std::abs(flat.distance.value(inFlat(foot))) > tolerance)
         return {Result::elsewhere};
     return {Result::rounded, {first.isRound() ? smooth : foot, n, gap}};
 }

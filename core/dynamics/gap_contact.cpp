@@ -20,6 +20,7 @@
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_press.h"
 #include "core/dynamics/gap_shock.h"
+#include "core/dynamics/stillness.h"
 
 namespace scree {
 namespace {
@@ -36,6 +37,11 @@ constexpr int kMostSweeps = 400;
 /// many pairs on each level, and its ways are short.
 constexpr int kSweepsPerLevel = 4, kLevelsOfAChain = 8;
 constexpr int kPairsPerLevel = 2;  // at most, of a chain
+
+/// A large heap gets as many once it settles. It begins with what held it in the last step, so that
+/// a dozen do while it moves; but they leave it to creep, and of 150 coins in a bowl, forty levels,
+/// half went on doing so for as long as anybody looked. It costs little: it is soon asleep.
+constexpr int kSweepsToRest = 100;
 
 /// What a sweep may still change, as a share of what gravity does in a step, or, where rows are
 /// many, of what the first sweep changed. Forty cubes of which each step left a hundredth drifted
@@ -182,13 +188,14 @@ struct SweepLimits {
     double ofSpeed;  // the same of the fastest slip
 };
 
-SweepLimits sweepLimits(const StepSettings& settings, const GapScratch& scratch,
+SweepLimits sweepLimits(const World& world, const StepSettings& settings, const GapScratch& scratch,
                         const GapIsland& island)
 {
     int levels = 0;
     for (const std::size_t i : island.pairs)
         levels = std::max(levels, levelOf(scratch.levels, scratch.pairs[i].bodies) + 1);
-    const int most = std::max(settings.gapSweeps, spareSweeps(island));
+    int most = std::max(settings.gapSweeps, spareSweeps(island));
+    if (most < kSweepsToRest && isSettling(world, scratch, island)) most = kSweepsToRest;
     if (levels >= kLevelsOfAChain && std::ssize(island.pairs) <= kPairsPerLevel * levels)
         return {std::max(most, kSweepsPerLevel * levels), kLeftInAChain, 0.0};
     const double left = island.rowCount > kRowsOfAHeap ? kLeftInAHeap
@@ -200,11 +207,11 @@ SweepLimits sweepLimits(const StepSettings& settings, const GapScratch& scratch,
 
 /// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
 /// next step, which begins with what this one found.
-void solve(const StepSettings& settings, double dt, const GapScratch& scratch,
+void solve(const World& world, const StepSettings& settings, double dt, const GapScratch& scratch,
            const GapIsland& island, GapLanes& rows)
 {
     double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
-    const auto [most, left, ofSpeed] = sweepLimits(settings, scratch, island);
+    const auto [most, left, ofSpeed] = sweepLimits(world, settings, scratch, island);
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
     double energy = 0.0;
@@ -216,12 +223,12 @@ void solve(const StepSettings& settings, double dt, const GapScratch& scratch,
     }
 }
 
-void solveIsland(const StepSettings& settings, double dt, GapScratch& scratch,
+void solveIsland(const World& world, const StepSettings& settings, double dt, GapScratch& scratch,
                  const GapIsland& island)
 {
     thread_local GapLanes lanes;
     lanes.build(scratch, island);
-    solve(settings, dt, scratch, island, lanes);
+    solve(world, settings, dt, scratch, island, lanes);
     lanes.store(scratch);
     if (isPressed(settings, dt, scratch, island)) solvePressed(dt, island, scratch);
 }
@@ -318,12 +325,13 @@ void addForcesToOthers(double dt, GapScratch& scratch)
     });
 }
 
-void resolveGaps(const StepSettings& settings, double dt, const GapBlock& block,
+void resolveGaps(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
                  GapScratch& scratch)
 {
     handWeightDown(settings, dt, block, scratch);
-    forIslands(scratch, block,
-               [&](std::size_t i) { solveIsland(settings, dt, scratch, scratch.islands[i]); });
+    forIslands(scratch, block, [&](std::size_t i) {
+        solveIsland(world, settings, dt, scratch, scratch.islands[i]);
+    });
 }
 
 ImpulseCounts countImpulses(GapScratch& scratch)

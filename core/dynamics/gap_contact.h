@@ -42,7 +42,7 @@ void addForcesToOthers(double dt, GapScratch& scratch);
 /// Sweeps over the rows of every island of a block until velocities stay as they are, or its sweeps
 /// are used up. Begins with the impulses that rows remember, or, on an island that remembers
 /// nothing, with the weights of the levels.
-void resolveGaps(const StepSettings& settings, double dt, const GapBlock& block,
+void resolveGaps(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
                  GapScratch& scratch);
 
 /// Counts the impulses of all rows, and those of each pair.

@@ -169,7 +169,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         const PhaseTimer timer(seconds, Phase::contact);
         leads = leadPlaces(world, dt, block, scratch);
         addForcesToGaps(dt, block, scratch);
-        resolveGaps(settings_, dt, block, scratch);
+        resolveGaps(world, settings_, dt, block, scratch);
     }
     if (settings_.shockPropagation) {
         const PhaseTimer timer(seconds, Phase::shock);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/impulse.h"
 
 namespace scree {
@@ -16,6 +17,10 @@ constexpr double kStillTime = 1.4;
 
 /// What has stayed within this share of its size of one place may rock, but goes nowhere.
 constexpr double kNearby = 0.05;
+
+/// So many times as long as it takes to fall asleep this share of an island must have stayed nearby
+/// before the island is said to settle.
+constexpr double kSettlingTime = 2.0, kSettlingShare = 0.9;
 
 /// What goes farther than this share of its size in a frame does not lie where it is seen at the
 /// end of each: it may have turned once around.
@@ -61,6 +66,17 @@ double framesToSleep(const World& world, BodyId body, double acceleration)
 {
     const double time = kStillTime * unitOfTime(world, body, acceleration);
     return std::max(std::ceil(time / world.frameDuration), double{kStillFrames});
+}
+
+bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& island)
+{
+    if (world.contactMemory.rest.size() < world.bodyCount()) return false;  // nobody sleeps
+    const std::vector<BodyId> movers = moversOf(scratch, island);
+    const auto staying = std::ranges::count_if(movers, [&](BodyId body) {
+        const double frames = framesToSleep(world, body, scratch.bodies[body].pull.norm());
+        return world.contactMemory.rest[body].nearby.frames >= kSettlingTime * frames;
+    });
+    return static_cast<double>(staying) >= kSettlingShare * static_cast<double>(movers.size());
 }
 
 void noteStays(World& world)

@@ -1,7 +1,7 @@
 // How long bodies have stayed where they are, and how long that must be.  [algorithm 14]
 #pragma once
 
-#include "core/scene/world.h"
+#include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 
@@ -15,6 +15,9 @@ double unitOfTime(const World& world, BodyId body, double acceleration);
 
 /// How long a body must lie still to fall asleep, in frames.
 double framesToSleep(const World& world, BodyId body, double acceleration);
+
+/// Whether nearly all bodies of an island have stayed nearby for long: it is about to come to rest.
+bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& island);
 
 /// At the end of a frame: notes of every body whether it has stayed where it was, or where it is
 /// now. `rest` of the memory must have room for all.

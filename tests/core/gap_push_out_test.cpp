@@ -73,6 +73,42 @@ TEST(GapPushOut, WhatStepsLeaveIsTakenAwayBitByBit)
     EXPECT_NEAR(world.motion[1].position.y(), 0.498 + 0.2 * (0.002 - 8.7e-5), 1e-5);
 }
 
+// The upper cube was not asked: it was pushed into, and lifted out again in the steps to come.
+TEST(GapPushOut, WhatIsPushedOutOfOneIsNotPushedIntoAnother)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    addPlane(world, material);
+    for (const double height : {0.497, 1.497}) {
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                {Vec3(0.0, height, 0.0), Quat::Identity()});
+    }
+    Stepper stepper(screeSettings());
+    stepper.step(world, kStep);
+    // Up to the slop; the fifth of 3 mm that the lower one rises by is 0.58 mm.
+    const double lower = world.motion[1].position.y(), upper = world.motion[2].position.y();
+    EXPECT_GE(upper - lower, 1.0 - 1.5e-4);
+    EXPECT_GE(lower, 0.497 + 4e-4);
+}
+
+// Handed on by halves a push of 0.58 mm came to nothing on the way up: the upper half was not
+// lifted at all, and the lower ones were pressed into it.
+TEST(GapPushOut, WhatLiftsTheLowestOfAColumnLiftsAll)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    addPlane(world, material);
+    constexpr double kApart = 1.0 - 8.6e-5;  // as deep in each other as they may stay
+    for (int i = 0; i < 10; ++i) {
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                {Vec3(0.0, 0.497 + kApart * i, 0.0), Quat::Identity()});
+    }
+    Stepper stepper(screeSettings());
+    stepper.step(world, kStep);
+    for (int i = 0; i < 10; ++i)
+        EXPECT_NEAR(world.motion[i + 1].position.y() - kApart * i, 0.49758, 1.2e-4) << i;
+}
+
 /// A hundred and ninety dominoes along a spiral [m], the outermost about to tip over.
 World makeSpiral()
 {

@@ -46,6 +46,60 @@ const GapContact& nearestOf(const std::vector<GapContact>& contacts)
         [](const GapContact& p, const GapContact& q) { return p.gap < q.gap; });
 }
 
+/// Largest change of the depth at which A touches B in one of many small steps along a line, as
+/// shares of its size, on either side of where it begins.
+double largestJump(const Shape& a, const Pose& worldFromA, const Shape& b, const Vec3& way)
+{
+    constexpr int kSteps = 200;
+    const double size = a.boundingRadius;
+    double largest = 0.0, before = 0.0;
+    for (int k = -kSteps; k <= kSteps; ++k) {
+        const Pose pose{worldFromA.position + k * size * way, worldFromA.orientation};
+        const std::vector<GapContact> contacts =
+            contactsOf(a, pose, b, {Vec3::Zero(), Quat::Identity()}, 0.02 * size);
+        const double now = contacts.empty() ? 1.0 : nearestOf(contacts).gap / size;
+        const bool isTouch = std::abs(now) < 2e-3 && std::abs(before) < 2e-3;
+        if (k > -kSteps && isTouch) largest = std::max(largest, std::abs(now - before));
+        before = now;
+    }
+    return largest;
+}
+
+/// Lowered until it touches what is in the origin.
+Pose loweredOnto(const Shape& lower, const Shape& a, Pose worldFromA)
+{
+    double above = 4.0, below = 0.0;
+    for (int i = 0; i < 50; ++i) {
+        worldFromA.position.y() = 0.5 * (above + below);
+        const std::vector<GapContact> contacts =
+            contactsOf(a, worldFromA, lower, {Vec3::Zero(), Quat::Identity()}, 0.02);
+        const bool touches = !contacts.empty() && nearestOf(contacts).gap < 0.0;
+        (touches ? below : above) = worldFromA.position.y();
+    }
+    return worldFromA;
+}
+
+// An edge between two sides seen from aside was taken for a face, which went on beyond it: the rim
+// was deeper below that than in either side. These are the draws of five hundred in which it was.
+TEST(RoundContacts, ARimThatPassesAnEdgeBetweenTwoSidesIsNoDeeperThanInThese)
+{
+    const auto shape = buildMeshShape("coin", makeCylinder(1.2, 0.2, 32, 1));
+    // A coin that lies on its side, and others edge down on that, turned about the vertical.
+    const Quat lying = exponentialMap(0.5 * kPi * Vec3::UnitX());
+    const auto lower =
+        buildMeshShape("lying", transformed(makeCylinder(1.2, 0.6, 32, 1), {Vec3::Zero(), lying}));
+    for (const std::uint64_t draw : {50, 77, 217, 237, 315, 326, 330, 394, 399, 495}) {
+        const Quat orientation =
+            exponentialMap(2.0 * kPi * randomUnit(43, draw, 0) * Vec3::UnitY()) *
+            exponentialMap((0.5 * kPi + 0.2 * (randomUnit(43, draw, 1) - 0.5)) * Vec3::UnitX()) *
+            exponentialMap(2.0 * kPi * randomUnit(43, draw, 2) * Vec3::UnitY());
+        const double beside = 0.4 * (randomUnit(43, draw, 3) - 0.5);
+        const Pose pose = loweredOnto(*lower, *shape, {Vec3(beside, 0.0, 0.0), orientation});
+        const Vec3 way = Vec3(1.0, 0.02, 0.05).cwiseProduct(signedUnits(draw, 60)).normalized();
+        EXPECT_LE(largestJump(*shape, pose, *lower, 5e-5 * way), 3e-4) << draw;
+    }
+}
+
 // Told of facets, two such balls met off the line of centres by up to 4°, and the blow went aside.
 TEST(RoundContacts, MeshedBallsTouchOnceOnTheLineOfTheirCentresHoweverTheyAreTurned)
 {

@@ -93,5 +93,38 @@ TEST(Sleep, WhatTurnsOnceAFrameWhereItStandsDoesNotSleep)
     EXPECT_LE((angularVelocityOf(world, 1) - oneTurnAFrame).norm(), 1e-6);
 }
 
+/// A pyramid of 325 bricks; how fast any of them moves after one step from rest, if `staying` of
+/// them have been near their places for long [m/s].
+double speedOfPyramid(int staying)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const auto brick = boxShape({2.0, 1.0, 1.0}, 1);
+    for (int course = 0; course < 25; ++course) {
+        for (int i = 0; i < 25 - course; ++i) {
+            addBody(world, brick, material,
+                    {Vec3(2.1 * i + 1.05 * course, 0.5 + course, 0.0), Quat::Identity()}, 1.0,
+                    1e-3 * Vec3(std::sin(course), std::sin(i), std::sin(i + course)));
+        }
+    }
+    world.frameDuration = kFrame;
+    world.contactMemory.rest.resize(world.bodyCount());
+    for (int i = 1; i <= staying; ++i) world.contactMemory.rest[i].nearby.frames = 1000;
+    Stepper stepper(screeSettings());
+    stepper.step(world, kFrame);
+    double fastest = 0.0;
+    for (const BodyMotion& motion : world.motion)
+        fastest = std::max(fastest, motion.velocity.norm());
+    return fastest;
+}
+
+// With the sweeps of a heap that moves, one that has nearly come to rest crept on for good.
+TEST(Sleep, ALargeHeapIsSolvedToTheEndOnceItSettles)
+{
+    const double moving = speedOfPyramid(290), settling = speedOfPyramid(300);
+    EXPECT_LE(settling, 0.6 * moving);
+}
+
 }  // namespace
 }  // namespace scree::test

@@ -1,0 +1,171 @@
+// Contacts are found anew after every move: a push by a tenth of a body changes which of its
+// features face the other.
+//
+// Departs from A52. The rows of a level are solved together: one pair after the other, the first to
+// be pushed decides where all the others go. And all levels take a fraction before any takes the
+// next: with the lowest finished first, what lies on it was for a while as deep in it as the whole
+// column had to rise, and deep inside a body hardly a feature tells the way out. And what is only
+// in the way of others gives way no farther than until it is not deep: the rest is left to steps.
+// In a row of fallen dominoes each had handed on a little more than it was given, by its lever, and
+// a quarter of a millimetre at one end was metres at the other.
+#include "core/dynamics/gap_push_deep.h"
+
+#include <algorithm>
+
+#include "core/dynamics/gap_levels.h"
+
+namespace scree {
+namespace {
+
+/// Deeper than this share of the smaller body is deep, and deeper than the other goes at once as a
+/// whole; between the two more and more of it, since nothing may jump at a border.
+constexpr double kDeep = 0.01, kWhollyDeep = 0.0125;
+/// Contacts of gaps beyond this share of the smaller body wait for the next fraction. Where spheres
+/// of 5000 triangles are crushed, a look as far as the deepest overlap is long took 0.2 s a pair.
+constexpr double kFarthestLook = 0.1;
+/// Pushes are solved to this share of the deepest, if these sweeps do.
+constexpr double kEnough = 1e-9;
+constexpr int kMostSweeps = 100;
+/// What is squeezed between two that do not move cannot obey both, and a wedge would throw it: so
+/// no row moves its bodies farther than about three times its depth.
+constexpr double kGive = 0.05;
+
+}  // namespace
+
+DeepPass::DeepPass(World& world, const StepSettings& settings, GapScratch& scratch)
+    : world_(world), settings_(settings), scratch_(scratch)
+{
+}
+
+PushOutTally DeepPass::run()
+{
+    findDeepPairs();
+    if (reach_ == 0.0) return {};
+    isPushed_.assign(scratch_.bodies.size(), 0);
+    std::vector<std::vector<std::size_t>> byLevel;
+    for (std::size_t i = 0; i < scratch_.nearPairs.size(); ++i) {
+        const auto level =
+            static_cast<std::size_t>(levelOf(scratch_.levels, scratch_.nearPairs[i].bodies));
+        if (byLevel.size() <= level) byLevel.resize(level + 1);
+        byLevel[level].push_back(i);
+    }
+    for (int n = 1; n <= settings_.pushOutLevelIterations; ++n) {
+        const double fraction = static_cast<double>(n) / settings_.pushOutLevelIterations;
+        bodies_.assign(scratch_.bodies.size(), {});
+        for (const std::vector<std::size_t>& level : byLevel) pushLevel(level, fraction);
+        displaceAll();
+    }
+    lookAfterwards();
+    return tally_;
+}
+
+bool DeepPass::isDeep(BodyPair pair, double depth) const
+{
+    return depth > kDeep * smallerRadius(world_, pair.a, pair.b);
+}
+
+/// As far as the rows tell, at the beginning of the step and at its end: a feature that was deep at
+/// one of them only is one that faced the other for a moment.
+void DeepPass::findDeepPairs()
+{
+    for (const GapPair& pair : scratch_.pairs) {
+        if (!isDeep(pair.bodies, scratch_.nearPairs[pair.near].depth)) continue;
+        double deepest = 0.0;
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            const GapRow& row = scratch_.rows[r];
+            if (!isDeep(pair.bodies, -row.gap)) continue;
+            const double opened = shiftAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
+            const double depth = -row.gap - std::max(opened, 0.0);
+            if (!isDeep(pair.bodies, depth) || (!row.movesA && !row.movesB)) continue;
+            isLookedAt_.resize(scratch_.nearPairs.size(), 0);
+            isLookedAt_[pair.near] = 1;
+            reach_ = std::max(reach_, depth);
+            deepest = std::max(deepest, depth);
+        }
+        if (deepest == 0.0) continue;
+        left_.resize(scratch_.nearPairs.size(), kDeep);
+        const double share = deepest / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
+        left_[pair.near] =
+            std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop, kDeep);
+    }
+}
+
+/// One push of all that overlaps on a level, over what those below it have been pushed.
+void DeepPass::pushLevel(const std::vector<std::size_t>& level, double fraction)
+{
+    rows_.clear();
+    for (const std::size_t i : level) addRows(i);
+    pushes_.clear();
+    for (const auto& [row, left] : rows_) {
+        const double excess = excessOf(world_, row, row.gap, left);
+        for (const auto& [id, moves] : {std::pair{row.a, row.movesA}, {row.b, row.movesB}}) {
+            if (moves) takeUp(scratch_.bodies[id], 1.0, bodies_[id]);
+        }
+        pushes_.push_back(pushRow(row, excess > 0.0 ? fraction * excess : excess, bodies_));
+        tally_.pushes += excess > 0.0;
+    }
+    for (int n = 0; n < kMostSweeps; ++n) {
+        if (sweep(pushes_, kGive, bodies_) <= kEnough * reach_) break;
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) isPushed_[i] |= bodies_[i].isPushed;
+}
+
+/// Of what is deep, and of what the pass has moved: it may have been moved into another.
+void DeepPass::addRows(std::size_t i)
+{
+    NearPair& pair = scratch_.nearPairs[i];
+    const auto [a, b] = pair.bodies;
+    const bool isMoved = isPushed_[a] || isPushed_[b];
+    if (!isLookedAt_[i] && !isMoved) return;
+    isLookedAt_[i] = 1;
+    const double farthest = kFarthestLook * smallerRadius(world_, a, b);
+    const double depth = look(pair, std::min(reach_, farthest));
+    if (!isMoved && !isDeep(pair.bodies, depth)) {
+        isLookedAt_[i] = 0;  // the rows had seen it deeper than it is
+        return;
+    }
+    const int level = levelOf(scratch_.levels, pair.bodies);
+    for (const GapContact& contact : contacts_) {
+        GapRow row{};
+        row.a = a;
+        row.b = b;
+        row.rA = contact.rA;
+        row.rB = contact.rA + world_.motion[a].position - world_.motion[b].position;
+        row.normal = contact.normal;
+        row.gap = contact.gap;
+        row.isUnmovedA = isUnmovedBy(world_, a, b) || isFrozen(a, level);
+        row.isUnmovedB = isUnmovedBy(world_, b, a) || isFrozen(b, level);
+        prepareRow(scratch_.bodies, row);
+        if (row.movesA || row.movesB) rows_.push_back({row, left_[i]});
+    }
+}
+
+bool DeepPass::isFrozen(BodyId body, int level) const
+{
+    return scratch_.levels.isSupported[body] && scratch_.levels.level[body] < level;
+}
+
+/// Fills contacts_ where the bodies are now; answers the depth of the deepest.
+double DeepPass::look(NearPair& pair, double reach)
+{
+    contacts_.clear();
+    pair.near.findContacts(placePair(world_, pair.bodies), reach, contacts_);
+    return deepestOf(contacts_);
+}
+
+void DeepPass::displaceAll()
+{
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (bodies_[i].isPushed) tally_.cut += displace(world_, static_cast<BodyId>(i), bodies_[i]);
+    }
+}
+
+void DeepPass::lookAfterwards()
+{
+    for (std::size_t i = 0; i < scratch_.nearPairs.size(); ++i) {
+        NearPair& pair = scratch_.nearPairs[i];
+        if (isLookedAt_[i]) pair.depth = look(pair, 0.0);
+    }
+}
+
+}  // namespace scree
