@@ -19,15 +19,16 @@
 #include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/gap_push_deep.h"
 #include "core/dynamics/gap_pushes.h"
+#include "core/dynamics/stillness.h"
 
 namespace scree {
 namespace {
 
-/// Share of what overlaps that one step removes, and how exactly, if these rounds do. In each of
-/// them all rows are visited once, and those that push some times more: what is in nobody's way
-/// seldom gets there.
+/// Share of what overlaps that one step removes, and how exactly, if the rounds do. In a round all
+/// rows are visited once, and those that push some times more: what is in nobody's way seldom gets
+/// there. While a heap moves, the next step makes good what one round has left.
 constexpr double kShare = 0.2, kEnough = 0.1;
-constexpr int kMostRounds = 4, kMoreSweeps = 3;
+constexpr int kRoundsToRest = 4, kMoreSweeps = 3;
 
 /// Beyond so many levels all weigh the same, while numbers hold them.
 constexpr int kMostLevels = 60;
@@ -77,7 +78,8 @@ private:
         thread_local Parts kept;
         Parts& parts = kept;  // of this thread, filled by two
         PushOutTally tally = layOut(island, parts);
-        solve(kEnough * kShare * most, parts);
+        const int rounds = isSettling(world_, scratch_, island) ? kRoundsToRest : 1;
+        solve(kEnough * kShare * most, rounds, parts);
         for (const BodyId id : parts.bodies) {
             if (bodies_[id].isPushed) tally.cut += displace(world_, id, bodies_[id]);
             bodies_[id] = {};
@@ -137,14 +139,14 @@ private:
         }
     }
 
-    void solve(double enough, Parts& parts)
+    void solve(double enough, int rounds, Parts& parts)
     {
         std::array<double, 3> changed{};
         const auto sweepParts = [&](const auto& sweepPart) {
             forEach(2, parts.rows[1].empty() ? 2 : 1, sweepPart);
             sweepPart(2);
         };
-        for (int round = 0; round < kMostRounds; ++round) {
+        for (int round = 0; round < rounds; ++round) {
             sweepParts([&](std::size_t part) {
                 changed[part] = sweep(parts.rows[part], 0.0, bodies_);
                 listPushing(parts.rows[part], parts.pushing[part]);

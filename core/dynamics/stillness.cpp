@@ -20,7 +20,7 @@ constexpr double kNearby = 0.05;
 
 /// So many times as long as it takes to fall asleep this share of an island must have stayed nearby
 /// before the island is said to settle.
-constexpr double kSettlingTime = 2.0, kSettlingShare = 0.9;
+constexpr double kSettlingTime = 3.0, kSettlingShare = 0.9;
 
 /// What goes farther than this share of its size in a frame does not lie where it is seen at the
 /// end of each: it may have turned once around.
