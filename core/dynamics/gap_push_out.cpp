@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "core/dynamics/gap_pairs.h"
@@ -37,13 +38,15 @@ constexpr int kMostLevels = 60;
 class ShallowPass {
 public:
     ShallowPass(World& world, const DeepPass& deep, const GapScratch& scratch)
-        : world_(world), deep_(deep), scratch_(scratch), bodies_(roomForBodies())
+        : world_(world), deep_(deep), scratch_(scratch), bodies_(room().bodies), most_(room().most)
     {
         bodies_.resize(scratch.bodies.size());
     }
 
     PushOutTally run()
     {
+        most_.resize(scratch_.pairs.size());
+        forPairs(scratch_, [&](std::size_t i) { most_[i] = mostExcess(scratch_.pairs[i]); });
         std::vector<std::size_t> islands(scratch_.islands.size());
         std::iota(islands.begin(), islands.end(), std::size_t{0});
         std::vector<PushOutTally> tallies(islands.size());
@@ -55,35 +58,45 @@ public:
     }
 
 private:
-    /// The rows of either half of an island and those across the cut, as of gap_pairs.h.
-    struct Parts {
-        std::vector<std::size_t> pairs;
-        std::array<std::vector<PushRow>, 3> rows;
-        std::array<std::vector<std::size_t>, 3> pushing;  // indices into these
-        std::vector<BodyId> bodies;
+    /// The rows of either half of an island or those across the cut, as of gap_pairs.h.
+    struct Part {
+        std::vector<PushRow> rows;
+        std::vector<std::size_t> pushing;  // indices into these
+        std::vector<BodyId> bodies;        // that none of the parts before it has
+        PushOutTally tally;
+        double changed = 0.0;  // in the last sweep over all rows, at most [m]
     };
 
-    /// Kept from step to step by the thread that steps, filled by all. Between steps no row has
-    /// any.
-    static std::vector<PushedBody>& roomForBodies()
+    /// Kept from step to step by the thread that steps, filled by all.
+    struct Room {
+        std::vector<PushedBody> bodies;  // between steps no row has any
+        std::vector<double> most;        // per pair: how much deeper than it may stay it is [m]
+    };
+    static Room& room()
     {
-        thread_local std::vector<PushedBody> bodies;
-        return bodies;
+        thread_local Room kept;
+        return kept;
     }
 
     PushOutTally push(const GapIsland& island)
     {
-        const double most = mostExcess(island);
-        if (!(most > 0.0)) return {};
-        thread_local Parts kept;
-        Parts& parts = kept;  // of this thread, filled by two
-        PushOutTally tally = layOut(island, parts);
+        double most = 0.0;
+        for (const std::size_t i : island.pairs) most = std::max(most, most_[i]);
+        if (most == 0.0) return {};
+        thread_local std::vector<std::size_t> roomForPairs;
+        thread_local std::array<Part, 3> kept;
+        std::array<Part, 3>& parts = kept;  // of this thread, filled by two
+        const PairParts pairs = partsOf(scratch_, island, roomForPairs);
+        const auto forParts = [&](const auto& work) {
+            forEach(2, pairs[1].empty() ? 2 : 1, [&](std::size_t half) { work(half); });
+            work(2);
+        };
+        forParts([&](std::size_t part) { layOut(pairs[part], parts[part]); });
         const int rounds = isSettling(world_, scratch_, island) ? kRoundsToRest : 1;
-        solve(kEnough * kShare * most, rounds, parts);
-        for (const BodyId id : parts.bodies) {
-            if (bodies_[id].isPushed) tally.cut += displace(world_, id, bodies_[id]);
-            bodies_[id] = {};
-        }
+        solve(rounds, kEnough * kShare * most, forParts, parts);
+        forParts([&](std::size_t part) { displaceBodies(parts[part]); });
+        PushOutTally tally;
+        for (const Part& part : parts) tally += part.tally;
         return tally;
     }
 
@@ -93,39 +106,31 @@ private:
         return excessOf(world_, row, gap);
     }
 
-    double mostExcess(const GapIsland& island) const
+    double mostExcess(const GapPair& pair) const
     {
         double most = 0.0;
-        for (const std::size_t i : island.pairs) {
-            const GapPair& pair = scratch_.pairs[i];
-            if (deep_.isLookedAt(pair)) continue;
-            for (std::size_t r = pair.begin; r < pair.end; ++r)
-                most = std::max(most, excess(scratch_.rows[r]));
-        }
+        if (deep_.isLookedAt(pair)) return most;
+        for (std::size_t r = pair.begin; r < pair.end; ++r)
+            most = std::max(most, excess(scratch_.rows[r]));
         return most;
     }
 
-    PushOutTally layOut(const GapIsland& island, Parts& parts)
+    void layOut(std::span<const std::size_t> pairs, Part& part)
     {
-        PushOutTally tally;
-        parts.bodies.clear();
-        const PairParts pairs = partsOf(scratch_, island, parts.pairs);
-        for (std::size_t part = 0; part < pairs.size(); ++part) {
-            std::vector<PushRow>& rows = parts.rows[part];
-            rows.clear();
-            for (const std::size_t i : pairs[part]) {
-                const GapPair& pair = scratch_.pairs[i];
-                if (deep_.isLookedAt(pair)) continue;
-                takeUpBodies(pair.bodies, parts.bodies);
-                for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                    const double deeper = excess(scratch_.rows[r]);
-                    const double wanted = deeper > 0.0 ? kShare * deeper : deeper;
-                    rows.push_back(pushRow(scratch_.rows[r], wanted, bodies_));
-                    tally.pushes += deeper > 0.0;
-                }
+        part.rows.clear();
+        part.bodies.clear();
+        part.tally = {};
+        for (const std::size_t i : pairs) {
+            const GapPair& pair = scratch_.pairs[i];
+            if (deep_.isLookedAt(pair)) continue;
+            takeUpBodies(pair.bodies, part.bodies);
+            for (std::size_t r = pair.begin; r < pair.end; ++r) {
+                const double deeper = excess(scratch_.rows[r]);
+                const double wanted = deeper > 0.0 ? kShare * deeper : deeper;
+                part.rows.push_back(pushRow(scratch_.rows[r], wanted, bodies_));
+                part.tally.pushes += deeper > 0.0;
             }
         }
-        return tally;
     }
 
     void takeUpBodies(BodyPair pair, std::vector<BodyId>& taken)
@@ -139,32 +144,35 @@ private:
         }
     }
 
-    void solve(double enough, int rounds, Parts& parts)
+    template <class ForParts>
+    void solve(int rounds, double enough, const ForParts& forParts, std::array<Part, 3>& parts)
     {
-        std::array<double, 3> changed{};
-        const auto sweepParts = [&](const auto& sweepPart) {
-            forEach(2, parts.rows[1].empty() ? 2 : 1, sweepPart);
-            sweepPart(2);
-        };
         for (int round = 0; round < rounds; ++round) {
-            sweepParts([&](std::size_t part) {
-                changed[part] = sweep(parts.rows[part], 0.0, bodies_);
-                listPushing(parts.rows[part], parts.pushing[part]);
-            });
-            if (*std::ranges::max_element(changed) <= enough) return;
+            forParts([&](std::size_t part) { sweepAll(parts[part]); });
+            const double changed = std::max({parts[0].changed, parts[1].changed, parts[2].changed});
+            if (changed <= enough) return;
             for (int n = 0; n < kMoreSweeps; ++n) {
-                sweepParts([&](std::size_t part) {
-                    sweep(parts.rows[part], parts.pushing[part], 0.0, bodies_);
+                forParts([&](std::size_t part) {
+                    sweep(parts[part].rows, parts[part].pushing, 0.0, bodies_);
                 });
             }
         }
     }
 
-    static void listPushing(const std::vector<PushRow>& rows, std::vector<std::size_t>& pushing)
+    void sweepAll(Part& part)
     {
-        pushing.clear();
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows[i].impulse > 0.0) pushing.push_back(i);
+        part.changed = sweep(part.rows, 0.0, bodies_);
+        part.pushing.clear();
+        for (std::size_t i = 0; i < part.rows.size(); ++i) {
+            if (part.rows[i].impulse > 0.0) part.pushing.push_back(i);
+        }
+    }
+
+    void displaceBodies(Part& part)
+    {
+        for (const BodyId id : part.bodies) {
+            if (bodies_[id].isPushed) part.tally.cut += displace(world_, id, bodies_[id]);
+            bodies_[id] = {};
         }
     }
 
@@ -172,6 +180,7 @@ private:
     const DeepPass& deep_;
     const GapScratch& scratch_;
     std::vector<PushedBody>& bodies_;
+    std::vector<double>& most_;
 };
 
 }  // namespace
