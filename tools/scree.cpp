@@ -1,4 +1,7 @@
 // The program: picks a command, catches what went wrong, prints one line about it, returns a code.
+#include <poll.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -170,12 +173,19 @@ int runProgram(int argumentCount, char** arguments, Console& console)
     return kExitUsage;
 }
 
+/// Whoever reads from the other end of stdout has had enough, as head has after ten lines.
+bool isReaderGone()
+{
+    pollfd output{STDOUT_FILENO, POLLOUT, 0};
+    return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
 /// A result that did not arrive is none: a full disk behind stdout shows when the last of it is
 /// handed over.
 void requireResultsWritten()
 {
     errno = 0;
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || isReaderGone()) return;
     throw Error(ErrorKind::inputOutput,
                 std::string("writing the results to stdout failed") +
                     (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));

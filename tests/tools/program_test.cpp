@@ -508,6 +508,22 @@ TEST_F(ProgramTest, AFullDiskBehindStdoutExitsWith74)
     }
 }
 
+TEST_F(ProgramTest, WhoeverReadsResultsMayStopWhenItHasEnough)
+{
+    const auto closePipe = [] {
+        int ends[2];
+        if (::pipe(ends) != 0) return;
+        ::close(ends[0]);
+        ::dup2(ends[1], STDOUT_FILENO);
+    };
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"explain", "--all"}, {"--version"}}) {
+        const Outcome gone = Program(words, closePipe).wait();
+        EXPECT_EQ(gone.code, 0) << words[0] << ": " << gone.err;
+        EXPECT_EQ(gone.err, "") << words[0];
+    }
+}
+
 TEST_F(ProgramTest, NamesThatCannotBeReachedHaveTheCodeOfWhatTheyWereFor)
 {
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1002"}).code, 0);
