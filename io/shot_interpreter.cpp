@@ -99,6 +99,9 @@ private:
                                toTomlText(frames));
         } else if (shot_.lastFrame < shot_.firstFrame) {
             report(frames, "'frames' must not end before they begin: " + toTomlText(frames));
+        } else if (frames.text.find('-', 1) == std::string::npos) {
+            problems_.warn(frames.where, "'frames' is the one frame " + frames.text +
+                                             ", not so many: \"FIRST-LAST\" is a range");
         }
         shot_.framesPerSecond = table->find("fps")->number;
         shot_.metresPerUnit = metresPerUnit(table->find("units")->text);

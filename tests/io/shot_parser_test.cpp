@@ -141,6 +141,21 @@ TEST(ShotParser, AKeyThatTheMethodDoesNotReadIsToldOfWhereItStands)
     }
 }
 
+// Meant as a number of frames, it was simulated as one, and nothing was said.
+TEST(ShotParser, ASingleFrameIsToldToBeOne)
+{
+    const auto warningsOf = [](const std::string& frames) {
+        return parseShotText("scree = 1\n[shot]\nname = \"s\"\nframes = \"" + frames + "\"\n",
+                             "s.toml")
+            .warnings;
+    };
+    ASSERT_EQ(warningsOf("24").size(), 1u);
+    EXPECT_EQ(warningsOf("24")[0],
+              "s.toml:4:10: 'frames' is the one frame 24, not so many: \"FIRST-LAST\" is a range");
+    EXPECT_TRUE(warningsOf("24-24").empty());
+    EXPECT_TRUE(warningsOf("-3-24").empty());
+}
+
 TEST(ShotParser, LengthsBecomeMetresButGravityDoesNotChange)
 {
     const Shot shot = parseShotText(
