@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geometry/surface_normal.h"
+
 namespace scree {
 namespace {
 
@@ -42,14 +44,6 @@ std::int32_t nearestVertex(const Shape& shape, std::int32_t triangle, const Vec3
         if (distance(k) < distance(nearest)) nearest = k;
     }
     return corners[nearest];
-}
-
-Vec3 normalOf(const TriMesh& mesh, int triangle)
-{
-    const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
-    const Vec3 b = mesh.points.col(mesh.triangles(1, triangle));
-    const Vec3 c = mesh.points.col(mesh.triangles(2, triangle));
-    return (b - a).cross(c - a).normalized();
 }
 
 const Mat3 kUnturned = Mat3::Identity();
@@ -203,7 +197,7 @@ bool isOnFace(const Shape& shape, const Vec3& place, const Vec3& normal, double 
     triangles.clear();
     shape.rays.trianglesWithin(place, tolerance, triangles);
     return std::any_of(triangles.begin(), triangles.end(), [&](int triangle) {
-        return normalOf(shape.mesh, triangle).dot(normal) > 1.0 - kSameFace;
+        return triangleNormal(shape.mesh, triangle).dot(normal) > 1.0 - kSameFace;
     });
 }
 

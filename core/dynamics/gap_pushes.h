@@ -34,7 +34,8 @@ struct PushRow {
 /// How much deeper a gap of a row is than it may stay [m]; negative: how far it may close.
 double excessOf(const World& world, const GapRow& row, double gap, double left = kSlop);
 
-/// To be called for the bodies of a row before it pushes, if it moves them.
+/// To be called for the bodies that a row moves before it is made; they are `lighter` times as
+/// easily pushed as moved.
 void takeUp(const GapBody& body, double lighter, PushedBody& pushed);
 
 /// A row that has not pushed yet; its bodies have been taken up.

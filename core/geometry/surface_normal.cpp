@@ -20,14 +20,6 @@ constexpr double kEdgeHit = 1e-5;
 /// A way that crosses the surface is looked for this fraction of h before and beyond its ends.
 constexpr double kCrossingSlack = 1e-2;
 
-Vec3 triangleNormal(const TriMesh& mesh, int triangle)
-{
-    const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
-    const Vec3 b = mesh.points.col(mesh.triangles(1, triangle));
-    const Vec3 c = mesh.points.col(mesh.triangles(2, triangle));
-    return (b - a).cross(c - a).normalized();
-}
-
 Vec3 closestPoint(const TriMesh& mesh, int triangle, const Vec3& point)
 {
     return closestOnTriangle(point, mesh.points.col(mesh.triangles(0, triangle)),
@@ -145,6 +137,14 @@ Vec3 exactNormal(const ExactSolid& solid, double spacing, const Approach& approa
 }
 
 }  // namespace
+
+Vec3 triangleNormal(const TriMesh& mesh, int triangle)
+{
+    const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
+    const Vec3 b = mesh.points.col(mesh.triangles(1, triangle));
+    const Vec3 c = mesh.points.col(mesh.triangles(2, triangle));
+    return (b - a).cross(c - a).normalized();
+}
 
 Vec3 surfaceNormal(const Shape& shape, const Approach& approach)
 {
