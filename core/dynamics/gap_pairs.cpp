@@ -219,14 +219,19 @@ PairParts partsOf(const GapScratch& scratch, const GapIsland& island,
 
 std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island)
 {
+    // A body has several pairs: sorting them all took longer than what the list was for.
+    thread_local std::vector<char> isListed;
+    isListed.resize(std::max(isListed.size(), scratch.bodies.size()));
     std::vector<BodyId> movers;
-    movers.reserve(2 * island.pairs.size());
     for (const std::size_t i : island.pairs) {
         for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (scratch.bodies[body].inverseMass > 0.0) movers.push_back(body);
+            if (isListed[body] || !(scratch.bodies[body].inverseMass > 0.0)) continue;
+            isListed[body] = true;
+            movers.push_back(body);
         }
     }
-    sortUnique(movers);
+    for (const BodyId mover : movers) isListed[mover] = false;
+    std::sort(movers.begin(), movers.end());
     return movers;
 }
 

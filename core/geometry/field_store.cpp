@@ -6,7 +6,7 @@ namespace scree {
 namespace {
 
 /// To be raised with every change of what is built from the same input.
-constexpr std::uint64_t kBuildVersion = 3;
+constexpr std::uint64_t kBuildVersion = 4;
 
 template <class Value>
 std::uint64_t hashValue(const Value& value, std::uint64_t seed)

@@ -1,6 +1,7 @@
 // Symbols: h node spacing, phi signed distance.
 #include "core/geometry/nearest_faces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/parallel.h"
@@ -74,15 +75,15 @@ public:
     }
 
     /// Appends the lists to the others, cut to a cell diagonal beyond the closest.
-    void appendTo(NearestFaces& lists) const
+    void appendTo(NearestFaces& lists)
     {
         const double diagonal = 2.0 * kHalfDiagonal * layout_.spacing * (1.0 + 1e-9);
-        for (const std::vector<Near>& near : near_) {
+        for (std::vector<Near>& near : near_) {
             lists.start.push_back(static_cast<std::uint32_t>(lists.faces.size()));
-            double closest = 1e300;
-            for (const Near& entry : near) closest = std::min(closest, entry.distance);
+            std::ranges::stable_sort(near, {}, &Near::distance);
             for (const Near& entry : near) {
-                if (entry.distance <= closest + diagonal) lists.faces.push_back(entry.face);
+                if (entry.distance > near.front().distance + diagonal) break;
+                lists.faces.push_back(entry.face);
             }
         }
         lists.start.push_back(static_cast<std::uint32_t>(lists.faces.size()));

@@ -14,7 +14,7 @@ namespace scree {
 /// consecutive lists, found by FieldBlock::candidates.
 struct NearestFaces {
     std::vector<std::uint32_t> start;  // 8³ + 1 for each block with lists: where each cell's begin
-    std::vector<std::uint32_t> faces;  // ascending within a cell
+    std::vector<std::uint32_t> faces;  // of a cell: those nearest to its centre first
 
     std::span<const std::uint32_t> of(const DistanceNodes& nodes,
                                       const std::array<int, 3>& cell) const

@@ -17,6 +17,9 @@ namespace {
 /// Gradients shorter than this are near the medial axis and lead nowhere.  [A5]
 constexpr double kNoSlope = 0.1;
 
+/// Of squared distances near the surface, in spacings².
+constexpr double kSquaredRounding = 1e-12;
+
 /// Angle-weighted corner normals and summed edge normals give the right sign everywhere off the
 /// surface [BA05].
 struct PseudoNormals {
@@ -84,6 +87,7 @@ void SignedDistance::buildFaces(const TriMesh& mesh)
             border.normal[3 + k] = normals.edge.at(std::minmax(from, to));
         }
         face.normal = normals.face[f];
+        face.edges = edgeProducts(face.corner[0], face.corner[1], face.corner[2]);
         for (int k = 0; k < 3; ++k) {
             border.angle[k] = angleBetween(face.corner[(k + 1) % 3] - face.corner[k],
                                            face.corner[(k + 2) % 3] - face.corner[k]);
@@ -134,6 +138,12 @@ bool SignedDistance::isClearOf(const Vec3& point, double radius) const
     return nodes.interpolate(place) - block.slack > radius;
 }
 
+ClosestOnTriangle SignedDistance::closestOn(const Face& face, const Vec3& point)
+{
+    const auto& [a, b, c] = face.corner;
+    return closestOnTriangle(point, a, b, c, face.edges);
+}
+
 SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point, const Vec3& place) const
 {
     const std::span<const std::uint32_t> candidates = facesOfCell(place);
@@ -144,16 +154,20 @@ SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point, const V
 SignedDistance::Closest SignedDistance::closestAmong(std::span<const std::uint32_t> faces,
                                                      const Vec3& point) const
 {
+    // Of triangles that are as close as each other the first of the mesh answers, so that nothing
+    // depends on their order here: planes are told to be farther only where rounding cannot be why.
+    const double rounding = kSquaredRounding * spacing() * spacing();
     Closest best{faces.front(), TriangleFeature::face, Vec3::Zero(), 1e300};
     for (const std::uint32_t f : faces) {
         const Face& face = faces_[f];
         // Nothing of a triangle is closer than its plane.
         const double height = face.normal.dot(point - face.corner[0]);
-        if (height * height >= best.squaredDistance) continue;
-        const ClosestOnTriangle closest =
-            closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]);
+        if (height * height > best.squaredDistance + rounding) continue;
+        const ClosestOnTriangle closest = closestOn(face, point);
         const double squared = (point - closest.point).squaredNorm();
-        if (squared < best.squaredDistance) best = {f, closest.feature, closest.point, squared};
+        const bool isCloser = squared < best.squaredDistance ||
+                              (squared == best.squaredDistance && f < best.face);
+        if (isCloser) best = {f, closest.feature, closest.point, squared};
     }
     return best;
 }
@@ -192,8 +206,7 @@ SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
 
 double SignedDistance::distanceToFace(std::uint32_t face, const Vec3& point) const
 {
-    const auto& [a, b, c] = faces_[face].corner;
-    return (point - closestOnTriangle(point, a, b, c).point).norm();
+    return (point - closestOn(faces_[face], point).point).norm();
 }
 
 std::optional<SignedDistance::Nearest> SignedDistance::nearestFromAfar(const Vec3& point) const
@@ -248,8 +261,7 @@ FacePlace SignedDistance::placeAround(const Vec3& point, double gridValue) const
     std::array<Near, 3> nearest;  // ascending
     for (const std::uint32_t f : facesOfCell(point)) {
         const Face& face = faces_[f];
-        const Vec3 closest =
-            closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]).point;
+        const Vec3 closest = closestOn(face, point).point;
         Near next{(point - closest).norm(), f};
         for (Near& other : nearest) {
             if (next.distance < other.distance) std::swap(next, other);
@@ -301,8 +313,7 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
         const Face& face = faces_[f];
         const double height = face.normal.dot(point - face.corner[0]);
         if (std::abs(height) > tolerance) continue;
-        const ClosestOnTriangle closest =
-            closestOnTriangle(point, face.corner[0], face.corner[1], face.corner[2]);
+        const ClosestOnTriangle closest = closestOn(face, point);
         const double distance = (point - closest.point).norm();
         if (distance > tolerance) continue;
         double angle = kPi;

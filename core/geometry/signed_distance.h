@@ -134,6 +134,7 @@ private:
     struct Face {
         Vec3 corner[3];
         Vec3 normal;
+        EdgeProducts edges;
     };
     struct Border {
         Vec3 normal[6];  // by TriangleFeature: angle-weighted at corners, summed at edges
@@ -153,6 +154,7 @@ private:
         return point.cwiseMax(domain_.min).cwiseMin(domain_.max);
     }
     std::span<const std::uint32_t> facesOfCell(const Vec3& pointInDomain) const;
+    static ClosestOnTriangle closestOn(const Face& face, const Vec3& point);
     /// Of the faces that can be closest to some point of the cell that `place` is in.
     Closest closestInCell(const Vec3& point, const Vec3& place) const;
     Closest closestAmong(std::span<const std::uint32_t> faces, const Vec3& point) const;

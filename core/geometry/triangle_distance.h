@@ -13,20 +13,29 @@ struct ClosestOnTriangle {
     TriangleFeature feature;
 };
 
+/// What of a triangle's edges from its first corner does not depend on the point. [m²]
+struct EdgeProducts {
+    double abAb = 0.0, abAc = 0.0, acAc = 0.0;
+};
+
+inline EdgeProducts edgeProducts(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    const Vec3 ab = b - a, ac = c - a;
+    return {ab.squaredNorm(), ab.dot(ac), ac.squaredNorm()};
+}
+
 /// By Voronoi regions of the triangle; degenerate triangles answer with a corner or an edge.
 inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b,
-                                           const Vec3& c)
+                                           const Vec3& c, const EdgeProducts& edges)
 {
     const Vec3 ab = b - a, ac = c - a, ap = p - a;
     const double abAp = ab.dot(ap), acAp = ac.dot(ap);
     if (abAp <= 0.0 && acAp <= 0.0) return {a, TriangleFeature::a};
 
-    const Vec3 bp = p - b;
-    const double abBp = ab.dot(bp), acBp = ac.dot(bp);
+    const double abBp = abAp - edges.abAb, acBp = acAp - edges.abAc;
     if (abBp >= 0.0 && acBp <= abBp) return {b, TriangleFeature::b};
 
-    const Vec3 cp = p - c;
-    const double abCp = ab.dot(cp), acCp = ac.dot(cp);
+    const double abCp = abAp - edges.abAc, acCp = acAp - edges.acAc;
     if (acCp >= 0.0 && abCp <= acCp) return {c, TriangleFeature::c};
 
     // Signed areas opposite each corner; not positive means beyond that edge.
@@ -45,6 +54,12 @@ inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const Vec3& a, const V
     }
     const double inverseArea = 1.0 / (areaA + areaB + areaC);
     return {a + areaB * inverseArea * ab + areaC * inverseArea * ac, TriangleFeature::face};
+}
+
+inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b,
+                                           const Vec3& c)
+{
+    return closestOnTriangle(p, a, b, c, edgeProducts(a, b, c));
 }
 
 }  // namespace scree
