@@ -52,12 +52,12 @@ PlaceId placeId(const TriMesh& mesh, int triangle, TriangleFeature feature)
 
 Place nearestPlace(const TriMesh& mesh, int triangle, const Vec3& c)
 {
-    const auto corner = [&](int k) -> Vec3 { return mesh.points.col(mesh.triangles(k, triangle)); };
-    const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-    const ClosestOnTriangle closest = closestOnTriangle(c, corner(0), corner(1), corner(2));
+    const TriangleCorners corners = cornersOf(mesh, triangle);
+    const Vec3 normal = corners.normal();
+    const ClosestOnTriangle closest = closestOnTriangle(c, corners);
     // The plane's distance keeps its last bits where the square root of a square would not.
     const double distance = closest.feature == TriangleFeature::face
-                                ? std::abs(normal.dot(c - corner(0)))
+                                ? std::abs(normal.dot(c - corners.a))
                                 : (c - closest.point).norm();
     return {placeId(mesh, triangle, closest.feature), closest.point, distance, normal};
 }

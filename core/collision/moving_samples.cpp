@@ -44,10 +44,7 @@ Nearest nearestSurface(const Shape& field, const Vec3& point)
         return {sloped.value, sloped.gradient.normalized()};
     }
     const int triangle = field.rays.closestTriangle(point);
-    const auto corner = [&](int k) -> Vec3 {
-        return field.mesh.points.col(field.mesh.triangles(k, triangle));
-    };
-    const Vec3 away = point - closestOnTriangle(point, corner(0), corner(1), corner(2)).point;
+    const Vec3 away = point - closestOnTriangle(point, cornersOf(field.mesh, triangle)).point;
     const double phi = std::copysign(away.norm(), sloped.value);
     return {phi, away / phi};
 }

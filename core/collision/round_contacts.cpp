@@ -197,7 +197,7 @@ bool isOnFace(const Shape& shape, const Vec3& place, const Vec3& normal, double 
     triangles.clear();
     shape.rays.trianglesWithin(place, tolerance, triangles);
     return std::any_of(triangles.begin(), triangles.end(), [&](int triangle) {
-        return triangleNormal(shape.mesh, triangle).dot(normal) > 1.0 - kSameFace;
+        return cornersOf(shape.mesh, triangle).normal().dot(normal) > 1.0 - kSameFace;
     });
 }
 

@@ -14,14 +14,6 @@ struct EdgeFaces {
     std::array<int, 2> face = {-1, -1};
 };
 
-Vec3 faceNormal(const TriMesh& mesh, int face)
-{
-    const Vec3 a = mesh.points.col(mesh.triangles(0, face));
-    const Vec3 b = mesh.points.col(mesh.triangles(1, face));
-    const Vec3 c = mesh.points.col(mesh.triangles(2, face));
-    return (b - a).cross(c - a).normalized();
-}
-
 void addDirection(std::vector<Vec3>& directions, const Vec3& direction)
 {
     for (const Vec3& known : directions) {
@@ -74,7 +66,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
 
         ConvexEdge edge{{ends.first, ends.second}, start, direction, length, {}, {}, {}, {}};
         for (int side = 0; side < 2; ++side) {
-            edge.faceNormal[side] = faceNormal(mesh, both.face[side]);
+            edge.faceNormal[side] = cornersOf(mesh, both.face[side]).normal();
             const Vec3 across = oppositeCorner(mesh, both.face[side], ends) - start;
             edge.intoFace[side] = (across - across.dot(direction) * direction).normalized();
             addDirection(normals[ends.first], edge.faceNormal[side]);

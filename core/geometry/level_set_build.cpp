@@ -96,10 +96,7 @@ public:
         if (isAsked && isInCavity(p)) voxels = -voxels;
         const double reach = lastDistance_ + (p - lastPoint_).norm();
         const int t = rays_.closestTriangle(p, reach);
-        const Vec3 closest = closestOnTriangle(p, mesh_.points.col(mesh_.triangles(0, t)),
-                                               mesh_.points.col(mesh_.triangles(1, t)),
-                                               mesh_.points.col(mesh_.triangles(2, t)))
-                                 .point;
+        const Vec3 closest = closestOnTriangle(p, cornersOf(mesh_, t)).point;
         lastDistance_ = (p - closest).norm();
         lastPoint_ = p;
         if (isAsked) {
@@ -218,11 +215,7 @@ bool isNearSurface(const NodeSource& source, const NodeLayout& layout, const Ind
         layout.node(kBlockCells * block[0], kBlockCells * block[1], kBlockCells * block[2]) +
         Vec3::Constant(0.5 * kBlockCells * h);
     const int t = source.rays.closestTriangle(centre);
-    const Vec3 closest =
-        closestOnTriangle(centre, source.mesh.points.col(source.mesh.triangles(0, t)),
-                          source.mesh.points.col(source.mesh.triangles(1, t)),
-                          source.mesh.points.col(source.mesh.triangles(2, t)))
-            .point;
+    const Vec3 closest = closestOnTriangle(centre, cornersOf(source.mesh, t)).point;
     return (closest - centre).norm() < (kBlockCells * kHalfDiagonal + kBandVoxels) * h;
 }
 

@@ -39,11 +39,8 @@ void look(const TriMesh& from, const TriMesh& surface, bool isFirst, MeshDeviati
     const double spacing = longestEdgeOfBox(from) / kLooksAlongTheBox;
     for (Eigen::Index t = 0; t < from.triangles.cols(); ++t) {
         visitPoints(from, t, spacing, [&](const Vec3& p) {
-            const auto corners = surface.triangles.col(rays.closestTriangle(p));
             const Vec3 closest =
-                closestOnTriangle(p, surface.points.col(corners[0]), surface.points.col(corners[1]),
-                                  surface.points.col(corners[2]))
-                    .point;
+                closestOnTriangle(p, cornersOf(surface, rays.closestTriangle(p))).point;
             const double distance = (p - closest).norm();
             if (distance > farthest.distance) farthest = {distance, p, isFirst};
         });

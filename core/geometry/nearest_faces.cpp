@@ -10,8 +10,9 @@
 namespace scree {
 namespace {
 
-struct Corners {
-    Vec3 a, b, c, normal;
+struct Face {
+    TriangleCorners corners;
+    Vec3 normal;
 };
 
 /// A triangle that passes near the centre of a cell.
@@ -41,8 +42,9 @@ public:
     /// Lists the triangle in the cells it passes near. A triangle can be closest somewhere in a
     /// cell only if, seen from the cell's centre, it is at most a cell diagonal farther than the
     /// closest one, and that one is at most half a diagonal farther than the nearest node says.
-    void add(std::uint32_t face, const Corners& corners, double reach)
+    void add(std::uint32_t index, const Face& face, double reach)
     {
+        const TriangleCorners& corners = face.corners;
         const double h = layout_.spacing;
         const Vec3 low = corners.a.cwiseMin(corners.b).cwiseMin(corners.c);
         const Vec3 high = corners.a.cwiseMax(corners.b).cwiseMax(corners.c);
@@ -64,11 +66,10 @@ public:
                         layout_.node(kBlockCells * block_[0] + i, kBlockCells * block_[1] + j,
                                      kBlockCells * block_[2] + k) +
                         Vec3::Constant(0.5 * h);
-                    if (std::abs(corners.normal.dot(centre - corners.a)) > limit) continue;
-                    const Vec3 closest =
-                        closestOnTriangle(centre, corners.a, corners.b, corners.c).point;
+                    if (std::abs(face.normal.dot(centre - corners.a)) > limit) continue;
+                    const Vec3 closest = closestOnTriangle(centre, corners).point;
                     const double distance = (centre - closest).norm();
-                    if (distance <= limit) near_[cell].push_back({face, distance});
+                    if (distance <= limit) near_[cell].push_back({index, distance});
                 }
             }
         }
@@ -120,13 +121,12 @@ private:
 
 /// For every block the triangles within `reach`, ascending.
 std::vector<std::vector<std::uint32_t>> facesByBlock(const DistanceNodes& nodes,
-                                                     const std::vector<Corners>& corners,
-                                                     double reach)
+                                                     const std::vector<Face>& all, double reach)
 {
     std::vector<std::vector<std::uint32_t>> faces(nodes.blocks.size());
     const double width = kBlockCells * nodes.layout.spacing;
-    for (std::uint32_t f = 0; f < corners.size(); ++f) {
-        const Corners& face = corners[f];
+    for (std::uint32_t f = 0; f < all.size(); ++f) {
+        const TriangleCorners& face = all[f].corners;
         const Vec3 low = face.a.cwiseMin(face.b).cwiseMin(face.c) - nodes.layout.origin;
         const Vec3 high = face.a.cwiseMax(face.b).cwiseMax(face.c) - nodes.layout.origin;
         BlockCell first, last;
@@ -152,16 +152,12 @@ std::vector<std::vector<std::uint32_t>> facesByBlock(const DistanceNodes& nodes,
 
 NearestFaces findNearestFaces(const TriMesh& mesh, DistanceNodes& nodes)
 {
-    std::vector<Corners> corners;
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        corners.push_back({a, b, c, (b - a).cross(c - a).normalized()});
-    }
+    std::vector<Face> all;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f)
+        all.push_back({cornersOf(mesh, f), cornersOf(mesh, f).normal()});
     const double band = refinementBandOf(nodes.layout.spacing);
     const double reach = band + 3.0 * kHalfDiagonal * nodes.layout.spacing;
-    const std::vector<std::vector<std::uint32_t>> faces = facesByBlock(nodes, corners, reach);
+    const std::vector<std::vector<std::uint32_t>> faces = facesByBlock(nodes, all, reach);
 
     // Each block by itself, then all behind one another in the blocks' own order.
     std::vector<NearestFaces> ofBlock(nodes.blocks.size());
@@ -171,22 +167,22 @@ NearestFaces findNearestFaces(const TriMesh& mesh, DistanceNodes& nodes)
             if (block.isCoarse || block.low > band || block.high < -band) continue;
             BlockLists lists(nodes, nodes.blockAt(b));
             if (lists.isEmpty()) continue;
-            for (const std::uint32_t f : faces[b]) lists.add(f, corners[f], reach);
+            for (const std::uint32_t f : faces[b]) lists.add(f, all[f], reach);
             lists.appendTo(ofBlock[b]);
         }
     });
 
-    NearestFaces all;
+    NearestFaces together;
     for (std::size_t b = 0; b < nodes.blocks.size(); ++b) {
         const NearestFaces& own = ofBlock[b];
         if (own.start.empty()) continue;
-        nodes.blocks[b].candidates = static_cast<std::uint32_t>(all.start.size());
+        nodes.blocks[b].candidates = static_cast<std::uint32_t>(together.start.size());
         for (const std::uint32_t start : own.start) {
-            all.start.push_back(start + static_cast<std::uint32_t>(all.faces.size()));
+            together.start.push_back(start + static_cast<std::uint32_t>(together.faces.size()));
         }
-        all.faces.insert(all.faces.end(), own.faces.begin(), own.faces.end());
+        together.faces.insert(together.faces.end(), own.faces.begin(), own.faces.end());
     }
-    return all;
+    return together;
 }
 
 }  // namespace scree

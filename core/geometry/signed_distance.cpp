@@ -33,11 +33,11 @@ PseudoNormals pseudoNormals(const TriMesh& mesh)
     PseudoNormals normals;
     normals.corner.assign(mesh.points.cols(), Vec3::Zero());
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const auto point = [&](int k) -> Vec3 { return mesh.points.col(mesh.triangles(k % 3, f)); };
-        const Vec3 normal = (point(1) - point(0)).cross(point(2) - point(0)).normalized();
+        const TriangleCorners corners = cornersOf(mesh, f);
+        const Vec3 normal = corners.normal();
         normals.face.push_back(normal);
         for (int k = 0; k < 3; ++k) {
-            const double angle = angleBetween(point(k + 1) - point(k), point(k + 2) - point(k));
+            const double angle = corners.angleAt(k);
             normals.corner[mesh.triangles(k, f)] += angle * normal;
             const auto ends = std::minmax(mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f));
             normals.edge.try_emplace(ends, Vec3::Zero()).first->second += normal;
@@ -78,19 +78,16 @@ void SignedDistance::buildFaces(const TriMesh& mesh)
     faces_.resize(mesh.triangles.cols());
     borders_.resize(faces_.size());
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        Face& face = faces_[f];
+        const TriangleCorners corners = cornersOf(mesh, f);
+        faces_[f] = {corners, normals.face[f], edgeProducts(corners)};
         Border& border = borders_[f];
         for (int k = 0; k < 3; ++k) {
             const int from = mesh.triangles(k, f), to = mesh.triangles((k + 1) % 3, f);
-            face.corner[k] = mesh.points.col(from);
             border.normal[k] = normals.corner[from];
             border.normal[3 + k] = normals.edge.at(std::minmax(from, to));
         }
-        face.normal = normals.face[f];
-        face.edges = edgeProducts(face.corner[0], face.corner[1], face.corner[2]);
         for (int k = 0; k < 3; ++k) {
-            border.angle[k] = angleBetween(face.corner[(k + 1) % 3] - face.corner[k],
-                                           face.corner[(k + 2) % 3] - face.corner[k]);
+            border.angle[k] = corners.angleAt(k);
         }
     }
 }
@@ -138,12 +135,6 @@ bool SignedDistance::isClearOf(const Vec3& point, double radius) const
     return nodes.interpolate(place) - block.slack > radius;
 }
 
-ClosestOnTriangle SignedDistance::closestOn(const Face& face, const Vec3& point)
-{
-    const auto& [a, b, c] = face.corner;
-    return closestOnTriangle(point, a, b, c, face.edges);
-}
-
 SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point, const Vec3& place) const
 {
     const std::span<const std::uint32_t> candidates = facesOfCell(place);
@@ -161,12 +152,12 @@ SignedDistance::Closest SignedDistance::closestAmong(std::span<const std::uint32
     for (const std::uint32_t f : faces) {
         const Face& face = faces_[f];
         // Nothing of a triangle is closer than its plane.
-        const double height = face.normal.dot(point - face.corner[0]);
+        const double height = face.normal.dot(point - face.corners.a);
         if (height * height > best.squaredDistance + rounding) continue;
-        const ClosestOnTriangle closest = closestOn(face, point);
+        const ClosestOnTriangle closest = closestOnTriangle(point, face.corners, face.edges);
         const double squared = (point - closest.point).squaredNorm();
-        const bool isCloser = squared < best.squaredDistance ||
-                              (squared == best.squaredDistance && f < best.face);
+        const bool isCloser =
+            squared < best.squaredDistance || (squared == best.squaredDistance && f < best.face);
         if (isCloser) best = {f, closest.feature, closest.point, squared};
     }
     return best;
@@ -183,7 +174,7 @@ double SignedDistance::signedValue(const Closest& closest, const Vec3& point) co
     const Vec3& normal = normalAt(closest);
     // The plane's distance keeps its last bits where the square root of a square would not.
     if (closest.feature == TriangleFeature::face)
-        return normal.dot(point - faces_[closest.face].corner[0]);
+        return normal.dot(point - faces_[closest.face].corners.a);
     return std::copysign(std::sqrt(closest.squaredDistance), normal.dot(point - closest.point));
 }
 
@@ -206,7 +197,8 @@ SignedDistance::Nearest SignedDistance::nearest(const Vec3& point) const
 
 double SignedDistance::distanceToFace(std::uint32_t face, const Vec3& point) const
 {
-    return (point - closestOn(faces_[face], point).point).norm();
+    const Face& of = faces_[face];
+    return (point - closestOnTriangle(point, of.corners, of.edges).point).norm();
 }
 
 std::optional<SignedDistance::Nearest> SignedDistance::nearestFromAfar(const Vec3& point) const
@@ -261,7 +253,7 @@ FacePlace SignedDistance::placeAround(const Vec3& point, double gridValue) const
     std::array<Near, 3> nearest;  // ascending
     for (const std::uint32_t f : facesOfCell(point)) {
         const Face& face = faces_[f];
-        const Vec3 closest = closestOn(face, point).point;
+        const Vec3 closest = closestOnTriangle(point, face.corners, face.edges).point;
         Near next{(point - closest).norm(), f};
         for (Near& other : nearest) {
             if (next.distance < other.distance) std::swap(next, other);
@@ -294,14 +286,14 @@ FacePlace SignedDistance::placeAround(const Vec3& point, double gridValue) const
 double SignedDistance::value(const Vec3& point, const FacePlace& place) const
 {
     const Face& face = faces_[place.faces[0]];
-    if (place.faceCount == 1) return face.normal.dot(point - face.corner[0]);
+    if (place.faceCount == 1) return face.normal.dot(point - face.corners.a);
     return signedValue(closestAmong(place.faces, point), point);
 }
 
 SignedDistance::Sloped SignedDistance::sloped(const Vec3& point, const FacePlace& place) const
 {
     const Face& face = faces_[place.faces[0]];
-    if (place.faceCount == 1) return {face.normal.dot(point - face.corner[0]), face.normal};
+    if (place.faceCount == 1) return {face.normal.dot(point - face.corners.a), face.normal};
     return slopedAt(closestAmong(place.faces, point), point);
 }
 
@@ -311,14 +303,14 @@ void SignedDistance::facesNear(const Vec3& point, double tolerance,
     if (solid_) return solid_->facesNear(point, tolerance, faces);
     for (const std::uint32_t f : facesOfCell(point)) {
         const Face& face = faces_[f];
-        const double height = face.normal.dot(point - face.corner[0]);
+        const double height = face.normal.dot(point - face.corners.a);
         if (std::abs(height) > tolerance) continue;
-        const ClosestOnTriangle closest = closestOn(face, point);
+        const ClosestOnTriangle closest = closestOnTriangle(point, face.corners, face.edges);
         const double distance = (point - closest.point).norm();
         if (distance > tolerance) continue;
         double angle = kPi;
         for (int k = 0; k < 3; ++k) {
-            if ((point - face.corner[k]).norm() <= tolerance) angle = borders_[f].angle[k];
+            if ((point - face.corners[k]).norm() <= tolerance) angle = borders_[f].angle[k];
         }
         faces.push_back({face.normal, angle, height, distance});
     }

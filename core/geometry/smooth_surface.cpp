@@ -8,8 +8,6 @@
 #include <map>
 #include <utility>
 
-#include "core/math/rotation.h"
-
 namespace scree {
 namespace {
 
@@ -134,13 +132,12 @@ SmoothSurface::SmoothSurface(const TriMesh& mesh) : mesh_(mesh)
     std::map<std::pair<int, int>, std::pair<std::int32_t, int>> cornerOfEdge;
     beyond_.assign(static_cast<std::size_t>(triangleCount), {-1, -1, -1});
     for (Eigen::Index f = 0; f < triangleCount; ++f) {
-        const auto point = [&](int k) -> Vec3 { return mesh.points.col(mesh.triangles(k % 3, f)); };
-        const Vec3 normal = (point(1) - point(0)).cross(point(2) - point(0)).normalized();
+        const TriangleCorners corners = cornersOf(mesh, f);
+        const Vec3 normal = corners.normal();
         const auto triangle = static_cast<std::int32_t>(f);
         for (int k = 0; k < 3; ++k) {
             const int v = mesh.triangles(k, f);
-            normals_.col(v) +=
-                angleBetween(point(k + 1) - point(k), point(k + 2) - point(k)) * normal;
+            normals_.col(v) += corners.angleAt(k) * normal;
             ++fanStart_[static_cast<std::size_t>(v) + 1];
 
             const auto edge =

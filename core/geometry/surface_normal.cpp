@@ -22,10 +22,7 @@ constexpr double kCrossingSlack = 1e-2;
 
 Vec3 closestPoint(const TriMesh& mesh, int triangle, const Vec3& point)
 {
-    return closestOnTriangle(point, mesh.points.col(mesh.triangles(0, triangle)),
-                             mesh.points.col(mesh.triangles(1, triangle)),
-                             mesh.points.col(mesh.triangles(2, triangle)))
-        .point;
+    return closestOnTriangle(point, cornersOf(mesh, triangle)).point;
 }
 
 /// Away from the solid, whichever side the point is on; the face's normal when it lies on the
@@ -35,7 +32,7 @@ Vec3 directionFromClosest(const Shape& shape, const Vec3& point)
     const int triangle = shape.rays.closestTriangle(point);
     const Vec3 away = point - closestPoint(shape.mesh, triangle, point);
     const double distance = away.norm();
-    if (distance < 1e-9 * shape.boundingRadius) return triangleNormal(shape.mesh, triangle);
+    if (distance < 1e-9 * shape.boundingRadius) return cornersOf(shape.mesh, triangle).normal();
     return (shape.distance.value(point) < 0.0 ? -1.0 : 1.0) / distance * away;
 }
 
@@ -114,7 +111,7 @@ Vec3 trueNormal(const Shape& shape, const Approach& approach)
     if (!hit) {
         hit = facedSurface(shape, approach.point, gradientDirection(shape, approach.point), slack);
     }
-    const Vec3 normal = triangleNormal(shape.mesh, hit->triangle);
+    const Vec3 normal = cornersOf(shape.mesh, hit->triangle).normal();
     thread_local std::vector<NearFace> faces;
     faces.clear();
     shape.distance.facesNear(hit->place, kEdgeHit * shape.distance.spacing(), faces);
@@ -137,14 +134,6 @@ Vec3 exactNormal(const ExactSolid& solid, double spacing, const Approach& approa
 }
 
 }  // namespace
-
-Vec3 triangleNormal(const TriMesh& mesh, int triangle)
-{
-    const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
-    const Vec3 b = mesh.points.col(mesh.triangles(1, triangle));
-    const Vec3 c = mesh.points.col(mesh.triangles(2, triangle));
-    return (b - a).cross(c - a).normalized();
-}
 
 Vec3 surfaceNormal(const Shape& shape, const Approach& approach)
 {

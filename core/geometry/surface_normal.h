@@ -19,7 +19,4 @@ struct Approach {
 /// short), the face that a ray along the gradient meets.
 Vec3 surfaceNormal(const Shape& shape, const Approach& approach);
 
-/// Unit normal of a triangle, to the side from which its corners go round anticlockwise.
-Vec3 triangleNormal(const TriMesh& mesh, int triangle);
-
 }  // namespace scree

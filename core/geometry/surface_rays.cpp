@@ -157,11 +157,8 @@ int SurfaceRays::closestTriangle(const Vec3& point, double reach) const
         [](RTCPointQueryFunctionArguments* arguments) {
             auto& found = *static_cast<Query*>(arguments->userPtr);
             const int triangle = static_cast<int>(arguments->primID);
-            const auto corner = [&](int k) -> Vec3 {
-                return found.mesh->points.col(found.mesh->triangles(k, triangle));
-            };
             const Vec3 closest =
-                closestOnTriangle(found.point, corner(0), corner(1), corner(2)).point;
+                closestOnTriangle(found.point, cornersOf(*found.mesh, triangle)).point;
             const double distance = (found.point - closest).norm();
             if (distance > found.best || (distance == found.best && triangle > found.triangle)) {
                 return false;

@@ -5,7 +5,15 @@
 #include <tuple>
 #include <vector>
 
+#include "core/math/rotation.h"
+
 namespace scree {
+
+double TriangleCorners::angleAt(int k) const
+{
+    const Vec3& corner = (*this)[k];
+    return angleBetween((*this)[(k + 1) % 3] - corner, (*this)[(k + 2) % 3] - corner);
+}
 
 TriMesh mergeEqualPoints(const TriMesh& mesh, FlatTriangles flat)
 {

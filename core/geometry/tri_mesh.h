@@ -12,6 +12,25 @@ struct TriMesh {
     CornerUvs cornerUvs = {};  // 2×(3·#F), or empty
 };
 
+/// Where the corners of a triangle are [m].
+struct TriangleCorners {
+    Vec3 a, b, c;
+
+    const Vec3& operator[](int k) const { return k == 0 ? a : k == 1 ? b : c; }
+
+    /// Unit, to the side from which the corners go round anticlockwise; zero where they lie on a
+    /// line.
+    Vec3 normal() const { return (b - a).cross(c - a).normalized(); }
+    /// Between the edges that meet in a corner [rad].
+    double angleAt(int k) const;
+};
+
+inline TriangleCorners cornersOf(const TriMesh& mesh, Eigen::Index triangle)
+{
+    const auto corner = [&](int k) { return mesh.points.col(mesh.triangles(k, triangle)); };
+    return {corner(0), corner(1), corner(2)};
+}
+
 /// Triangles two of whose corners are one point.
 enum class FlatTriangles { drop, keep };
 

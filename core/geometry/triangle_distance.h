@@ -1,7 +1,7 @@
 // Closest point of a triangle, and which of its features (face, edges, corners) holds it.
 #pragma once
 
-#include "core/math/types.h"
+#include "core/geometry/tri_mesh.h"
 
 namespace scree {
 
@@ -18,16 +18,17 @@ struct EdgeProducts {
     double abAb = 0.0, abAc = 0.0, acAc = 0.0;
 };
 
-inline EdgeProducts edgeProducts(const Vec3& a, const Vec3& b, const Vec3& c)
+inline EdgeProducts edgeProducts(const TriangleCorners& of)
 {
-    const Vec3 ab = b - a, ac = c - a;
+    const Vec3 ab = of.b - of.a, ac = of.c - of.a;
     return {ab.squaredNorm(), ab.dot(ac), ac.squaredNorm()};
 }
 
 /// By Voronoi regions of the triangle; degenerate triangles answer with a corner or an edge.
-inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b,
-                                           const Vec3& c, const EdgeProducts& edges)
+inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const TriangleCorners& corners,
+                                           const EdgeProducts& edges)
 {
+    const auto& [a, b, c] = corners;
     const Vec3 ab = b - a, ac = c - a, ap = p - a;
     const double abAp = ab.dot(ap), acAp = ac.dot(ap);
     if (abAp <= 0.0 && acAp <= 0.0) return {a, TriangleFeature::a};
@@ -56,10 +57,9 @@ inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const Vec3& a, const V
     return {a + areaB * inverseArea * ab + areaC * inverseArea * ac, TriangleFeature::face};
 }
 
-inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b,
-                                           const Vec3& c)
+inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const TriangleCorners& corners)
 {
-    return closestOnTriangle(p, a, b, c, edgeProducts(a, b, c));
+    return closestOnTriangle(p, corners, edgeProducts(corners));
 }
 
 }  // namespace scree

@@ -24,10 +24,9 @@ double plainDistance(const TriMesh& mesh, const Vec3& p)
 {
     double nearest = 1e300, angle = 0.0;
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        nearest = std::min(nearest, (p - closestOnTriangle(p, a, b, c).point).norm());
+        const TriangleCorners corners = cornersOf(mesh, f);
+        nearest = std::min(nearest, (p - closestOnTriangle(p, corners).point).norm());
+        const auto& [a, b, c] = corners;
         const Vec3 u = a - p, v = b - p, w = c - p;
         const double lu = u.norm(), lv = v.norm(), lw = w.norm();
         angle += 2.0 * std::atan2(u.dot(v.cross(w)),

@@ -72,13 +72,10 @@ struct PoseJudge::Solid {
     /// where that is inside a face, the face tells the side.
     double signedDistance(const Vec3& p) const
     {
-        const int f = rays.closestTriangle(p);
-        std::array<Vec3, 3> corner;
-        for (int k = 0; k < 3; ++k) corner[k] = mesh.points.col(mesh.triangles(k, f));
-        const auto [q, feature] = closestOnTriangle(p, corner[0], corner[1], corner[2]);
-        const Vec3 outward = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-        const bool isInside =
-            feature == TriangleFeature::face ? outward.dot(p - q) < 0.0 : winding->at(p) > 0.5;
+        const TriangleCorners corners = cornersOf(mesh, rays.closestTriangle(p));
+        const auto [q, feature] = closestOnTriangle(p, corners);
+        const bool isInside = feature == TriangleFeature::face ? corners.normal().dot(p - q) < 0.0
+                                                               : winding->at(p) > 0.5;
         return isInside ? -(p - q).norm() : (p - q).norm();
     }
 
