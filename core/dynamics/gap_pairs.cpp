@@ -7,7 +7,6 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
-#include "core/base/sorted.h"
 
 namespace scree {
 namespace {
