@@ -29,6 +29,9 @@ TEST(RoundRims, OnlyFineCurvesThatBendOutwardAreRims)
     EXPECT_EQ(bulgeOf(makeBox(Vec3::Ones(), {3, 3, 3})), 0.0);
     EXPECT_EQ(bulgeOf(makeTorus(1.0, 0.25, {16, 10})), 0.0);  // the rings of figure 1
     EXPECT_EQ(bulgeOf(makeCylinder(kRadius, 1.0, 16, 2)), 0.0);
+    // The sides go on into edges of the ends, which curve; with five rings these go on, too.
+    EXPECT_EQ(bulgeOf(makeCapsule(0.2, 0.4, 16, 4)), 0.0);
+    EXPECT_LT(bulgeOf(makeCapsule(0.2, 0.4, 16, 5)), 0.003);
     // Between two corners a circle rises by r (1 − cos π/n).
     for (const int sectors : {20, 128}) {
         const double rise = kRadius * (1.0 - std::cos(kPi / sectors));
