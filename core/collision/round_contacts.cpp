@@ -13,7 +13,7 @@ namespace scree {
 namespace {
 
 using Kind = ContactPart::Kind;
-using Search = SmoothSurface::Search;
+using Search = RoundSearch;
 using Result = Rounding::Result;
 
 constexpr int kMostTurns = 12;
@@ -61,13 +61,13 @@ public:
         if (part.kind == Kind::ball) {
             isRound_ = true;
             place_ = {translation, 0.0, shape.distance.solid()->half().x() * Mat3::Identity()};
-        } else if (shape.smooth.hasRoundFacets()) {
+        } else if (!shape.roundFacets.isEmpty()) {
             findFacet(rotation.transpose() * (near - translation), rotation.transpose() * outward);
         }
         if (facet_ < 0 && part.kind == Kind::corner) rim_ = shape.rims.atCorner(part.index);
         if (facet_ < 0 && part.kind == Kind::edge) rim_ = shape.rims.ofEdge(part.index);
         isRound_ = isRound_ || isRoundMesh();
-        if (isSide_) axis_ = rotation * *shape.smooth.axisOf(facet_);
+        if (isSide_) axis_ = rotation * *shape.roundFacets.axisOf(facet_);
         if (isRound_) return;
         place_ = {near, 0.0, Mat3::Zero()};
         if (part.kind == Kind::edge) axis_ = rotation * edge().direction;
@@ -90,9 +90,9 @@ public:
             return Search::found;
         }
         const Vec3 own = rotation_.transpose() * outward;
-        const Search search = isSide_     ? shape_.smooth.findAcross(facet_, own, place_)
+        const Search search = isSide_     ? shape_.roundFacets.findAcross(facet_, own, place_)
                               : rim_ >= 0 ? shape_.rims.findFacing(rim_, own, place_)
-                                          : shape_.smooth.findFacing(facet_, own, place_);
+                                          : shape_.roundFacets.findFacing(facet_, own, place_);
         place_.point = rotation_ * place_.point + translation_;
         place_.advance = rotation_ * place_.advance * rotation_.transpose();
         return search;
@@ -105,7 +105,7 @@ public:
         if (isSide_) {
             const Vec3 opposite = other - outward.dot(other - place_.point) * outward;
             const Vec3 here = rotation_.transpose() * (opposite - translation_);
-            return shape_.smooth.axisOf(shape_.rays.closestTriangle(here)).has_value();
+            return shape_.roundFacets.axisOf(shape_.rays.closestTriangle(here)).has_value();
         }
         if (place_.isPastEnd) return false;
         if (isRound_ || part_.kind == Kind::face) return true;
@@ -147,14 +147,14 @@ private:
         std::int32_t vertex = part_.index;
         if (part_.kind == Kind::edge) {
             vertex = edge().ends[0];
-            facet_ = shape_.smooth.sideAtEdge(vertex, edge().ends[1]);
+            facet_ = shape_.roundFacets.sideAtEdge(vertex, edge().ends[1]);
         } else if (part_.kind == Kind::face) {
             facet_ = shape_.rays.closestTriangle(near);
             vertex = nearestVertex(shape_, facet_, near);
         }
-        const auto isOfSide = [&] { return facet_ >= 0 && shape_.smooth.axisOf(facet_); };
+        const auto isOfSide = [&] { return facet_ >= 0 && shape_.roundFacets.axisOf(facet_); };
         if (part_.kind == Kind::corner || !isOfSide())
-            facet_ = shape_.smooth.roundFacetAt(vertex, outward);
+            facet_ = shape_.roundFacets.atVertex(vertex, outward);
         isSide_ = isOfSide();
     }
 

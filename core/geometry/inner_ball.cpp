@@ -8,10 +8,7 @@ Points pointsInside(const TriMesh& mesh, double thickness)
 {
     Points normals = Points::Zero(3, mesh.points.cols());
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        const Vec3 normal = (b - a).cross(c - a);
+        const Vec3 normal = cornersOf(mesh, f).areaVector();
         for (int k = 0; k < 3; ++k) normals.col(mesh.triangles(k, f)) += normal;
     }
     Points inside = mesh.points;

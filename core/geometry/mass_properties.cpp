@@ -66,9 +66,7 @@ MassProperties massProperties(const TriMesh& mesh)
     // origin).
     Vec3 firstMoment = Vec3::Zero();
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f)) - base;
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f)) - base;
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f)) - base;
+        const auto [a, b, c] = cornersOf(mesh, f).seenFrom(base);
         const double d = a.dot(b.cross(c));
         result.volume += d / 6.0;
         result.area += 0.5 * (b - a).cross(c - a).norm();

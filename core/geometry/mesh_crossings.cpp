@@ -13,22 +13,11 @@ namespace {
 
 constexpr double kTouching = 1e-6;  // of the mesh's diagonal
 
-struct Corners {
-    Vec3 a, b, c;
-};
-
-Corners cornersOf(const TriMesh& mesh, int triangle)
-{
-    return {mesh.points.col(mesh.triangles(0, triangle)),
-            mesh.points.col(mesh.triangles(1, triangle)),
-            mesh.points.col(mesh.triangles(2, triangle))};
-}
-
 /// Where the edge pq goes through the triangle; both ends are farther from its plane, and the
 /// crossing farther from its border, than `tolerance`.
-std::optional<Vec3> pierce(const Corners& t, const Vec3& p, const Vec3& q, double tolerance)
+std::optional<Vec3> pierce(const TriangleCorners& t, const Vec3& p, const Vec3& q, double tolerance)
 {
-    const Vec3 n = (t.b - t.a).cross(t.c - t.a);
+    const Vec3 n = t.areaVector();
     const double length = n.norm();
     if (!(length > 0.0)) return std::nullopt;
     const double above = n.dot(p - t.a) / length, below = n.dot(q - t.a) / length;
@@ -79,7 +68,7 @@ std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
     std::set<std::tuple<int, int, int>> seen;  // an edge has two faces and is told once
     std::vector<MeshCrossing> crossings;
     const auto test = [&](int pierced, int other) {
-        const Corners corners = cornersOf(mesh, pierced);
+        const TriangleCorners corners = cornersOf(mesh, pierced);
         for (int k = 0; k < 3; ++k) {
             const int p = mesh.triangles(k, other), q = mesh.triangles((k + 1) % 3, other);
             const auto place = pierce(corners, mesh.points.col(p), mesh.points.col(q), tolerance);

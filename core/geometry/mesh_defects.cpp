@@ -91,10 +91,8 @@ void findBadEdges(const TriMesh& mesh, DefectList& defects)
 void findFlatTriangles(const TriMesh& mesh, DefectList& defects)
 {
     for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        if (!((b - a).cross(c - a).norm() > 0.0)) defects.add("zero-area triangle", f, a);
+        const TriangleCorners corners = cornersOf(mesh, f);
+        if (!(corners.areaVector().norm() > 0.0)) defects.add("zero-area triangle", f, corners.a);
     }
 }
 
@@ -125,10 +123,7 @@ void findMisplacedParts(const TriMesh& mesh, DefectList& defects)
     for (const std::vector<int>& triangles : trianglesOf) {
         const TriMesh alone = partOfMesh(mesh, triangles);
         const int first = triangles.front();
-        const Vec3 place =
-            (mesh.points.col(mesh.triangles(0, first)) + mesh.points.col(mesh.triangles(1, first)) +
-             mesh.points.col(mesh.triangles(2, first))) /
-            3.0;
+        const Vec3 place = cornersOf(mesh, first).middle();
         const double others = whole.at(place) - WindingNumber(alone).at(place);
         const double wanted = signedVolume(alone) > 0.0 ? 0.0 : 1.0;
         if (others > wanted - 0.5 && others < wanted + 0.5) continue;

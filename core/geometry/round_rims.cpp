@@ -6,12 +6,6 @@
 namespace scree {
 namespace {
 
-using Search = SmoothSurface::Search;
-
-/// An edge is sharp where its faces differ by more than 20° (this is the cosine), and a rim where
-/// it turns by less than that into the next: as facets are round.
-constexpr double kFine = 0.93969262078590838;
-
 constexpr int kMostSteps = 3;    // edges
 constexpr double kAtEnd = 1e-9;  // a slope that is none
 
@@ -35,7 +29,7 @@ double curvature(const Vec3& away, const Vec3& back)
 
 bool isFine(const Vec3& away, const Vec3& back)
 {
-    return away.normalized().dot(-back.normalized()) >= kFine;
+    return away.normalized().dot(-back.normalized()) >= kFineTurn;
 }
 
 /// An edge as seen from one of its ends.
@@ -100,7 +94,8 @@ RoundRims::RoundRims(const ContactFeatures& features)
     const std::vector<ConvexEdge>& edges = features.edges();
     std::vector<std::int32_t> sharp;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        if (edges[e].faceNormal[0].dot(edges[e].faceNormal[1]) < kFine)
+        // What is less sharp is left to the facets.
+        if (edges[e].faceNormal[0].dot(edges[e].faceNormal[1]) < kFineTurn)
             sharp.push_back(static_cast<std::int32_t>(e));
     }
     const std::vector<Meeting> at = sharpAtCorners(features, sharp);
@@ -141,16 +136,16 @@ RoundRims::RoundRims(const ContactFeatures& features)
     }
 }
 
-Search RoundRims::findFacing(std::int32_t& rim, const Vec3& direction, RoundPlace& place) const
+RoundSearch RoundRims::findFacing(std::int32_t& rim, const Vec3& direction, RoundPlace& place) const
 {
     for (int step = 0; step <= kMostSteps; ++step) {
         const Rim& here = rims_[rim];
         const double a = here.tangents[0].dot(direction), b = here.tangents[1].dot(direction);
         const Vec3 turn = here.tangents[1] - here.tangents[0];
-        if (a - b <= std::max(kBends * turn.norm(), kAtEnd)) return Search::notRound;
+        if (a - b <= std::max(kBends * turn.norm(), kAtEnd)) return RoundSearch::notRound;
         if (a >= -kAtEnd && b <= kAtEnd) {
             for (const Vec3& into : here.intoFace) {
-                if (into.dot(direction) > kSupportSlack) return Search::elsewhere;
+                if (into.dot(direction) > kSupportSlack) return RoundSearch::elsewhere;
             }
             const double s = std::clamp(a / (a - b), 0.0, 1.0);
             const Vec3 chord = here.ends[1] - here.ends[0];
@@ -159,13 +154,13 @@ Search RoundRims::findFacing(std::int32_t& rim, const Vec3& direction, RoundPlac
             const Vec3 tangent = here.tangents[0] + s * turn;
             place = {here.ends[0] + s * chord, 0.5 * s * (1.0 - s) * chord.norm() * (a - b),
                      chord / (a - b) * tangent.transpose()};
-            return Search::found;
+            return RoundSearch::found;
         }
         const std::int32_t next = here.next[a < 0.0 ? 0 : 1];
-        if (next < 0) return Search::notRound;
+        if (next < 0) return RoundSearch::notRound;
         rim = next;
     }
-    return Search::elsewhere;
+    return RoundSearch::elsewhere;
 }
 
 }  // namespace scree

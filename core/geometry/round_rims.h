@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/geometry/contact_features.h"
-#include "core/geometry/smooth_surface.h"
+#include "core/geometry/round_place.h"
 
 namespace scree {
 
@@ -29,10 +29,9 @@ public:
     std::int32_t atCorner(std::int32_t corner) const { return of(rimOfCorner_, corner); }
     std::int32_t ofEdge(std::int32_t edge) const { return of(rimOfEdge_, edge); }
 
-    /// As SmoothSurface::findFacing. `notRound`: the rim, too, lies almost flat that way, as that
+    /// As RoundFacets::findFacing. `notRound`: the rim, too, lies almost flat that way, as that
     /// of a standing can on the ground, or another rim or an edge goes on from there.
-    SmoothSurface::Search findFacing(std::int32_t& rim, const Vec3& direction,
-                                     RoundPlace& place) const;
+    RoundSearch findFacing(std::int32_t& rim, const Vec3& direction, RoundPlace& place) const;
 
 private:
     /// Between two corners of the mesh.

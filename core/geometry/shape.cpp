@@ -33,13 +33,10 @@ double measureThickness(const TriMesh& mesh, const SurfaceRays& rays, const Aabb
     double totalArea = 0.0;
     const double below = 1e-5 * box.diagonal();
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        const Vec3 scaledNormal = (b - a).cross(c - a);
-        const double area = 0.5 * scaledNormal.norm();
-        const Vec3 inward = -scaledNormal.normalized();
-        const Vec3 origin = (a + b + c) / 3.0 + below * inward;
+        const TriangleCorners corners = cornersOf(mesh, f);
+        const double area = corners.areaVector().norm();
+        const Vec3 inward = -corners.normal();
+        const Vec3 origin = corners.middle() + below * inward;
         const auto hit = rays.firstHit(origin, inward, box.diagonal(), SurfaceRays::Facing::along);
         if (!hit) continue;
         samples.push_back({below + hit->distance, area});
@@ -184,7 +181,10 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
     shape.samples = makeSurfaceSamples(shape.mesh, withEdges);
     shape.features = ContactFeatures(shape.mesh);
     shape.rims = RoundRims(shape.features);
-    if (!shape.usesTrueNormals) shape.smooth = SmoothSurface(shape.mesh);
+    if (!shape.usesTrueNormals) {
+        shape.smooth = SmoothSurface(shape.mesh);
+        shape.roundFacets = RoundFacets(shape.mesh);
+    }
 
     const double spacing = chooseSpacing(name, settings, shape.box, shape.innerThickness);
     shape.distance =

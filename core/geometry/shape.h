@@ -18,6 +18,7 @@
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/mesh_deviation.h"
 #include "core/geometry/mesh_repair.h"
+#include "core/geometry/round_facets.h"
 #include "core/geometry/round_rims.h"
 #include "core/geometry/signed_distance.h"
 #include "core/geometry/smooth_surface.h"
@@ -86,10 +87,11 @@ struct Shape {
     ContactFeatures features;  ///< empty for a plane and round exact solids
     SurfaceRays rays;          ///< empty for a plane and exact solids
     SmoothSurface smooth;      ///< empty for sharp meshes, planes and exact solids  [A40]
+    RoundFacets roundFacets;   ///< empty for the same
     RoundRims rims;            ///< empty where there are no features
 
     /// No place of the mesh lies farther below what it stands for than this [m].
-    double bulge() const { return std::max(smooth.bulge(), rims.bulge()); }
+    double bulge() const { return std::max(roundFacets.bulge(), rims.bulge()); }
 
     // Those of a plane have no end [m].
     double thickness() const { return isPlane ? kEndless : innerThickness; }

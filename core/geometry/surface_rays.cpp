@@ -134,12 +134,10 @@ std::optional<SurfaceRays::Hit> SurfaceRays::firstHit(const Vec3& origin, const 
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
     const int triangle = static_cast<int>(query.hit.primID);
-    const Vec3 a = scene_->mesh.points.col(scene_->mesh.triangles(0, triangle));
-    const Vec3 b = scene_->mesh.points.col(scene_->mesh.triangles(1, triangle));
-    const Vec3 c = scene_->mesh.points.col(scene_->mesh.triangles(2, triangle));
-    const Vec3 normal = (b - a).cross(c - a);
+    const TriangleCorners corners = cornersOf(scene_->mesh, triangle);
+    const Vec3 normal = corners.areaVector();
     const double along = normal.dot(direction);
-    const double distance = along != 0.0 ? normal.dot(a - origin) / along : query.ray.tfar;
+    const double distance = along != 0.0 ? normal.dot(corners.a - origin) / along : query.ray.tfar;
     return Hit{triangle, distance};
 }
 

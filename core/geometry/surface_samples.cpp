@@ -18,10 +18,7 @@ std::map<std::pair<int, int>, double> dihedralAngles(const TriMesh& mesh)
     std::map<std::pair<int, int>, Vec3> firstNormal;
     std::map<std::pair<int, int>, double> angles;
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        const Vec3 normal = (b - a).cross(c - a);
+        const Vec3 normal = cornersOf(mesh, f).areaVector();
         for (int k = 0; k < 3; ++k) {
             const auto ends = std::minmax(mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f));
             const auto [entry, isNew] = firstNormal.try_emplace(ends, normal);

@@ -91,9 +91,7 @@ double signedVolume(const TriMesh& mesh)
     const Vec3 base = mesh.points.col(mesh.triangles(0, 0));
     double sum = 0.0;
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f)) - base;
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f)) - base;
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f)) - base;
+        const auto [a, b, c] = cornersOf(mesh, f).seenFrom(base);
         sum += a.dot(b.cross(c));
     }
     return sum / 6.0;

@@ -16,11 +16,16 @@ struct TriMesh {
 struct TriangleCorners {
     Vec3 a, b, c;
 
+    TriangleCorners seenFrom(const Vec3& place) const { return {a - place, b - place, c - place}; }
+
     const Vec3& operator[](int k) const { return k == 0 ? a : k == 1 ? b : c; }
 
     /// Unit, to the side from which the corners go round anticlockwise; zero where they lie on a
     /// line.
     Vec3 normal() const { return (b - a).cross(c - a).normalized(); }
+    /// The same, as long as the triangle is large [m²].
+    Vec3 areaVector() const { return 0.5 * (b - a).cross(c - a); }
+    Vec3 middle() const { return (a + b + c) / 3.0; }
     /// Between the edges that meet in a corner [rad].
     double angleAt(int k) const;
 };

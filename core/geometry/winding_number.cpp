@@ -22,14 +22,6 @@ double angleOf(double y, double x)
     return y < 0.0 ? -angle : angle;
 }
 
-Vec3 areaVector(const TriMesh& mesh, int triangle)
-{
-    const Vec3 a = mesh.points.col(mesh.triangles(0, triangle));
-    const Vec3 b = mesh.points.col(mesh.triangles(1, triangle));
-    const Vec3 c = mesh.points.col(mesh.triangles(2, triangle));
-    return 0.5 * (b - a).cross(c - a);
-}
-
 }  // namespace
 
 WindingNumber::WindingNumber(const TriMesh& mesh)
@@ -52,7 +44,7 @@ int WindingNumber::build(int begin, int end)
     Vec3 low = centroids_.col(order_[begin]), high = low, weighted = Vec3::Zero();
     double area = 0.0;
     for (int i = begin; i < end; ++i) {
-        const Vec3 flux = areaVector(mesh_, order_[i]);
+        const Vec3 flux = cornersOf(mesh_, order_[i]).areaVector();
         const Vec3 centroid = centroids_.col(order_[i]);
         node.flux += flux;
         weighted += flux.norm() * centroid;
@@ -88,9 +80,7 @@ int WindingNumber::build(int begin, int end)
 // [OS83]
 double WindingNumber::solidAngle(int triangle, const Vec3& point) const
 {
-    const Vec3 a = mesh_.points.col(mesh_.triangles(0, triangle)) - point;
-    const Vec3 b = mesh_.points.col(mesh_.triangles(1, triangle)) - point;
-    const Vec3 c = mesh_.points.col(mesh_.triangles(2, triangle)) - point;
+    const auto [a, b, c] = cornersOf(mesh_, triangle).seenFrom(point);
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     const double volume = a.dot(b.cross(c));
     const double rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;

@@ -29,12 +29,7 @@ Points faceNormals(const TriMesh& mesh)
 {
     Points normals(3, mesh.triangles.cols());
     for (Eigen::Index f = 0; f < normals.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        const Vec3 normal = (b - a).cross(c - a);
-        const double length = normal.norm();
-        normals.col(f) = length > 0.0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
+        normals.col(f) = cornersOf(mesh, f).normal();
     }
     return normals;
 }

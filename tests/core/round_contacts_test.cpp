@@ -248,7 +248,7 @@ TriMesh roundedBox(double radius)
 TEST(RoundContacts, CoarseAndSharpShapesAreNotRoundAndFineOnesAre)
 {
     const auto isRound = [](const TriMesh& mesh) {
-        return buildMeshShape("shape", mesh)->smooth.hasRoundFacets();
+        return !buildMeshShape("shape", mesh)->roundFacets.isEmpty();
     };
     EXPECT_FALSE(isRound(makeTorus(1.0, 0.25, {16, 10})));  // the rings of figure 1
     EXPECT_FALSE(isRound(makeCylinder(0.25, 8.0, 20, 21)));
@@ -369,7 +369,7 @@ TEST(RoundContacts, AnEggComesToRestOnItsSideWithoutHovering)
     for (int i = 0; i < 600; ++i) stepper.step(world, 1.0 / 96.0);
     EXPECT_LT(world.motion[body].velocity.norm(), 1e-3);
     EXPECT_GT(heightOf(world, body), -1e-4 * egg->boundingRadius);
-    EXPECT_LT(heightOf(world, body), egg->smooth.bulge());
+    EXPECT_LT(heightOf(world, body), egg->roundFacets.bulge());
 }
 
 }  // namespace

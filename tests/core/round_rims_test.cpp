@@ -55,7 +55,7 @@ TEST(RoundRims, ARimIsFacedWhereItsCircleIs)
         ASSERT_GE(rim, 0);
         RoundPlace place;
         const Vec3 own = shape->bodyFromAsset.orientation * down;
-        ASSERT_EQ(shape->rims.findFacing(rim, own, place), SmoothSurface::Search::found);
+        ASSERT_EQ(shape->rims.findFacing(rim, own, place), RoundSearch::found);
         const Vec3 onCircle =
             kRadius * across + std::copysign(0.5, points(1, lowest)) * Vec3::UnitY();
         const Vec3 smooth = inverse(shape->bodyFromAsset) * place.point + place.bulge * down;
@@ -80,12 +80,12 @@ TEST(RoundRims, TheFacedPlaceAdvancesAsItSays)
         (faced.transpose() * shape->mesh.points).maxCoeff(&lowest);
         std::int32_t rim = shape->rims.atCorner(static_cast<std::int32_t>(lowest));
         RoundPlace here, there;
-        ASSERT_EQ(shape->rims.findFacing(rim, faced, here), SmoothSurface::Search::found);
+        ASSERT_EQ(shape->rims.findFacing(rim, faced, here), RoundSearch::found);
         for (const Vec3& aside : {faced.unitOrthogonal(), faced.cross(faced.unitOrthogonal())}) {
             const Vec3 change = kTurn * aside;
             std::int32_t next = rim;
             ASSERT_EQ(shape->rims.findFacing(next, (faced + change).normalized(), there),
-                      SmoothSurface::Search::found);
+                      RoundSearch::found);
             if (next != rim) continue;  // beyond the corner the chord is another
             const Vec3 moved = there.point - here.point;
             EXPECT_LE((here.advance * change - moved).norm(), 1e-4 * moved.norm() + 1e-12) << i;

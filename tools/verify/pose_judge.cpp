@@ -32,9 +32,7 @@ std::vector<Vec3> sampleFaces(const TriMesh& mesh, double spacing)
     std::vector<Vec3> samples;
     for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) samples.push_back(mesh.points.col(v));
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        const auto [a, b, c] = cornersOf(mesh, f);
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
         const int n = std::max(2, static_cast<int>(std::ceil(longest / spacing)));
         for (int i = 0; i <= n; ++i) {
