@@ -1,4 +1,4 @@
-// Where an exact ball touches: every place of the other surface to which the ball is nearer than to
+// Where a ball touches: every place of the other surface to which the ball is nearer than to
 // all that surrounds the place.  [A9; algorithm 14]
 //
 // Of a convex solid there is one such place, and the distance field of the solid tells it. Of a
@@ -24,10 +24,7 @@ struct BallContact {
     FeatureContact contact;
 };
 
-/// Whether a shape is an exact sphere.
-bool isBall(const Shape& shape);
-
-/// Of the first shape, an exact ball, all contacts with gaps below `reach` [m], ordered by place.
+/// Of the first shape, a ball, all contacts with gaps below `reach` [m], ordered by place.
 void findBallContacts(const RelativePair& pair, double reach, std::vector<BallContact>& found);
 
 }  // namespace scree

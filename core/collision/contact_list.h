@@ -43,11 +43,15 @@ public:
     {
     }
 
-    /// What a pair of parts has found, or what they stand for.
-    void add(const RelativePair& way, ContactPart ofFirst, ContactPart ofSecond,
+    /// What a pair of parts has found, or what they stand for. Answers whether that is where they
+    /// touch.
+    bool add(const RelativePair& way, ContactPart ofFirst, ContactPart ofSecond,
              const ToWorld& toWorld, std::uint64_t feature, const FeatureContact& found)
     {
-        if (!isRound_) return add(toWorld(feature, found));
+        if (!isRound_) {
+            add(toWorld(feature, found));
+            return true;
+        }
         const Rounding rounding = roundContact(way, ofFirst, ofSecond, found);
         if (rounding.result == Rounding::Result::none) {
             if (found.gap < reach_) add(toWorld(feature, found));
@@ -58,6 +62,7 @@ public:
                                                  : std::pair(rounding.second, rounding.first);
             add(toWorld(featureId(FeatureKind::round, a, b), rounding.contact));
         }
+        return rounding.result != Rounding::Result::elsewhere;
     }
 
     /// Where two corners meet, or an edge ends on another, several features say the same.

@@ -53,16 +53,24 @@ struct BothWays {
     }
 };
 
-/// Of a pair of which one is an exact ball.
+/// Of a pair of which one is a ball.
 void addBallContacts(const BothWays& ways, double reach, ContactList& list)
 {
-    const bool isA = isBall(ways.pair.first);
+    const bool isA = ways.pair.first.isBall();
     const RelativePair& way = isA ? ways.pair : ways.back;
     thread_local std::vector<BallContact> found;
     findBallContacts(way, reach, found);
     for (const BallContact& ball : found) {
-        const std::uint64_t feature = featureId(FeatureKind::ball, ball.place[0], ball.place[1]);
-        list.add(way, {Part::ball}, {Part::face}, isA ? ways.ofA : ways.ofB, feature, ball.contact);
+        const auto [one, other] = ball.place;
+        const auto add = [&](ContactPart ofSecond) {
+            return list.add(way, {Part::ball}, ofSecond, isA ? ways.ofA : ways.ofB,
+                            featureId(FeatureKind::ball, one, other), ball.contact);
+        };
+        // Where one round part goes over into another, as at the end of the side of a capsule, the
+        // triangle may be of the wrong one.
+        const bool isFace = other == 0;
+        if (add({Part::face}) || isFace) continue;
+        if (!add({Part::corner, one - 1}) && other != one) add({Part::corner, other - 1});
     }
 }
 
@@ -155,9 +163,9 @@ double apartAtLeast(const PlacedPair& bodies)
     const auto ofBall = [](const RelativePair& way) {
         return way.second.distance.lowerBound(way.translation) - way.first.boundingRadius;
     };
-    const double apart = isBall(pair.first)    ? ofBall(pair)
-                         : isBall(pair.second) ? ofBall(back)
-                                               : apartAtLeast(pair, back);
+    const double apart = pair.first.isBall()    ? ofBall(pair)
+                         : pair.second.isBall() ? ofBall(back)
+                                                : apartAtLeast(pair, back);
     return apart - bulgeOf(pair);
 }
 
@@ -178,7 +186,7 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     ContactList list(contacts, smaller, reach, bulge > 0.0);
     reach += bulge;
 
-    if (isBall(shapeA) || isBall(shapeB)) {
+    if (shapeA.isBall() || shapeB.isBall()) {
         addBallContacts(ways, reach, list);
         list.finish();
         return 0.0;

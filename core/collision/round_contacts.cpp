@@ -60,8 +60,8 @@ public:
     {
         if (part.kind == Kind::ball) {
             isRound_ = true;
-            place_ = {translation, 0.0, shape.distance.solid()->half().x() * Mat3::Identity()};
-        } else if (!shape.roundFacets.isEmpty()) {
+            place_ = {translation, 0.0, shape.ballRadius * Mat3::Identity()};
+        } else if (!shape.isBall() && !shape.roundFacets.isEmpty()) {
             findFacet(rotation.transpose() * (near - translation), rotation.transpose() * outward);
         }
         if (facet_ < 0 && part.kind == Kind::corner) rim_ = shape.rims.atCorner(part.index);
@@ -86,7 +86,7 @@ public:
     {
         if (!isRound_) return Search::found;
         if (part_.kind == Kind::ball) {
-            place_.point = translation_ + shape_.distance.solid()->half().x() * outward;
+            place_.point = translation_ + shape_.ballRadius * outward;
             return Search::found;
         }
         const Vec3 own = rotation_.transpose() * outward;

@@ -28,6 +28,12 @@ Sphere meetingPlace(const World& world, BodyPair bodies, double way)
     return {a.centre + share * fromAToB, std::sqrt(std::max(ofCircle, 0.0))};
 }
 
+/// What of a turn of a body moves its surface.
+Vec3 shownOf(const World& world, BodyId body, const Vec3& turn)
+{
+    return world.shapeOf(body).shownOf(turn, world.motion[body].orientation);
+}
+
 }  // namespace
 
 GapPace paceOf(const World& world, const GapScratch& scratch, BodyId body, double dt)
@@ -36,7 +42,8 @@ GapPace paceOf(const World& world, const GapScratch& scratch, BodyId body, doubl
     const Shape& shape = world.shapeOf(body);
     GapPace pace{b.velocity.norm(), 0.0, b.pull.norm()};
     if (!shape.isPlane) {
-        const double spin = b.spin.norm() + dt * (b.inverseInertia * b.torque).norm();
+        const double spin = shownOf(world, body, b.spin).norm() +
+                            dt * shownOf(world, body, b.inverseInertia * b.torque).norm();
         pace.bySpin = spin * shape.boundingRadius;
     }
     return pace;
@@ -46,13 +53,19 @@ double farthestApproach(const World& world, BodyPair bodies, const RigidMotion& 
                         const RigidMotion& ofB)
 {
     const Shape &shapeA = world.shapeOf(bodies.a), &shapeB = world.shapeOf(bodies.b);
+    const Vec3 shownA = shownOf(world, bodies.a, ofA.turn);
+    const Vec3 shownB = shownOf(world, bodies.b, ofB.turn);
     const double byTurns =
-        ofA.turn.norm() * shapeA.boundingRadius + ofB.turn.norm() * shapeB.boundingRadius;
+        shownA.norm() * shapeA.boundingRadius + shownB.norm() * shapeB.boundingRadius;
     const double anywhere = (ofA.shift - ofB.shift).norm() + byTurns;
     const Sphere place = meetingPlace(world, bodies, anywhere);
-    const Vec3 a = ofA.shift + ofA.turn.cross(place.centre - world.motion[bodies.a].position);
-    const Vec3 b = ofB.shift + ofB.turn.cross(place.centre - world.motion[bodies.b].position);
-    const double there = (a - b).norm() + (ofA.turn - ofB.turn).norm() * place.radius;
+    // What rolls on another goes with it where they meet. All of a body may meet a plane, and of
+    // that its own turns move what shows.
+    const Vec3& turnA = shapeB.isPlane ? shownA : ofA.turn;
+    const Vec3& turnB = shapeA.isPlane ? shownB : ofB.turn;
+    const Vec3 a = ofA.shift + turnA.cross(place.centre - world.motion[bodies.a].position);
+    const Vec3 b = ofB.shift + turnB.cross(place.centre - world.motion[bodies.b].position);
+    const double there = (a - b).norm() + (turnA - turnB).norm() * place.radius;
     return shapeA.isPlane || shapeB.isPlane ? there : std::min(anywhere, there);
 }
 

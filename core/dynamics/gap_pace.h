@@ -18,8 +18,8 @@ struct RigidMotion {
     Vec3 shift, turn;  ///< [m], [rad]
 };
 
-/// How far those points of two bodies that may touch within a step move against each other in it,
-/// at most [m].
+/// How far the surfaces of two bodies, where they may touch within a step, move against each other
+/// in it, at most [m]. What is round turns in itself.
 double farthestApproach(const World& world, BodyPair bodies, const RigidMotion& ofA,
                         const RigidMotion& ofB);
 

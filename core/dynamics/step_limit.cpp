@@ -25,7 +25,7 @@ constexpr double kTurnPerStep = 0.16;
 struct Outlook {
     Vec3 velocity = Vec3::Zero();
     std::vector<Vec3> scripted;  // of a keyed body instead: anything in their hull
-    double spin = 0.0;           // [rad/s]
+    double spin = 0.0;           // that bends the way of its surface [rad/s]
     double surfaceSpeed = 0.0;   // by the spin [m/s]
 
     std::span<const Vec3> velocities() const
@@ -34,7 +34,9 @@ struct Outlook {
     }
 };
 
-Outlook outlookOf(const World& world, BodyId body, double remaining)
+/// What turns about an axis about which it is round shows only where that axis turns too: of what
+/// the surface is moved by, that changes its direction as fast as the body spins.
+Outlook outlookOf(const World& world, const StepSettings& settings, BodyId body, double remaining)
 {
     const Shape& shape = world.shapeOf(body);
     if (world.info[body].kind == BodyKind::keyed) {
@@ -44,8 +46,17 @@ Outlook outlookOf(const World& world, BodyId body, double remaining)
         const double arm = shape.bodyFromAsset.position.norm() + shape.boundingRadius;
         return {Vec3::Zero(), bounds.velocities, bounds.spin, bounds.spin * arm};
     }
-    const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
-    return {world.motion[body].velocity, {}, spin, spin > 0.0 ? spin * shape.boundingRadius : 0.0};
+    const BodyMotion& motion = world.motion[body];
+    const Vec3 spin = angularVelocity(motion, world.mass[body]);
+    const double all = spin.norm();
+    // Only a symplectic step turns what is round exactly, however far.
+    const bool countsAll =
+        settings.method == Method::paper || settings.orientation != OrientationUpdate::symplectic;
+    const double shown = countsAll ? all : shape.shownOf(spin, motion.orientation).norm();
+    return {motion.velocity,
+            {},
+            std::sqrt(shown * all),
+            shown > 0.0 ? shown * shape.boundingRadius : 0.0};
 }
 
 /// The largest relative speed of two surfaces.
@@ -148,7 +159,7 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
     std::vector<Outlook>& outlooks = kept;  // of this thread, filled by all
     outlooks.resize(world.bodyCount());
     forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
-        outlooks[b] = outlookOf(world, static_cast<BodyId>(b), remaining);
+        outlooks[b] = outlookOf(world, settings, static_cast<BodyId>(b), remaining);
     });
     // What is left of the frame is no wish of the motion: steps that had to fit into it would
     // halve, and halve again.

@@ -150,6 +150,11 @@ void RoundFacets::findRoundFacets()
     }
 }
 
+bool RoundFacets::areAll() const
+{
+    return !isEmpty() && std::ranges::count(isRound_, 0) == 0;
+}
+
 RoundFacets::Facet RoundFacets::facetAt(std::int32_t triangle) const
 {
     Facet facet;

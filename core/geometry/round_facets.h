@@ -22,6 +22,8 @@ public:
 
     /// Whether no facet is round: fine, and neither hollow nor beside one that is.
     bool isEmpty() const { return bulge_ <= 0.0; }
+    /// Whether all facets are.
+    bool areAll() const;
     /// No place of a round facet lies farther below the round surface than this [m].
     double bulge() const { return bulge_; }
 

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/mesh_defects.h"
+#include "core/geometry/revolution.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -184,7 +185,9 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
     if (!shape.usesTrueNormals) {
         shape.smooth = SmoothSurface(shape.mesh);
         shape.roundFacets = RoundFacets(shape.mesh);
+        shape.ballRadius = ballRadiusOf(shape.mesh, shape.roundFacets);
     }
+    shape.turnsThatShow = shape.isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape.mesh);
 
     const double spacing = chooseSpacing(name, settings, shape.box, shape.innerThickness);
     shape.distance =
@@ -240,6 +243,8 @@ std::shared_ptr<const Shape> buildExactShape(const std::string& name, const Exac
     shape->distance = SignedDistance(solid, wantedSpacing({}, shape->box, shape->innerThickness));
     shape->innerBall = {Vec3::Zero(), 0.5 * shape->innerThickness};
     shape->samplesMove = solid.form() != ExactSolid::Form::box;
+    if (solid.form() == ExactSolid::Form::sphere) shape->ballRadius = solid.half().x();
+    shape->turnsThatShow = shape->isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape->mesh);
     if (solid.form() != ExactSolid::Form::sphere) shape->features = ContactFeatures(shape->mesh);
     shape->rims = RoundRims(shape->features);
     if (!shape->samplesMove) {

@@ -81,6 +81,8 @@ struct Shape {
     double innerThickness = 0.0;  ///< first percentile of the inscribed-ball diameter [m]  [A16]
     Ball innerBall;               ///< about as large as any in the solid, object frame [m]
     bool usesTrueNormals = false;
+    Vec3 turnsThatShow = Vec3::Ones();  ///< by axis of the object frame  [revolution.h]
+    double ballRadius = 0.0;            ///< of what touches as a ball, else 0 [m]
 
     SignedDistance distance;   ///< grid, exact refinement, or plane
     SurfaceSamples samples;    ///< empty for a plane and where samples move
@@ -92,6 +94,18 @@ struct Shape {
 
     /// No place of the mesh lies farther below what it stands for than this [m].
     double bulge() const { return std::max(roundFacets.bulge(), rims.bulge()); }
+
+    /// An exact sphere, or a mesh that stands for one and is fine enough: with method `scree` it
+    /// touches as a ball. Five hundred marbles of 1280 triangles took fifty times as long as
+    /// meshes.
+    bool isBall() const { return ballRadius > 0.0; }
+
+    /// What of a turn, or of a spin, moves the surface, in the world of a body that stands so.
+    Vec3 shownOf(const Vec3& turn, const Quat& orientation) const
+    {
+        if (turnsThatShow == Vec3::Ones()) return turn;
+        return orientation * turnsThatShow.cwiseProduct(orientation.conjugate() * turn);
+    }
 
     // Those of a plane have no end [m].
     double thickness() const { return isPlane ? kEndless : innerThickness; }

@@ -1,0 +1,48 @@
+// What is a ball, and what is round about which axis.
+#include "core/geometry/revolution.h"
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/primitives.h"
+#include "core/geometry/shape.h"
+
+namespace scree {
+namespace {
+
+TEST(Revolution, WhatIsMadeRoundAboutAnAxisIsWhereItsFacetsAreFine)
+{
+    // They are made round about y.
+    const Vec3 aboutY(1.0, 0.0, 1.0), none = Vec3::Ones();
+    EXPECT_EQ(turnsThatShow(makeCylinder(0.5, 0.3, 18, 1)), aboutY);
+    EXPECT_EQ(turnsThatShow(makeCylinder(0.5, 0.3, 17, 1)), none);
+    EXPECT_EQ(turnsThatShow(makeTorus(1.0, 0.25, {18, 4})), aboutY);
+    EXPECT_EQ(turnsThatShow(makeTorus(1.0, 0.25, {16, 10})), none);
+    EXPECT_EQ(turnsThatShow(makeCapsule(0.2, 1.0, 20, 5)), aboutY);
+    EXPECT_EQ(turnsThatShow(makeBox({1.0, 1.0, 1.0}, {4, 4, 4})), none);
+    EXPECT_EQ(turnsThatShow(makeSphere(0.5, 3)), Vec3(Vec3::Zero()));
+    EXPECT_EQ(turnsThatShow(makeSphere(0.5, 1)), none);
+}
+
+TEST(Revolution, AHandleShows)
+{
+    TriMesh mug = makeCylinder(0.5, 1.0, 48, 4);
+    for (Eigen::Index v = 0; v < mug.points.cols(); ++v) {
+        if (mug.points.col(v).x() > 0.49) mug.points.col(v).x() = 0.7;
+    }
+    EXPECT_EQ(turnsThatShow(mug), Vec3(Vec3::Ones()));
+}
+
+TEST(Revolution, AFineMeshAllOfWhosePointsAreAsFarAwayIsABall)
+{
+    const auto ballOf = [](const TriMesh& mesh) { return buildMeshShape("it", mesh)->ballRadius; };
+    EXPECT_NEAR(ballOf(makeSphere(0.5, 3)), 0.5, 1e-6);
+    EXPECT_EQ(ballOf(makeSphere(0.5, 1)), 0.0);
+    EXPECT_EQ(ballOf(makeCapsule(0.5, 1e-3, 48, 12)), 0.0);
+    EXPECT_EQ(ballOf(makeCylinder(0.5, 1.0, 48, 4)), 0.0);
+    TriMesh egg = makeSphere(0.5, 3);
+    egg.points.row(1) *= 1.001;
+    EXPECT_EQ(ballOf(egg), 0.0);
+}
+
+}  // namespace
+}  // namespace scree
