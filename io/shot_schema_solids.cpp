@@ -143,7 +143,8 @@ const std::vector<ShotKey> kShapeKeys = {
      .byDefault = "3",
      .min = 0,
      .max = 8,
-     .help = "Each one makes four triangles of one; 3 gives 1280. Coarse spheres roll unevenly."},
+     .help = "Each one makes four triangles of one; 3 gives 1280. From 2 on method \"scree\" "
+             "touches with the ball that the mesh stands for; coarser ones roll unevenly."},
     {.path = "shape.cylinder",
      .type = table,
      .excludes = "torus|box|sphere|capsule|file",

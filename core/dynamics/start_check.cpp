@@ -16,7 +16,6 @@
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_rows.h"
-#include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
 #include "core/dynamics/sleep.h"
@@ -303,7 +302,7 @@ std::vector<FastBody> findTooFast(const World& world, const StepSettings& settin
         if (!world.mass[body].isMovable()) continue;
         const Shape& shape = world.shapeOf(body);
         const double v = world.motion[body].velocity.norm();
-        const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
+        const double spin = shownSpin(world, settings, body);
         const double drop = g > 0.0 ? ground.dropOf(body).value_or(0.0) : 0.0;
         const double landing = std::sqrt(v * v + 2.0 * g * drop);
         const double way =

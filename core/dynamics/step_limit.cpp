@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,8 @@ struct Outlook {
     }
 };
 
-/// What turns about an axis about which it is round shows only where that axis turns too: of what
-/// the surface is moved by, that changes its direction as fast as the body spins.
+/// What is round about an axis moves its surface only as that axis turns; but the way of that bends
+/// as fast as all of the body spins.
 Outlook outlookOf(const World& world, const StepSettings& settings, BodyId body, double remaining)
 {
     const Shape& shape = world.shapeOf(body);
@@ -46,27 +47,32 @@ Outlook outlookOf(const World& world, const StepSettings& settings, BodyId body,
         const double arm = shape.bodyFromAsset.position.norm() + shape.boundingRadius;
         return {Vec3::Zero(), bounds.velocities, bounds.spin, bounds.spin * arm};
     }
-    const BodyMotion& motion = world.motion[body];
-    const Vec3 spin = angularVelocity(motion, world.mass[body]);
-    const double all = spin.norm();
-    // Only a symplectic step turns what is round exactly, however far.
-    const bool countsAll =
-        settings.method == Method::paper || settings.orientation != OrientationUpdate::symplectic;
-    const double shown = countsAll ? all : shape.shownOf(spin, motion.orientation).norm();
-    return {motion.velocity,
-            {},
-            std::sqrt(shown * all),
-            shown > 0.0 ? shown * shape.boundingRadius : 0.0};
+    const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
+    const double shown = shownSpin(world, settings, body);
+    const double surfaceSpeed = shown > 0.0 ? shown * shape.boundingRadius : 0.0;
+    return {world.motion[body].velocity, {}, std::sqrt(shown * spin), surfaceSpeed};
 }
 
-/// The largest relative speed of two surfaces.
-double relativeSpeed(const Outlook& a, const Outlook& b)
+/// The largest relative speed of two surfaces; `along` a direction, if that is all that counts.
+double relativeSpeed(const Outlook& a, const Outlook& b, const std::optional<Vec3>& along)
 {
     double fastest = 0.0;
     for (const Vec3& v : a.velocities()) {
-        for (const Vec3& w : b.velocities()) fastest = std::max(fastest, (v - w).norm());
+        for (const Vec3& w : b.velocities()) {
+            const Vec3 relative = v - w;
+            fastest = std::max(fastest, along ? std::abs(along->dot(relative)) : relative.norm());
+        }
     }
     return fastest + a.surfaceSpeed + b.surfaceSpeed;
+}
+
+/// What goes along a plane does not come nearer to it.
+std::optional<Vec3> normalOfPlane(const World& world, BodyPair pair)
+{
+    for (const BodyId body : {pair.a, pair.b}) {
+        if (world.shapeOf(body).isPlane) return world.motion[body].orientation * Vec3::UnitY();
+    }
+    return {};
 }
 
 /// The dt with s dt + g dt² = length.
@@ -102,9 +108,10 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
     const BodyId faster =
         world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
-    const double s = relativeSpeed(outlooks[a], outlooks[b]);
-    const double g = std::max(pullA.norm(), pullB.norm());
     const bool isPaper = settings.method == Method::paper;
+    const std::optional<Vec3> along = isPaper ? std::nullopt : normalOfPlane(world, pair);
+    const double s = relativeSpeed(outlooks[a], outlooks[b], along);
+    const double g = std::max(pullA.norm(), pullB.norm());
     const double way = (s + g * remaining) * remaining;
     if (!isPaper && (isHighAbove(world, a, b, way) || isHighAbove(world, b, a, way))) return;
     tighten(limit, timeToPass(alpha * thinner, s, (pullA - pullB).norm()), StepLimit::relativeSpeed,
@@ -150,6 +157,16 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
 double alphaPerSafety(Method method)
 {
     return method == Method::paper ? 0.5 : 1.0;
+}
+
+double shownSpin(const World& world, const StepSettings& settings, BodyId body)
+{
+    const BodyMotion& motion = world.motion[body];
+    const Vec3 spin = angularVelocity(motion, world.mass[body]);
+    // Only a symplectic step turns what is round exactly, however far.
+    const bool isExact =
+        settings.method == Method::scree && settings.orientation == OrientationUpdate::symplectic;
+    return (isExact ? world.shapeOf(body).shownOf(spin, motion.orientation) : spin).norm();
 }
 
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,

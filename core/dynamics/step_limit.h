@@ -17,6 +17,10 @@ struct StepLength {
 /// Share of the thinner body that two surfaces may pass in a step at safety 1.  [A16]
 double alphaPerSafety(Method method);
 
+/// How fast a free body turns what shows of that [rad/s]. What is round about an axis turns about
+/// it in itself, as far as steps of method `scree` are concerned.
+double shownSpin(const World& world, const StepSettings& settings, BodyId body);
+
 /// The next of the equal steps that fill what remains of the frame. scratch.candidates must hold
 /// the pairs whose boxes, swept over the rest of the frame, meet.
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,

@@ -100,10 +100,11 @@ struct Shape {
     /// meshes.
     bool isBall() const { return ballRadius > 0.0; }
 
+    bool showsAllTurns() const { return turnsThatShow == Vec3::Ones(); }
     /// What of a turn, or of a spin, moves the surface, in the world of a body that stands so.
     Vec3 shownOf(const Vec3& turn, const Quat& orientation) const
     {
-        if (turnsThatShow == Vec3::Ones()) return turn;
+        if (showsAllTurns()) return turn;
         return orientation * turnsThatShow.cwiseProduct(orientation.conjugate() * turn);
     }
 

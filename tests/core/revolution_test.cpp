@@ -36,6 +36,7 @@ TEST(Revolution, AFineMeshAllOfWhosePointsAreAsFarAwayIsABall)
 {
     const auto ballOf = [](const TriMesh& mesh) { return buildMeshShape("it", mesh)->ballRadius; };
     EXPECT_NEAR(ballOf(makeSphere(0.5, 3)), 0.5, 1e-6);
+    EXPECT_NEAR(ballOf(makeSphere(0.5, 2)), 0.5, 1e-6);
     EXPECT_EQ(ballOf(makeSphere(0.5, 1)), 0.0);
     EXPECT_EQ(ballOf(makeCapsule(0.5, 1e-3, 48, 12)), 0.0);
     EXPECT_EQ(ballOf(makeCylinder(0.5, 1.0, 48, 4)), 0.0);

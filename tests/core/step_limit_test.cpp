@@ -4,10 +4,23 @@
 #include <cmath>
 
 #include "core/dynamics/stepper.h"
+#include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
 namespace {
+
+void addFixed(World& world, const std::shared_ptr<const Shape>& shape, MaterialId material,
+              const Vec3& place)
+{
+    BodyDefinition definition;
+    definition.name = "fixed";
+    definition.shape = world.addShape(shape);
+    definition.material = material;
+    definition.kind = BodyKind::fixed;
+    definition.worldFromAsset.position = place;
+    world.addBody(definition);
+}
 
 TEST(StepLimit, StepsThatMustBecomeShorterWithinAFrameDoNotHalveToItsEnd)
 {
@@ -16,7 +29,7 @@ TEST(StepLimit, StepsThatMustBecomeShorterWithinAFrameDoNotHalveToItsEnd)
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
     // Along a wall, which it never touches but for all its speed can say might.
-    addPlane(world, material, Vec3(-0.2, 0, 0), Vec3::UnitX());
+    addFixed(world, exactBox({0.2, 14000.0, 2.0}, 1), material, Vec3(-0.3, 0.0, 0.0));
     addBody(world, boxShape({0.2, 0.2, 0.2}, 1), material, {Vec3(0, 6000, 0), Quat::Identity()});
     StepSettings settings = experimentSettings();
     settings.method = Method::scree;
@@ -59,6 +72,39 @@ TEST(StepLimit, WhatSpinsBesideAnotherTurnsLittleInAStep)
     EXPECT_EQ(stepsOfSpinning(0.1, 14.0), 8);
     EXPECT_EQ(stepsOfSpinning(0.1, 22.0), 12);
     EXPECT_LE(stepsOfSpinning(60.0, 22.0), 4);  // where it meets nothing
+}
+
+/// Steps of a frame in which a wheel of so many sides rolls so fast, and how far it goes [m].
+struct Rolled {
+    int steps;
+    double way;
+};
+
+Rolled rolled(int sides, double speed, Method method)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const double radius = 0.1;
+    const Quat lying(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
+    addBody(world, buildMeshShape("wheel", makeCylinder(radius, 0.1, sides, 1)), material,
+            {Vec3(0.0, radius, 0.0), lying}, 1.0, {speed, 0.0, 0.0}, {0.0, 0.0, -speed / radius});
+    StepSettings settings = experimentSettings();
+    settings.method = method;
+    const int steps = Stepper(settings).advanceFrame(world, 1.0 / 24.0).steps;
+    return {steps, world.motion[1].position.x()};
+}
+
+TEST(StepLimit, AWheelRollsAsFastAsItMayInAsManySteps)
+{
+    // At 20 m/s it turns by 2 rad in each.
+    for (const double speed : {0.5, 5.0, 20.0}) {
+        const Rolled wheel = rolled(48, speed, Method::scree);
+        EXPECT_EQ(wheel.steps, 4) << speed;
+        EXPECT_NEAR(wheel.way, speed / 24.0, 1e-4 * speed / 24.0) << speed;
+    }
+    EXPECT_GT(rolled(12, 5.0, Method::scree).steps, 20);  // of corners
+    EXPECT_GT(rolled(48, 5.0, Method::paper).steps, 12);
 }
 
 TEST(StepLimit, WhatRestsOnAFixedBodyFallsInAStepByNoMoreThanTheHoverLimit)
