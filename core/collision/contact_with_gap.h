@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// What found a contact. A pair that has an exact ball in it has no other features.
+/// What found a contact. A pair that has a ball in it has no other features.
 enum class FeatureKind : std::uint64_t {
     cornerOfA = 0,
     cornerOfB = 1,

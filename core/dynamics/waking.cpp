@@ -20,6 +20,11 @@ constexpr std::int32_t kCheckShare = 3;
 /// of 2.5 m, is no blow: it learns of it by its load, after the step.
 constexpr double kGentle = 0.01;
 
+/// A force has changed when it has by this share of what pulled the body when it fell asleep. What
+/// wind takes from the last creep of a body is none: a house of cards in still air slept for a
+/// frame and was woken in the next, again and again.
+constexpr double kUnnoticed = 1e-3;
+
 /// From a body that is struck, sleepers wake this many contacts far; those beyond feel it by their
 /// loads.
 constexpr int kWakeFar = 2;
@@ -190,9 +195,9 @@ void wakeByForces(World& world, const std::vector<AppliedForce>& forces)
     std::vector<BodyId> roots;
     for (std::size_t i = 0; i < world.contactMemory.rest.size(); ++i) {
         const BodyRest& rest = world.contactMemory.rest[i];
-        if (rest.isAsleep && rest.pull != forces[i].acceleration) {
+        const double change = (rest.pull - forces[i].acceleration).norm();
+        if (rest.isAsleep && change > kUnnoticed * rest.pull.norm())
             roots.push_back(static_cast<BodyId>(i));
-        }
     }
     wakeAround(world, roots);
 }

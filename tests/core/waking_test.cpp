@@ -42,6 +42,23 @@ TEST(Waking, SleepersWakeAndMoveWhenStruckAndOnlyThen)
     EXPECT_TRUE(world.contactMemory.isAsleep(4));
 }
 
+TEST(Waking, AForceThatChangesWakesButNotWhatAirTakesFromTheLastCreep)
+{
+    World world = makeStack(1);
+    const StepSettings settings = screeSettings();
+    Stepper stepper(settings);
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    ASSERT_TRUE(world.contactMemory.isAsleep(1));
+    std::vector<AppliedForce> forces;
+    findForces(world, settings, kFrame, forces);
+    forces[1].acceleration.x() += 1e-9;
+    wakeByForces(world, forces);
+    EXPECT_TRUE(world.contactMemory.isAsleep(1));
+    forces[1].acceleration.x() += 0.1;
+    wakeByForces(world, forces);
+    EXPECT_FALSE(world.contactMemory.isAsleep(1));
+}
+
 TEST(Waking, ABlowGoesThroughSleepersAsThroughWhatIsAwake)
 {
     World world;
