@@ -126,6 +126,8 @@ void printShape(const std::string& name, const ShapeUse& use)
     std::printf("  edges   %d sharper than 40 degrees, the sharpest %.0f; normals %s\n",
                 report.sharpEdges, report.sharpestEdge * 180.0 / kPi,
                 shape.usesTrueNormals ? "of the mesh" : "of the field");
+    if (!shape.showsAllTurns())
+        std::printf("  round   %s\n", shape.isBall() ? "a ball" : "about an axis");
 }
 
 void printList(const char* title, const std::vector<std::string>& lines)
@@ -200,6 +202,9 @@ nlohmann::ordered_json toJson(const ShapeUse& use)
             {"voxel_m", shape.distance.spacing()},
             {"sharp_edges", report.sharpEdges},
             {"sharpest_degrees", report.sharpestEdge * 180.0 / kPi},
+            {"round", shape.isBall()          ? "ball"
+                      : shape.showsAllTurns() ? "no"
+                                              : "axis"},
             {"merged_points", shape.repairs.harmless.mergedPoints},
             {"dropped_triangles", shape.repairs.harmless.droppedTriangles},
             {"flipped_edges", shape.repairs.harmless.flippedEdges},

@@ -63,6 +63,7 @@ TEST_F(ShotTools, CheckReportsShapesAndEstimateAsJson)
     EXPECT_NEAR(json["shapes"]["block"]["heaviest_kg"].get<double>(), 20.8, 1e-9);
     EXPECT_NEAR(json["shapes"]["block"]["thinnest_m"].get<double>(), 0.2, 1e-9);
     EXPECT_EQ(json["shapes"]["block"]["sharp_edges"], 24);  // twelve, each of two segments
+    EXPECT_EQ(json["shapes"]["block"]["round"], "no");
     EXPECT_EQ(json["estimate"]["frames_tried"], 1);
     EXPECT_GT(json["estimate"]["disk_bytes"], 0);
     EXPECT_TRUE(json["overlaps"].empty());
