@@ -109,6 +109,10 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const BodyId faster =
         world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
     const bool isPaper = settings.method == Method::paper;
+    const bool isStepped = world.isStepped(a) || world.isStepped(b);
+    const auto isKeyed = [&](BodyId body) { return world.info[body].kind == BodyKind::keyed; };
+    // A heap of cards that slept took five steps a frame.
+    if (!isPaper && !isStepped && !isKeyed(a) && !isKeyed(b)) return;
     const std::optional<Vec3> along = isPaper ? std::nullopt : normalOfPlane(world, pair);
     const double s = relativeSpeed(outlooks[a], outlooks[b], along);
     const double g = std::max(pullA.norm(), pullB.norm());
@@ -121,7 +125,7 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
         tighten(limit, kTurnPerStep * settings.substeps.safety / spin, StepLimit::spin,
                 outlooks[a].spin > outlooks[b].spin ? a : b);
     }
-    if (g > 0.0 && (isPaper || world.isStepped(a) || world.isStepped(b))) {
+    if (g > 0.0 && (isPaper || isStepped)) {
         const double share = isPaper ? settings.hoverLimit : kFallPerStep;
         tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
     }

@@ -74,6 +74,23 @@ TEST(StepLimit, WhatSpinsBesideAnotherTurnsLittleInAStep)
     EXPECT_LE(stepsOfSpinning(60.0, 22.0), 4);  // where it meets nothing
 }
 
+TEST(StepLimit, WhatSleepsAsksForNoSteps)
+{
+    // Awake it asks for five: it may fall half its thickness in each.
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    addBody(world, exactBox({0.09, 0.002, 0.06}, 1), material,
+            {Vec3(0.0, 0.001, 0.0), Quat::Identity()});
+    Stepper stepper(screeSettings());
+    EXPECT_GE(stepper.advanceFrame(world, 1.0 / 24.0).steps, 5);
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+    ASSERT_TRUE(world.contactMemory.isAsleep(1));
+    const FrameReport report = stepper.advanceFrame(world, 1.0 / 24.0);
+    EXPECT_EQ(report.steps, 1);
+    EXPECT_EQ(report.fastestBody, -1);
+}
+
 /// Steps of a frame in which a wheel of so many sides rolls so fast, and how far it goes [m].
 struct Rolled {
     int steps;
