@@ -53,6 +53,14 @@ bool mayCollide(const World& world, BodyPair bodies)
            (isMovedBy(bodies.a, bodies.b) || isMovedBy(bodies.b, bodies.a));
 }
 
+std::optional<Vec3> normalOfPlane(const World& world, BodyPair bodies)
+{
+    for (const BodyId body : {bodies.a, bodies.b}) {
+        if (world.shapeOf(body).isPlane) return world.motion[body].orientation * Vec3::UnitY();
+    }
+    return {};
+}
+
 double smallerRadius(const World& world, BodyId a, BodyId b)
 {
     return smallerRadius(world.shapeOf(a), world.shapeOf(b));

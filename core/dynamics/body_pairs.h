@@ -1,6 +1,8 @@
 // What two bodies of a world are to each other, whatever pass asks.
 #pragma once
 
+#include <optional>
+
 #include "core/collision/broad_phase.h"
 #include "core/collision/interference.h"
 #include "core/dynamics/settings.h"
@@ -25,6 +27,9 @@ bool isUnmovedBy(const World& world, BodyId body, BodyId other);
 
 /// Whether groups let the pair collide, and anything could come of it.  [A57]
 bool mayCollide(const World& world, BodyPair bodies);
+
+/// Out of the plane, where one of a pair is such; nothing where none is.
+std::optional<Vec3> normalOfPlane(const World& world, BodyPair bodies);
 
 /// Bounding radius of the smaller body of a pair [m].
 double smallerRadius(const World& world, BodyId a, BodyId b);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/body_pairs.h"
 #include "core/geometry/sphere_tree.h"
 
 namespace scree {
@@ -66,14 +67,13 @@ double farthestApproach(const World& world, BodyPair bodies, const RigidMotion& 
     const Vec3 a = ofA.shift + turnA.cross(place.centre - world.motion[bodies.a].position);
     const Vec3 b = ofB.shift + turnB.cross(place.centre - world.motion[bodies.b].position);
     const double byTurnThere = (turnA - turnB).norm() * place.radius;
-    if (!shapeA.isPlane && !shapeB.isPlane) return std::min(anywhere, (a - b).norm() + byTurnThere);
+    const std::optional<Vec3> normal = normalOfPlane(world, bodies);
+    if (!normal) return std::min(anywhere, (a - b).norm() + byTurnThere);
     // Told of what is ahead of the place it rolls on, a can braked at 1 rad a step. To tell others
     // less of a plane brings nothing.
     const Shape& other = shapeA.isPlane ? shapeB : shapeA;
     if (other.showsAllTurns()) return (a - b).norm() + byTurnThere;
-    const BodyId plane = shapeA.isPlane ? bodies.a : bodies.b;
-    const Vec3 normal = world.motion[plane].orientation * Vec3::UnitY();
-    return std::abs(normal.dot(a - b)) + byTurnThere;
+    return std::abs(normal->dot(a - b)) + byTurnThere;
 }
 
 }  // namespace scree

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/dynamics/body_pairs.h"
 #include "core/dynamics/integrator.h"
 
 namespace scree {
@@ -66,15 +67,6 @@ double relativeSpeed(const Outlook& a, const Outlook& b, const std::optional<Vec
     return fastest + a.surfaceSpeed + b.surfaceSpeed;
 }
 
-/// What goes along a plane does not come nearer to it.
-std::optional<Vec3> normalOfPlane(const World& world, BodyPair pair)
-{
-    for (const BodyId body : {pair.a, pair.b}) {
-        if (world.shapeOf(body).isPlane) return world.motion[body].orientation * Vec3::UnitY();
-    }
-    return {};
-}
-
 /// The dt with s dt + g dt² = length.
 double timeToPass(double length, double s, double g)
 {
@@ -113,6 +105,7 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const auto isKeyed = [&](BodyId body) { return world.info[body].kind == BodyKind::keyed; };
     // A heap of cards that slept took five steps a frame.
     if (!isPaper && !isStepped && !isKeyed(a) && !isKeyed(b)) return;
+    // What goes along a plane does not come nearer to it.
     const std::optional<Vec3> along = isPaper ? std::nullopt : normalOfPlane(world, pair);
     const double s = relativeSpeed(outlooks[a], outlooks[b], along);
     const double g = std::max(pullA.norm(), pullB.norm());

@@ -10,18 +10,6 @@
 namespace scree::test {
 namespace {
 
-void addFixed(World& world, const std::shared_ptr<const Shape>& shape, MaterialId material,
-              const Vec3& place)
-{
-    BodyDefinition definition;
-    definition.name = "fixed";
-    definition.shape = world.addShape(shape);
-    definition.material = material;
-    definition.kind = BodyKind::fixed;
-    definition.worldFromAsset.position = place;
-    world.addBody(definition);
-}
-
 TEST(StepLimit, StepsThatMustBecomeShorterWithinAFrameDoNotHalveToItsEnd)
 {
     // So fast a fall that every frame ends with fourteen steps a frame more than it began with.
@@ -29,7 +17,8 @@ TEST(StepLimit, StepsThatMustBecomeShorterWithinAFrameDoNotHalveToItsEnd)
     World world;
     const MaterialId material = addMaterial(world, 0.5, 0.0);
     // Along a wall, which it never touches but for all its speed can say might.
-    addFixed(world, exactBox({0.2, 14000.0, 2.0}, 1), material, Vec3(-0.3, 0.0, 0.0));
+    addBody(world, exactBox({0.2, 14000.0, 2.0}, 1), material,
+            {Vec3(-0.3, 0.0, 0.0), Quat::Identity()}, 0.0);
     addBody(world, boxShape({0.2, 0.2, 0.2}, 1), material, {Vec3(0, 6000, 0), Quat::Identity()});
     StepSettings settings = experimentSettings();
     settings.method = Method::scree;
