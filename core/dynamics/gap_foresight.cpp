@@ -53,9 +53,10 @@ Foreseen foresee(const World& world, double dt, const std::vector<Held>& held, c
     PairForesight foresight(world, held, scratch, pair, dt, fastest);
     const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
     // A plane is everywhere ahead of what comes down on it.
-    const bool isOnPlane =
-        world.shapeOf(pair.bodies.a).isPlane || world.shapeOf(pair.bodies.b).isPlane;
-    if (!isOnPlane && foresight.passes(contacts)) return {true, foresight.fastEnough()};
+    const bool mayPass = !world.shapeOf(pair.bodies.a).isPlane &&
+                         !world.shapeOf(pair.bodies.b).isPlane &&
+                         !std::ranges::binary_search(scratch.unseen.diverted, pair.bodies);
+    if (mayPass && foresight.passes(contacts)) return {true, foresight.fastEnough()};
     return {false, 0.0, foresight.aim(contacts, rows)};
 }
 
@@ -118,8 +119,9 @@ void foreseeBlows(const World& world, const StepSettings& settings, double dt,
 {
     std::vector<Foreseen> foreseen(block.pairs.size());
     forPairs(block, [&](std::size_t i) {
-        const GapPair& pair = scratch.pairs[i];
-        foreseen[pair.place] = foresee(world, dt, held, pair, scratch);
+        GapPair& pair = scratch.pairs[i];
+        const Foreseen& seen = foreseen[pair.place] = foresee(world, dt, held, pair, scratch);
+        pair.isLetPass = seen.passes;
     });
     const std::vector<double> struckAt = momentsOfBlows(dt, foreseen, block, scratch);
     std::vector<char> isTurned(block.bodies.size() + 1, 0);

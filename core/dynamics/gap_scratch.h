@@ -41,6 +41,7 @@ struct GapPair {
     bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
     std::size_t island = 0;                   ///< index into GapScratch::islands
     int part = 0;                             ///< gap_pairs.h
+    bool isLetPass = false;                   ///< by gap_foresight.h, although rows would stop it
     std::size_t place = 0;                    ///< in the pairs of its block
 };
 
@@ -116,6 +117,7 @@ struct GapUnseen {
     std::vector<Aabb> boxes;      ///< that nobody leaves
     std::vector<char> isMet;      ///< per pair that was asked about
     std::vector<BodyPair> pairs;  ///< that run visibly into each other
+    std::vector<BodyPair> diverted;  ///< let pass, and met: sorted, of all attempts at this step
 };
 
 struct GapScratch {

@@ -271,6 +271,7 @@ void findGaps(World& world, const StepSettings& settings, double dt, GapScratch&
     followBodies(world, scratch);
     scratch.gain.assign(world.bodyCount(), 0.0);
     scratch.looksFar.assign(world.bodyCount(), 0);
+    scratch.unseen.diverted.clear();
     seek(world, dt, false, scratch);
 }
 
