@@ -85,6 +85,39 @@ TEST(GapForesight, TwoThatFlyPastEachOtherDoNotMeet)
     }
 }
 
+/// After a step in which the floor throws up one of two balls that would have passed each other by
+/// a hundredth of their radius, when the line between them is `degrees` off the vertical.
+double overlapWithOneThrownUp(double degrees, double speed, double fall)
+{
+    constexpr double kRadius = 0.1, kStep = 1.0 / 96.0;
+    const double angle = degrees * kPi / 180.0;
+    const Vec3 line(std::sin(angle), std::cos(angle), 0.0);
+    const Vec3 across(std::cos(angle), -std::sin(angle), 0.0);
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 1.0);
+    addPlane(world, material);
+    const Vec3 low(0.0, 1.05 * kRadius, 0.0), falling(0.0, -fall, 0.0);
+    const Vec3 high = low + 2.01 * kRadius * line - 0.5 * kStep * speed * across;
+    addBody(world, exactSphere(kRadius), material, {low, Quat::Identity()}, 1.0, falling);
+    addBody(world, exactSphere(kRadius), material, {high, Quat::Identity()}, 1.0,
+            falling + speed * across);
+    Stepper(settingsWith(0.0)).step(world, kStep);
+    const double apart = (world.motion[2].position - world.motion[1].position).norm();
+    return 1.0 - apart / (2.0 * kRadius);
+}
+
+TEST(GapForesight, WhatIsThrownUpHitsWhatWouldHavePassedIt)
+{
+    for (const double degrees : {-80.0, -60.0, -40.0, -20.0, 0.0, 20.0, 40.0, 60.0, 80.0}) {
+        for (const double speed : {4.0, 8.0, 16.0}) {
+            for (const double fall : {1.0, 2.0, 4.0}) {
+                EXPECT_LE(overlapWithOneThrownUp(degrees, speed, fall), 0.005)
+                    << degrees << " degrees, " << speed << " and " << fall << " m/s";
+            }
+        }
+    }
+}
+
 TEST(GapForesight, BallsHitEachOtherAlongTheLineTheyHaveThen)
 {
     constexpr double kRadius = 0.02857, kSpeed = 2.0;
