@@ -16,6 +16,7 @@
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
 #include "io/shot_parser.h"
+#include "tests/benchmarks/frame_tally.h"
 #include "tests/support/support.h"
 
 namespace scree::test {
@@ -97,30 +98,6 @@ void repeatBeside(Shot& shot, int copies)
     }
 }
 
-/// What a run has cost so far.
-struct Tally {
-    std::int64_t frames = 0, steps = 0, contacts = 0;
-    std::array<double, static_cast<std::size_t>(Phase::count)> seconds{};
-
-    void add(const FrameReport& report)
-    {
-        ++frames;
-        steps += report.steps;
-        contacts += report.sum.contacts;
-        for (std::size_t p = 0; p < seconds.size(); ++p) seconds[p] += report.sum.seconds[p];
-    }
-    void tell(benchmark::State& state) const
-    {
-        const auto count = static_cast<double>(frames);
-        state.counters["substeps"] = static_cast<double>(steps) / count;
-        state.counters["contacts"] = static_cast<double>(contacts) / count;
-        for (std::size_t p = 0; p < seconds.size(); ++p) {
-            state.counters[std::string("ms_") + nameOf(static_cast<Phase>(p))] =
-                1e3 * seconds[p] / count;
-        }
-    }
-};
-
 void simulateRings(benchmark::State& state)
 {
     const auto rings = static_cast<int>(state.range(0));
@@ -136,10 +113,9 @@ void simulateRings(benchmark::State& state)
     Trajectory trajectory(folder / "rings.traj", world, shot.framesPerSecond);
     trajectory.add(world);
 
-    Tally tally;
-    FrameReport report;
+    FrameTally tally;
     for (auto _ : state) {
-        report = stepper.advanceFrame(world, 1.0 / shot.framesPerSecond);
+        const FrameReport report = stepper.advanceFrame(world, 1.0 / shot.framesPerSecond);
         state.PauseTiming();
         tally.add(report);
         trajectory.add(world);
@@ -155,10 +131,6 @@ void simulateRings(benchmark::State& state)
         state.counters["gap_mm"] = figure(verdict, "end", "floor_clearance_mean_mm");
         state.counters["moving"] = figure(verdict, "last_second", "moving_fraction");
     }
-    std::array<char, 32> hash;
-    std::snprintf(hash.data(), hash.size(), "%016llx",
-                  static_cast<unsigned long long>(report.stateHash));
-    state.SetLabel(hash.data());
 }
 
 BENCHMARK(simulateRings)

@@ -19,25 +19,6 @@ namespace {
 
 constexpr double kFrame = 1.0 / 24.0;
 
-/// Cubes of 1 m, eight corners each, one on the other but for a centimetre each way; the top one
-/// weighs `topMass`.
-World makeStack(int count, double topMass)
-{
-    constexpr double kOffset = 0.01;
-    World world;
-    const MaterialId material = addMaterial(world, 0.5, 0.3);
-    addPlane(world, material);
-    for (int i = 0; i < count; ++i) {
-        const auto draw = [&](std::uint64_t k) {
-            return kOffset * (2.0 * randomUnit(40, static_cast<std::uint64_t>(i), k) - 1.0);
-        };
-        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
-                {Vec3(draw(0), 0.5 + i, draw(1)), Quat::Identity()},
-                i + 1 == count ? topMass : 1.0);
-    }
-    return world;
-}
-
 /// Largest way of any body from where it began [m].
 double largestShift(const World& before, const World& after)
 {
@@ -93,18 +74,18 @@ TEST(GapMethod, WhatSlidesOrRollsGoesAsFarAsTheorySaysAtOneStepAFrame)
 TEST(GapMethod, FortyCubesOfEightCornersStandAtOneStepAFrame)
 {
     // Sinks less than 1 mm and drifts less than 5 mm: seen 0.05 and 0.7.
-    EXPECT_LE(shiftAfter(makeStack(40, 1.0), 5.0, kFrame), 5e-3);
+    EXPECT_LE(shiftAfter(stackOfCubes(40, 1.0), 5.0, kFrame), 5e-3);
 }
 
 TEST(GapMethod, ATopOfTenThousandTimesTheMassIsCarriedAtOneStepAFrame)
 {
-    EXPECT_LE(shiftAfter(makeStack(2, 10000.0), 5.0, kFrame), 1e-3);
+    EXPECT_LE(shiftAfter(stackOfCubes(2, 10000.0), 5.0, kFrame), 1e-3);
 }
 
 TEST(GapMethod, WithoutShockTheHeavyTopSinksInAsSoonAsItIsPushed)
 {
     const auto sinks = [](bool withShock) {
-        World world = makeStack(2, 10000.0);
+        World world = stackOfCubes(2, 10000.0);
         world.motion[2].velocity = Vec3(0.1, 0.0, 0.0);
         const double height = world.motion[2].position.y();
         StepSettings settings = screeSettings();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/random.h"
 #include "core/dynamics/integrator.h"
 #include "core/geometry/primitives.h"
 
@@ -166,6 +167,23 @@ BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId mate
     definition.angularVelocity = angularVelocity;
     if (mass > 0.0) definition.mass = mass;
     return world.addBody(definition);
+}
+
+World stackOfCubes(int count, double topMass)
+{
+    constexpr double kOffset = 0.01;
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    addPlane(world, material);
+    for (int i = 0; i < count; ++i) {
+        const auto draw = [&](std::uint64_t k) {
+            return kOffset * (2.0 * randomUnit(40, static_cast<std::uint64_t>(i), k) - 1.0);
+        };
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                {Vec3(draw(0), 0.5 + i, draw(1)), Quat::Identity()},
+                i + 1 == count ? topMass : 1.0);
+    }
+    return world;
 }
 
 Vec3 angularVelocityOf(const World& world, BodyId body)
