@@ -20,7 +20,12 @@ std::string readFileBytes(const std::filesystem::path& path)
     if (!file || std::filesystem::is_directory(path, ignored))
         throw Error(ErrorKind::missingInput, {path.string(), 0, 0},
                     std::string("cannot be read: ") + std::strerror(file ? EISDIR : errno));
-    std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    // As long as it says, and what it has grown by since.
+    const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+    std::string bytes(ignored ? 0 : size, '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    if (file) bytes.append(std::istreambuf_iterator<char>(file), {});
     if (file.bad()) throw Error(ErrorKind::inputOutput, {path.string(), 0, 0}, "reading failed");
     return bytes;
 }

@@ -1,18 +1,14 @@
 #include "core/geometry/contact_features.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+
+#include "core/geometry/mesh_edges.h"
 
 namespace scree {
 namespace {
 
 /// Sine of the bend below which an edge lies inside a flat region.
 constexpr double kFlat = 1e-3;
-
-struct EdgeFaces {
-    std::array<int, 2> face = {-1, -1};
-};
 
 void addDirection(std::vector<Vec3>& directions, const Vec3& direction)
 {
@@ -22,14 +18,10 @@ void addDirection(std::vector<Vec3>& directions, const Vec3& direction)
     directions.push_back(direction);
 }
 
-/// The corner of a face that is not on the edge.
-Vec3 oppositeCorner(const TriMesh& mesh, int face, const std::pair<int, int>& ends)
+/// The corner of its face that is not on the side.
+Vec3 oppositeCorner(const TriMesh& mesh, const TriangleSide& side)
 {
-    for (int k = 0; k < 3; ++k) {
-        const int corner = mesh.triangles(k, face);
-        if (corner != ends.first && corner != ends.second) return mesh.points.col(corner);
-    }
-    return mesh.points.col(ends.first);
+    return mesh.points.col(mesh.triangles((side.corner + 2) % 3, side.triangle));
 }
 
 EdgeLine lineOf(const ConvexEdge& edge)
@@ -46,31 +38,22 @@ EdgeLine lineOf(const ConvexEdge& edge)
 
 ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
 {
-    std::map<std::pair<int, int>, EdgeFaces> faces;
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        for (int k = 0; k < 3; ++k) {
-            const auto ends = std::minmax(mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f));
-            EdgeFaces& both = faces[ends];
-            both.face[both.face[0] < 0 ? 0 : 1] = static_cast<int>(f);
-        }
-    }
-
     std::vector<std::vector<Vec3>> around(points_.cols()), normals(points_.cols());
     std::vector<Sphere> edgeSpheres, creaseSpheres;
-    for (const auto& [ends, both] : faces) {
-        const Vec3 start = points_.col(ends.first), end = points_.col(ends.second);
+    MeshEdges(mesh).forEach([&](std::span<const TriangleSide> sides) {
+        const std::array<int, 2> ends = {sides[0].low, sides[0].high};
+        const Vec3 start = points_.col(ends[0]), end = points_.col(ends[1]);
         const double length = (end - start).norm();
         const Vec3 direction = (end - start) / length;
-        around[ends.first].push_back(direction);
-        around[ends.second].push_back(-direction);
+        around[ends[0]].push_back(direction);
+        around[ends[1]].push_back(-direction);
 
-        ConvexEdge edge{{ends.first, ends.second}, start, direction, length, {}, {}, {}, {}};
+        ConvexEdge edge{ends, start, direction, length, {}, {}, {}, {}};
         for (int side = 0; side < 2; ++side) {
-            edge.faceNormal[side] = cornersOf(mesh, both.face[side]).normal();
-            const Vec3 across = oppositeCorner(mesh, both.face[side], ends) - start;
+            edge.faceNormal[side] = cornersOf(mesh, sides[side].triangle).normal();
+            const Vec3 across = oppositeCorner(mesh, sides[side]) - start;
             edge.intoFace[side] = (across - across.dot(direction) * direction).normalized();
-            addDirection(normals[ends.first], edge.faceNormal[side]);
-            addDirection(normals[ends.second], edge.faceNormal[side]);
+            for (const int point : ends) addDirection(normals[point], edge.faceNormal[side]);
         }
         // Convex: each face falls away behind the plane of the other.
         const double rises = edge.intoFace[1].dot(edge.faceNormal[0]);
@@ -78,13 +61,13 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
             creases_.push_back({start, direction, length, edge.faceNormal, edge.intoFace});
             creaseSpheres.push_back({0.5 * (start + end), 0.5 * length});
         }
-        if (rises > -kFlat) continue;
+        if (rises > -kFlat) return;
         edge.outward = (edge.faceNormal[0] + edge.faceNormal[1]).normalized();
         hasBlades_ = hasBlades_ || edge.faceNormal[0].dot(edge.faceNormal[1]) < kBlade;
         edges_.push_back(edge);
         lines_.push_back(lineOf(edge));
         edgeSpheres.push_back({0.5 * (start + end), 0.5 * length});
-    }
+    });
 
     neighbourStart_.assign(points_.cols() + 1, 0);
     for (std::size_t v = 0; v < around.size(); ++v) {

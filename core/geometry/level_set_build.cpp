@@ -85,8 +85,8 @@ public:
     {
     }
 
-    /// Signed distance at a node. Neighbours asked one after another are found fastest: the last
-    /// answer bounds the next search.
+    /// Signed distance at a node. Neighbours asked one after another are found fastest: the
+    /// triangle that was the closest to the last is hardly farther than that of the next.
     float read(const Index3& node)
     {
         float voxels = accessor_.getValue(openvdb::Coord(node[0], node[1], node[2]));
@@ -94,19 +94,29 @@ public:
         // Of a cavity OpenVDB knows nothing but inside.
         const bool isAsked = sides_ && voxels < 0.0f;
         if (isAsked && isInCavity(p)) voxels = -voxels;
-        const double reach = lastDistance_ + (p - lastPoint_).norm();
-        const int t = rays_.closestTriangle(p, reach);
-        const Vec3 closest = closestOnTriangle(p, cornersOf(mesh_, t)).point;
-        lastDistance_ = (p - closest).norm();
-        lastPoint_ = p;
+        const double reach =
+            nearest_ < 0 ? kNoLimit : distanceTo(nearest_, p) + kSpare * layout_.spacing;
+        nearest_ = rays_.closestTriangle(p, reach);
+        const double distance = distanceTo(nearest_, p);
         if (isAsked) {
             sidedPoint_ = p;
-            sidedDistance_ = lastDistance_;
+            sidedDistance_ = distance;
         }
-        return static_cast<float>(std::copysign(lastDistance_, static_cast<double>(voxels)));
+        return static_cast<float>(std::copysign(distance, static_cast<double>(voxels)));
     }
 
 private:
+    static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+    /// Searches reach this share of a spacing farther than they must: they are made in single
+    /// precision, and the surface may pass through the node.
+    static constexpr double kSpare = 1e-3;
+
+    double distanceTo(int triangle, const Vec3& p) const
+    {
+        return (p - closestOnTriangle(p, cornersOf(mesh_, triangle)).point).norm();
+    }
+
     /// Of a point that OpenVDB takes for solid. Within its distance from the surface a point has
     /// its neighbours on its own side: so few are asked for their winding number, which costs a
     /// hundred times a distance (all of an hourglass at 256 nodes: 28 s).
@@ -122,8 +132,7 @@ private:
     const NodeLayout& layout_;
     openvdb::FloatGrid::ConstAccessor accessor_;
     const WindingNumber* sides_;
-    Vec3 lastPoint_ = Vec3::Zero();
-    double lastDistance_ = std::numeric_limits<double>::infinity();
+    int nearest_ = -1;                // to the last node
     Vec3 sidedPoint_ = Vec3::Zero();  // the last one that was asked for its side
     double sidedDistance_ = 0.0;
     bool isInCavity_ = false;

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/base/parallel.h"
 #include "core/math/aabb.h"
 
 namespace scree {
@@ -33,6 +34,12 @@ std::optional<Vec3> pierce(const TriangleCorners& t, const Vec3& p, const Vec3& 
     return hits ? std::optional<Vec3>(place) : std::nullopt;
 }
 
+/// A triangle and its box.
+struct Boxed {
+    Aabb box;
+    int triangle;
+};
+
 bool sharesPoint(const TriMesh& mesh, int f, int g)
 {
     for (int k = 0; k < 3; ++k) {
@@ -47,24 +54,33 @@ bool sharesPoint(const TriMesh& mesh, int f, int g)
 
 std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
 {
-    const int count = static_cast<int>(mesh.triangles.cols());
-    std::vector<Aabb> boxes(count);
+    const auto count = static_cast<std::size_t>(mesh.triangles.cols());
+    std::vector<Boxed> all(count);
     Aabb whole;
-    for (int f = 0; f < count; ++f) {
-        for (int k = 0; k < 3; ++k) boxes[f].include(mesh.points.col(mesh.triangles(k, f)));
-        whole.include(boxes[f].min);
-        whole.include(boxes[f].max);
+    for (std::size_t i = 0; i < count; ++i) {
+        all[i].triangle = static_cast<int>(i);
+        for (int k = 0; k < 3; ++k)
+            all[i].box.include(mesh.points.col(mesh.triangles(k, all[i].triangle)));
+        whole.include(all[i].box.min);
+        whole.include(all[i].box.max);
     }
     const double tolerance = kTouching * whole.diagonal();
 
     // Sweep along the longest axis: only triangles whose boxes overlap there can meet.
     int axis = 0;
     whole.size().maxCoeff(&axis);
-    std::vector<int> order(count);
-    for (int f = 0; f < count; ++f) order[f] = f;
-    std::sort(order.begin(), order.end(), [&](int f, int g) {
-        return std::tuple(boxes[f].min[axis], f) < std::tuple(boxes[g].min[axis], g);
+    std::sort(all.begin(), all.end(), [&](const Boxed& f, const Boxed& g) {
+        return std::tuple(f.box.min[axis], f.triangle) < std::tuple(g.box.min[axis], g.triangle);
     });
+    std::vector<std::vector<int>> meets(count);
+    forEach(count, kShortWork, [&](std::size_t i) {
+        const auto& [box, f] = all[i];
+        for (std::size_t j = i + 1; j < count && all[j].box.min[axis] <= box.max[axis]; ++j) {
+            const int g = all[j].triangle;
+            if (box.overlaps(all[j].box) && !sharesPoint(mesh, f, g)) meets[i].push_back(g);
+        }
+    });
+
     std::set<std::tuple<int, int, int>> seen;  // an edge has two faces and is told once
     std::vector<MeshCrossing> crossings;
     const auto test = [&](int pierced, int other) {
@@ -77,13 +93,10 @@ std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
             }
         }
     };
-    for (int i = 0; i < count; ++i) {
-        const int f = order[i];
-        for (int j = i + 1; j < count && boxes[order[j]].min[axis] <= boxes[f].max[axis]; ++j) {
-            const int g = order[j];
-            if (!boxes[f].overlaps(boxes[g]) || sharesPoint(mesh, f, g)) continue;
-            test(f, g);
-            test(g, f);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const int g : meets[i]) {
+            test(all[i].triangle, g);
+            test(g, all[i].triangle);
         }
     }
     return crossings;

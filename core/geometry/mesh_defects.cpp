@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <utility>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
 #include "core/geometry/mesh_crossings.h"
+#include "core/geometry/mesh_edges.h"
 #include "core/geometry/winding_number.h"
 
 namespace scree {
@@ -62,30 +62,18 @@ void findBrokenNumbers(const TriMesh& mesh, DefectList& defects)
 /// Every edge must be walked once in each direction.
 void findBadEdges(const TriMesh& mesh, DefectList& defects)
 {
-    struct EdgeUse {
-        int forward = 0, backward = 0;  // how often a triangle walks it low→high and high→low
-        int triangle = -1;
-    };
-    std::map<std::pair<int, int>, EdgeUse> edges;
-    for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
-        for (int k = 0; k < 3; ++k) {
-            const int from = mesh.triangles(k, f), to = mesh.triangles((k + 1) % 3, f);
-            EdgeUse& use = edges[std::minmax(from, to)];
-            (from < to ? use.forward : use.backward) += 1;
-            use.triangle = f;
-        }
-    }
-    for (const auto& [ends, use] : edges) {
-        const Vec3 middle = 0.5 * (mesh.points.col(ends.first) + mesh.points.col(ends.second));
-        if (use.forward + use.backward == 1) {
-            defects.add("open edge", use.triangle, middle);
-        } else if (use.forward + use.backward > 2) {
-            defects.add("non-manifold edge", use.triangle, middle);
-        } else if (use.forward != use.backward) {
-            defects.add("edge whose two faces are oriented against each other", use.triangle,
+    MeshEdges(mesh).forEach([&](std::span<const TriangleSide> sides) {
+        const TriangleSide& last = sides.back();
+        const Vec3 middle = 0.5 * (mesh.points.col(last.low) + mesh.points.col(last.high));
+        if (sides.size() == 1) {
+            defects.add("open edge", last.triangle, middle);
+        } else if (sides.size() > 2) {
+            defects.add("non-manifold edge", last.triangle, middle);
+        } else if (sides[0].isUp == sides[1].isUp) {
+            defects.add("edge whose two faces are oriented against each other", last.triangle,
                         middle);
         }
-    }
+    });
 }
 
 void findFlatTriangles(const TriMesh& mesh, DefectList& defects)

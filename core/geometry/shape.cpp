@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/revolution.h"
@@ -28,28 +29,27 @@ constexpr double kRepairVoxelsPerShell = 3.0;  // fewer tear the shell where it 
 double measureThickness(const TriMesh& mesh, const SurfaceRays& rays, const Aabb& box)
 {
     struct Sample {
-        double thickness, area;
+        double thickness = 0.0, area = 0.0;  // none where nothing is opposite
     };
-    std::vector<Sample> samples;
-    double totalArea = 0.0;
+    std::vector<Sample> samples(static_cast<std::size_t>(mesh.triangles.cols()));
     const double below = 1e-5 * box.diagonal();
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const TriangleCorners corners = cornersOf(mesh, f);
-        const double area = corners.areaVector().norm();
+    forEach(samples.size(), kShortWork, [&](std::size_t f) {
+        const TriangleCorners corners = cornersOf(mesh, static_cast<Eigen::Index>(f));
         const Vec3 inward = -corners.normal();
         const Vec3 origin = corners.middle() + below * inward;
         const auto hit = rays.firstHit(origin, inward, box.diagonal(), SurfaceRays::Facing::along);
-        if (!hit) continue;
-        samples.push_back({below + hit->distance, area});
-        totalArea += area;
-    }
+        samples[f] = hit ? Sample{below + hit->distance, corners.areaVector().norm()} : Sample{};
+    });
+    double totalArea = 0.0;
+    for (const Sample& sample : samples) totalArea += sample.area;
     std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
         return a.thickness < b.thickness || (a.thickness == b.thickness && a.area < b.area);
     });
     double seen = 0.0;
     for (const Sample& sample : samples) {
         seen += sample.area;
-        if (seen >= 0.01 * totalArea) return std::min(sample.thickness, box.shortestEdge());
+        if (sample.area > 0.0 && seen >= 0.01 * totalArea)
+            return std::min(sample.thickness, box.shortestEdge());
     }
     return box.shortestEdge();
 }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/geometry/mesh_edges.h"
 #include "core/math/point_box.h"
 #include "core/math/rotation.h"
 
@@ -19,32 +19,6 @@ constexpr double kNoSlope = 0.1;
 
 /// Of squared distances near the surface, in spacings².
 constexpr double kSquaredRounding = 1e-12;
-
-/// Angle-weighted corner normals and summed edge normals give the right sign everywhere off the
-/// surface [BA05].
-struct PseudoNormals {
-    std::vector<Vec3> corner;                  // per point
-    std::map<std::pair<int, int>, Vec3> edge;  // per undirected edge
-    std::vector<Vec3> face;                    // per triangle
-};
-
-PseudoNormals pseudoNormals(const TriMesh& mesh)
-{
-    PseudoNormals normals;
-    normals.corner.assign(mesh.points.cols(), Vec3::Zero());
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const TriangleCorners corners = cornersOf(mesh, f);
-        const Vec3 normal = corners.normal();
-        normals.face.push_back(normal);
-        for (int k = 0; k < 3; ++k) {
-            const double angle = corners.angleAt(k);
-            normals.corner[mesh.triangles(k, f)] += angle * normal;
-            const auto ends = std::minmax(mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f));
-            normals.edge.try_emplace(ends, Vec3::Zero()).first->second += normal;
-        }
-    }
-    return normals;
-}
 
 }  // namespace
 
@@ -72,24 +46,30 @@ std::size_t SignedDistance::byteCount() const
            (sizeof(Face) + sizeof(Border)) * faces_.size();
 }
 
+/// Angle-weighted corner normals and summed edge normals give the right sign everywhere off the
+/// surface [BA05].
 void SignedDistance::buildFaces(const TriMesh& mesh)
 {
-    const PseudoNormals normals = pseudoNormals(mesh);
     faces_.resize(mesh.triangles.cols());
     borders_.resize(faces_.size());
+    std::vector<Vec3> ofCorner(mesh.points.cols(), Vec3::Zero());
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         const TriangleCorners corners = cornersOf(mesh, f);
-        faces_[f] = {corners, normals.face[f], edgeProducts(corners)};
-        Border& border = borders_[f];
+        faces_[f] = {corners, corners.normal(), edgeProducts(corners)};
         for (int k = 0; k < 3; ++k) {
-            const int from = mesh.triangles(k, f), to = mesh.triangles((k + 1) % 3, f);
-            border.normal[k] = normals.corner[from];
-            border.normal[3 + k] = normals.edge.at(std::minmax(from, to));
-        }
-        for (int k = 0; k < 3; ++k) {
-            border.angle[k] = corners.angleAt(k);
+            borders_[f].angle[k] = corners.angleAt(k);
+            ofCorner[mesh.triangles(k, f)] += borders_[f].angle[k] * faces_[f].normal;
         }
     }
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k) borders_[f].normal[k] = ofCorner[mesh.triangles(k, f)];
+    }
+    MeshEdges(mesh).forEach([&](std::span<const TriangleSide> sides) {
+        Vec3 ofEdge = Vec3::Zero();
+        for (const TriangleSide& side : sides) ofEdge += faces_[side.triangle].normal;
+        for (const TriangleSide& side : sides)
+            borders_[side.triangle].normal[3 + side.corner] = ofEdge;
+    });
 }
 
 std::span<const std::uint32_t> SignedDistance::facesOfCell(const Vec3& pointInDomain) const

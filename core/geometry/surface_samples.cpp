@@ -1,9 +1,8 @@
 #include "core/geometry/surface_samples.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
 
+#include "core/geometry/mesh_edges.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -12,20 +11,17 @@ namespace {
 /// Below this angle between its faces an edge counts as lying inside a flat region [rad].
 constexpr double kFlat = 1e-3;
 
-/// Angle between the normals of the two triangles at every undirected edge [rad].
-std::map<std::pair<int, int>, double> dihedralAngles(const TriMesh& mesh)
+/// Calls visit(side, angle) with one side of every edge and the angle between the normals of the
+/// two triangles that it parts [rad].
+template <class Visit>
+void forAngles(const TriMesh& mesh, const Visit& visit)
 {
-    std::map<std::pair<int, int>, Vec3> firstNormal;
-    std::map<std::pair<int, int>, double> angles;
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 normal = cornersOf(mesh, f).areaVector();
-        for (int k = 0; k < 3; ++k) {
-            const auto ends = std::minmax(mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f));
-            const auto [entry, isNew] = firstNormal.try_emplace(ends, normal);
-            if (!isNew) angles[ends] = angleBetween(entry->second, normal);
-        }
-    }
-    return angles;
+    MeshEdges(mesh).forEach([&](std::span<const TriangleSide> sides) {
+        if (sides.size() < 2) return;
+        const Vec3 first = cornersOf(mesh, sides.front().triangle).areaVector();
+        const Vec3 second = cornersOf(mesh, sides.back().triangle).areaVector();
+        visit(sides.front(), angleBetween(first, second));
+    });
 }
 
 }  // namespace
@@ -43,14 +39,14 @@ SurfaceSamples makeSurfaceSamples(const TriMesh& mesh, bool withEdges)
     if (!withEdges) return samples;
 
     std::vector<Sphere> edgeSpheres;
-    for (const auto& [ends, angle] : dihedralAngles(mesh)) {
-        if (angle < kFlat) continue;
-        const Vec3 a = mesh.points.col(ends.first), b = mesh.points.col(ends.second);
+    forAngles(mesh, [&](const TriangleSide& side, double angle) {
+        if (angle < kFlat) return;
+        const Vec3 a = mesh.points.col(side.low), b = mesh.points.col(side.high);
         const double length = (b - a).norm();
-        samples.edges.push_back({ends.first, ends.second});
+        samples.edges.push_back({side.low, side.high});
         samples.edgeLengths.push_back(length);
         edgeSpheres.push_back({0.5 * (a + b), 0.5 * length});
-    }
+    });
     samples.edgeTree = SphereTree(edgeSpheres);
     return samples;
 }
@@ -58,14 +54,15 @@ SurfaceSamples makeSurfaceSamples(const TriMesh& mesh, bool withEdges)
 double sharpestEdge(const TriMesh& mesh)
 {
     double sharpest = 0.0;
-    for (const auto& [ends, angle] : dihedralAngles(mesh)) sharpest = std::max(sharpest, angle);
+    forAngles(mesh,
+              [&](const TriangleSide&, double angle) { sharpest = std::max(sharpest, angle); });
     return sharpest;
 }
 
 int countSharperEdges(const TriMesh& mesh, double angle)
 {
     int count = 0;
-    for (const auto& [ends, between] : dihedralAngles(mesh)) count += between > angle;
+    forAngles(mesh, [&](const TriangleSide&, double between) { count += between > angle; });
     return count;
 }
 
