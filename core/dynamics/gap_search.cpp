@@ -267,7 +267,6 @@ bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
 void findGaps(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
     findForces(world, settings, dt, scratch.forces);
-    wakeByForces(world, scratch.forces);
     followBodies(world, scratch);
     scratch.gain.assign(world.bodyCount(), 0.0);
     scratch.looksFar.assign(world.bodyCount(), 0);

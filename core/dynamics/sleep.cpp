@@ -127,18 +127,24 @@ void sleepFromTheStart(World& world, const StepSettings& settings,
     world.contactMemory.contacts = contactsOfSleepers(world);
 }
 
-void fallAsleep(World& world, const GapScratch& scratch)
+void fallAsleep(World& world, const StepSettings& settings, const GapScratch& scratch)
 {
     std::vector<BodyRest>& rest = world.contactMemory.rest;
     rest.resize(world.bodyCount());
     noteStays(world);
     const std::vector<char> maySleep = whoMaySleep(world, scratch);
     calmWhatRocks(world, scratch);
+    if (std::ranges::find(maySleep, 1) == maySleep.end()) return;
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         if (!maySleep[i]) continue;
         rest[i].isAsleep = true;
-        rest[i].pull = scratch.forces[i].acceleration;
         world.motion[i].velocity = world.motion[i].angularMomentum = Vec3::Zero();
+    }
+    // As the next frame will ask: what wind does to a body depends a little on the step.
+    std::vector<AppliedForce> forces;
+    findForces(world, settings, world.frameDuration, forces);
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        if (maySleep[i]) rest[i].pull = forces[i].acceleration;
     }
 }
 

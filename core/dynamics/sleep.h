@@ -21,6 +21,6 @@ void sleepFromTheStart(World& world, const StepSettings& settings,
 
 /// At the end of a frame: notes who has moved, calms what rocks in its place, and puts to sleep
 /// what lies still. `scratch` holds the rows of the last step.
-void fallAsleep(World& world, const GapScratch& scratch);
+void fallAsleep(World& world, const StepSettings& settings, const GapScratch& scratch);
 
 }  // namespace scree

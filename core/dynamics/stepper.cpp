@@ -262,10 +262,12 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         StepReport limitReport;
         {
             const PhaseTimer timer(limitReport.seconds, Phase::stepLimit);
-            if (settings_.method == Method::scree)
+            if (settings_.method == Method::scree) {
                 findCandidates(world, settings_, remaining, *scratch_);
-            else
+                if (world.clock.subStep == 0) wakeByForces(world, scratch_->forces);
+            } else {
                 findPairs(world, settings_, remaining, *scratch_);
+            }
             length = chooseStep(world, settings_, frameDuration, remaining, *scratch_);
         }
         StepReport report = settings_.method == Method::scree ? stepGaps(world, length.dt)
@@ -281,7 +283,8 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         const bool isLast = length.dt == remaining;
         if (afterStep) afterStep(world, isLast ? frameDuration : world.clock.frameTimeDone);
         if (isLast) {
-            if (settings_.method == Method::scree && settings_.sleep) fallAsleep(world, *gaps_);
+            if (settings_.method == Method::scree && settings_.sleep)
+                fallAsleep(world, settings_, *gaps_);
             world.clock = {world.clock.frame + 1, 0, 0.0};
             frame.births = giveBirths(world);
             break;

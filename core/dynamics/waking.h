@@ -9,7 +9,8 @@
 
 namespace scree {
 
-/// Before a step: wakes what forces no longer leave alone.
+/// Before the first step of a frame, whose length depends on who is awake: wakes those on whom
+/// `forces`, of the whole frame, are no longer as they were when they fell asleep.
 void wakeByForces(World& world, const std::vector<AppliedForce>& forces);
 
 /// Wakes sleepers that a keyed body is about to touch or moves away from, or one that they do not

@@ -59,6 +59,23 @@ TEST(Waking, AForceThatChangesWakesButNotWhatAirTakesFromTheLastCreep)
     EXPECT_FALSE(world.contactMemory.isAsleep(1));
 }
 
+// All slept, so that the frame in which a force set in was one step of end-of-step velocities: what
+// it took along went twice as far.
+TEST(Waking, WhatAForceTakesAlongMovesInAsManyStepsAsThatNeeds)
+{
+    constexpr double kLift = 200.0;
+    World world = makeStack(1);
+    const StepSettings settings = screeSettings();
+    Stepper stepper(settings);
+    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, kFrame);
+    ASSERT_TRUE(world.contactMemory.isAsleep(1));
+    const double before = world.motion[1].position.y();
+    world.info[1].force.y() = (kLift - settings.gravity.y()) / world.mass[1].inverseMass;
+    stepper.advanceFrame(world, kFrame);
+    const double way = 0.5 * kLift * kFrame * kFrame;
+    EXPECT_NEAR(world.motion[1].position.y() - before, way, 0.05 * way);
+}
+
 TEST(Waking, ABlowGoesThroughSleepersAsThroughWhatIsAwake)
 {
     World world;
