@@ -351,9 +351,9 @@ const std::vector<ShotKey> kImportKeys = {
      .help = "As body.unmoved_by, of all bodies of the import."},
     {.path = "import.sdf",
      .type = table,
-     .help = "As shape.sdf, for each shape of the import. Many large thin pieces, such as those of "
-             "a broken vase, take a field of up to tens of megabytes each unless it is made "
-             "coarser here; `scree check` tells."},
+     .help = "As shape.sdf, for each shape of the import. With method \"paper\" many large thin "
+             "pieces, such as those of a broken vase, take a field of up to tens of megabytes each "
+             "unless it is made coarser here; `scree check` tells."},
     {.path = "import.sdf.resolution",
      .type = integer,
      .unit = "voxels",

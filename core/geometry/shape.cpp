@@ -54,6 +54,20 @@ double measureThickness(const TriMesh& mesh, const SurfaceRays& rays, const Aabb
     return box.shortestEdge();
 }
 
+NodeLayout layOutNodes(const Aabb& box, double spacing)
+{
+    // Nodes lie on the low faces of the box, and on the high ones where the edge is a multiple of
+    // h.
+    NodeLayout nodes;
+    nodes.spacing = spacing;
+    nodes.origin = box.min - Vec3::Constant(kMarginCells * spacing);
+    for (int k = 0; k < 3; ++k) {
+        const double cells = std::ceil(box.size()[k] / spacing - 1e-9);
+        nodes.count[k] = static_cast<int>(cells) + 1 + 2 * kMarginCells;
+    }
+    return nodes;
+}
+
 /// Node spacing from the settings, or from the thickness.  [A4]
 double wantedSpacing(const ShapeSettings& settings, const Aabb& box, double thickness)
 {
@@ -63,12 +77,26 @@ double wantedSpacing(const ShapeSettings& settings, const Aabb& box, double thic
     return std::min(thickness / kVoxelsPerThickness, longest / kLeastResolution);
 }
 
-/// The same, refused where the field would be too large.  [A4]
+/// As wide as the lattice must be to have no more nodes than that, but no wider than the default is
+/// for what is thick everywhere.
+double coarsened(double spacing, const Aabb& box, std::size_t enoughNodes)
+{
+    constexpr double kCoarser = 1.02;
+    const double longest = box.longestEdge(), widest = longest / kLeastResolution;
+    spacing = std::max(spacing, longest / kMostResolution);
+    while (spacing < widest && layOutNodes(box, spacing).nodeCount() > enoughNodes)
+        spacing = std::min(kCoarser * spacing, widest);
+    return spacing;
+}
+
+/// The same, coarser or refused where the field would be too large.  [A4]
 double chooseSpacing(const std::string& name, const ShapeSettings& settings, const Aabb& box,
                      double thickness)
 {
     const double longest = box.longestEdge();
     const double spacing = wantedSpacing(settings, box, thickness);
+    if (settings.enoughNodes && !settings.resolution && !settings.voxel)
+        return coarsened(spacing, box, *settings.enoughNodes);
     const double resolution = longest / spacing;
     if (resolution > kMostResolution + 0.5) {
         char text[320];
@@ -111,20 +139,6 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
         remeshSolid(solid, {settings.repair, settings.shellThickness, repairs.voxel}, name);
     repairs.drawnToColliding = farthestApart(solid, remeshed);
     return remeshed;
-}
-
-NodeLayout layOutNodes(const Aabb& box, double spacing)
-{
-    // Nodes lie on the low faces of the box, and on the high ones where the edge is a multiple of
-    // h.
-    NodeLayout nodes;
-    nodes.spacing = spacing;
-    nodes.origin = box.min - Vec3::Constant(kMarginCells * spacing);
-    for (int k = 0; k < 3; ++k) {
-        const double cells = std::ceil(box.size()[k] / spacing - 1e-9);
-        nodes.count[k] = static_cast<int>(cells) + 1 + 2 * kMarginCells;
-    }
-    return nodes;
 }
 
 /// Whether a field that was kept can be one of this mesh on this lattice: nobody asks again before

@@ -45,6 +45,9 @@ enum class FieldMode {
 struct ShapeSettings {
     std::optional<int> resolution;  ///< voxels along the longest box edge; default from thickness
     std::optional<double> voxel;    ///< [m], instead of resolution
+    std::optional<std::size_t>
+        enoughNodes;  ///< how many the default need not exceed, however thin the walls are; where
+                      ///< it is not told, the default is refused above 512 along the longest edge
     FieldStorage storage = FieldStorage::automatic;
     NormalMode normals = NormalMode::automatic;
     FieldMode field = FieldMode::refined;
