@@ -18,13 +18,23 @@ def turned_outward(mesh):
 
 
 def write_obj(path, mesh, words):
-    points, faces = turned_outward(mesh)
+    write_objects(path, [(None, mesh)], words)
+
+
+def write_objects(path, named, words):
+    """Several meshes (name, mesh) in one file, each an object of its own."""
+    start = 1
     with open(path, "w", encoding="ascii") as file:
         file.write(f"# {words}. Made by tools/props/make_props.py.\n")
-        for point in points:
-            file.write("v " + " ".join(f"{round(c, 6) + 0.0:.6g}" for c in point) + "\n")
-        for face in faces:
-            file.write("f " + " ".join(str(i + 1) for i in face) + "\n")
+        for name, mesh in named:
+            points, faces = turned_outward(mesh)
+            if name:
+                file.write(f"o {name}\n")
+            for point in points:
+                file.write("v " + " ".join(f"{round(c, 6) + 0.0:.6g}" for c in point) + "\n")
+            for face in faces:
+                file.write("f " + " ".join(str(i + start) for i in face) + "\n")
+            start += len(points)
 
 
 def joined(*meshes):

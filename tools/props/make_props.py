@@ -4,8 +4,8 @@
     tools/props/make_props.py shots
 
 writes shots/meshes/*.obj and shots/poses/*.poses: crockery, a chain, the stones of an arch, gears
-and their bucket, the letters of a word, a house of cards, an hourglass, a spiral of dominoes and a
-truck. Lengths are in the unit of the shot that uses them. Every mesh but the mug is one closed
+and their bucket, the letters of a word, a house of cards, an hourglass, a spiral of dominoes, a
+truck and a broken wall. Lengths are in the unit of the shot that uses them. Every mesh but the mug is one closed
 surface; a mug's handle is pushed into its wall, as modellers do, and the shot has it wrapped.
 """
 import math
@@ -14,7 +14,8 @@ import random
 import sys
 
 from forms import (arc, ball, cells, extruded, joined, moved, plate_with_bore, revolved, rounded, stroke,
-                   swept, write_obj)
+                   swept, write_obj, write_objects)
+from shards import shards
 
 
 def vessel(curve, thickness):
@@ -269,6 +270,14 @@ def block_poses():
         yield f"turntable_{ring}", poses
 
 
+def wall(size=(4.0, 2.5, 0.3), count=200):
+    """Its foot in the middle of the ground."""
+    draw = random.Random(7)
+    seeds = [tuple(draw.uniform(0.0, s) for s in size) for _ in range(count)]
+    for i, mesh in enumerate(shards(size, seeds)):
+        yield f"shard_{i:03}", moved(mesh, (-0.5 * size[0], 0.0, -0.5 * size[2]))
+
+
 def write_poses(path, poses):
     with open(path, "w", encoding="ascii") as file:
         file.write("# x y z qw qx qy qz. Made by tools/props/make_props.py.\n")
@@ -283,6 +292,8 @@ def main():
     for make in (crockery, chain, arch, gears, letters, hourglass, truck):
         for name, mesh, words in make():
             write_obj(os.path.join(shots, "meshes", name + ".obj"), mesh, words)
+    write_objects(os.path.join(shots, "meshes", "wall.obj"), wall(),
+                  "A wall of 4 by 2.5 by 0.3, broken into two hundred shards [m]")
     for make in (arch_poses, chain_poses, card_poses, domino_poses, letter_poses, block_poses):
         for name, poses in make():
             write_poses(os.path.join(shots, "poses", name + ".poses"), poses)
