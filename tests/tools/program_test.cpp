@@ -620,9 +620,11 @@ TEST_F(ProgramTest, InfoSaysThatFiguresAreMissingInsteadOfShowingZeros)
 /// Waits until something stands in the folder.
 bool waitForAnything(const fs::path& path)
 {
-    for (int i = 0; i < 20000 && namesIn(path).empty(); ++i)
+    for (int i = 0; i < 20000; ++i) {
+        if (!namesIn(path).empty()) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return !namesIn(path).empty();
+    }
+    return false;
 }
 
 TEST_F(ProgramTest, AStoppedExportLeavesNoTemporary)
