@@ -7,6 +7,9 @@
 //
 // All rows are laid out. Of a thousand rings that fall on each other three in ten end without an
 // impulse, but of these only half can be told beforehand, which is not worth a second look.
+//
+// Eight pairs abreast, with AVX-512, leave more lanes idle: of a run of a thousand rings they saved
+// a fiftieth, which is not worth a second path.
 #pragma once
 
 #include <array>
