@@ -40,10 +40,7 @@ BENCHMARK(simulateBones)
     ->ArgNames({"threads"})
     ->Arg(1)
     ->Arg(2)
-    ->Iterations(240)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(byFrames);
 
 }  // namespace
 }  // namespace scree::test

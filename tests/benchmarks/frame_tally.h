@@ -45,4 +45,10 @@ private:
     std::uint64_t stateHash_ = 0;
 };
 
+/// An iteration is a frame, of 240.
+inline void byFrames(benchmark::internal::Benchmark* frames)
+{
+    frames->Iterations(240)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+}
+
 }  // namespace scree::test

@@ -140,10 +140,7 @@ BENCHMARK(simulateRings)
     ->ArgsProduct({{500}, {1, 2}, {500}})
     ->ArgsProduct({{1000}, {1, 2}, {1000}})
     ->ArgsProduct({{10000}, {1, 2}, {100, 1000}})
-    ->Iterations(240)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(byFrames);
 
 }  // namespace
 }  // namespace scree::test

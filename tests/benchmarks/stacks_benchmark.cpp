@@ -37,10 +37,7 @@ BENCHMARK(simulateStack)
     ->ArgsProduct({{40}, {1}, {1, 10}})
     ->ArgsProduct({{10}, {100}, {1, 10}})
     ->ArgsProduct({{2}, {1000, 10000}, {1, 10}})
-    ->Iterations(240)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(byFrames);
 
 }  // namespace
 }  // namespace scree::test

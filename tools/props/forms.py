@@ -21,17 +21,18 @@ def write_obj(path, mesh, words):
     write_objects(path, [(None, mesh)], words)
 
 
-def write_objects(path, named, words):
-    """Several meshes (name, mesh) in one file, each an object of its own."""
+def write_objects(path, named, words, maker="make_props.py", decimals=6, digits=6):
+    """Several meshes (name, mesh) in one file, each an object of its own. With enough digits,
+    neighbours that share a place get the same."""
     start = 1
     with open(path, "w", encoding="ascii") as file:
-        file.write(f"# {words}. Made by tools/props/make_props.py.\n")
+        file.write(f"# {words}. Made by tools/props/{maker}.\n")
         for name, mesh in named:
             points, faces = turned_outward(mesh)
             if name:
                 file.write(f"o {name}\n")
             for point in points:
-                file.write("v " + " ".join(f"{round(c, 6) + 0.0:.6g}" for c in point) + "\n")
+                file.write("v " + " ".join(f"{round(c, decimals) + 0.0:.{digits}g}" for c in point) + "\n")
             for face in faces:
                 file.write("f " + " ".join(str(i + start) for i in face) + "\n")
             start += len(points)

@@ -10,23 +10,12 @@ import math
 import os
 import sys
 
-from forms import cells, extruded, turned_outward
+from forms import cells, extruded, write_objects
 from make_props import card_poses, write_poses
 
 
 def write_parts(path, parts, words):
-    """Named parts of one file; neighbours that share a place get the same digits."""
-    start = 1
-    with open(path, "w", encoding="ascii") as file:
-        file.write(f"# {words}. Made by tools/props/make_trials.py.\n")
-        for name, mesh in parts:
-            points, faces = turned_outward(mesh)
-            file.write(f"o {name}\n")
-            for point in points:
-                file.write("v " + " ".join(f"{round(c, 7) + 0.0:.8g}" for c in point) + "\n")
-            for face in faces:
-                file.write("f " + " ".join(str(i + start) for i in face) + "\n")
-            start += len(points)
+    write_objects(path, parts, words, maker="make_trials.py", decimals=7, digits=8)
 
 
 def catenary_arch(stones=25, half_span=3.0, rise=4.0, thickness=0.6, depth=1.2, foot=0.8):
