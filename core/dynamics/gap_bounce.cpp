@@ -43,9 +43,10 @@ public:
     }
 
     bool isOver() const { return isOver_; }
-    std::vector<GapImpact> impacts() const
+    /// Hands over what was noted.
+    std::vector<GapImpact> takeImpacts()
     {
-        std::vector<GapImpact> all = whole_.impacts();
+        std::vector<GapImpact> all = whole_.takeImpacts();
         for (const ImpactVisits& half : halves_)
             all.insert(all.end(), half.impacts().begin(), half.impacts().end());
         return all;
@@ -140,7 +141,7 @@ void resolveImpacts(const StepSettings& settings, double dt, const std::vector<H
         if (first.empty()) return;
         IslandImpacts island(state, scratch.islands[i], first.size() >= kHitsWorthACut);
         island.run(first);
-        outcomes[i - firstIsland] = {island.impacts(), island.isOver()};
+        outcomes[i - firstIsland] = {island.takeImpacts(), island.isOver()};
     });
     for (const Outcome& outcome : outcomes) {
         block.impacts.insert(block.impacts.end(), outcome.impacts.begin(), outcome.impacts.end());

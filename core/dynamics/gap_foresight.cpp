@@ -50,7 +50,8 @@ Foreseen foresee(const World& world, double dt, const std::vector<Held>& held, c
         if (closing > fastest && closedBy(scratch, row, -closing, dt) > 0.0) fastest = closing;
     }
     if (fastest == slow) return {};
-    PairForesight foresight(world, held, scratch, pair, dt, fastest);
+    thread_local std::vector<GapContact> room;
+    PairForesight foresight(world, held, scratch, pair, dt, fastest, room);
     const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
     // A plane is everywhere ahead of what comes down on it.
     const bool mayPass = !world.shapeOf(pair.bodies.a).isPlane &&

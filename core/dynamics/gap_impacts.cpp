@@ -42,6 +42,13 @@ bool arrives(const Impact& hit)
     return !hit.row->wasHit && !hit.isCarried;
 }
 
+template <class Which>
+void dropHits(std::vector<Impact>& hits, std::size_t from, const Which& which)
+{
+    const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(from);
+    hits.erase(std::remove_if(begin, hits.end(), which), hits.end());
+}
+
 double strongerPull(const GapBody& a, const GapBody& b)
 {
     return std::max(a.pull.norm(), b.pull.norm());
@@ -161,49 +168,51 @@ bool ImpactVisits::impactOf(const GapPair& pair, GapRow& row, Impact& impact) co
 /// True when nothing is left to be hit.
 bool ImpactVisits::resolvePair(std::size_t p)
 {
+    thread_local std::vector<Impact> hits;
     for (int n = 0; n < state_.settings.collisionPairImpulses; ++n) {
-        if (!gather(p)) {
+        if (!gather(p, hits)) {
             left_.push_back(p);
             return false;
         }
-        if (hits_.empty()) return true;
-        for (const Impact& hit : hits_) hit.row->wasHit = true;
-        if (hits_.size() == 1) {
-            applyOne(hits_[0]);
+        if (hits.empty()) return true;
+        for (const Impact& hit : hits) hit.row->wasHit = true;
+        if (hits.size() == 1) {
+            applyOne(hits[0]);
         } else {
-            applyTogether();
+            applyTogether(hits);
         }
     }
     return false;
 }
 
-/// Fills hits_ with the first impacts of a pair, and those that come to its bodies, and on to
+/// Fills `hits` with the first impacts of a pair, and those that come to its bodies, and on to
 /// the others of these, at the same time. False when some might come through what is left to
 /// somebody else.
-bool ImpactVisits::gather(std::size_t p)
+bool ImpactVisits::gather(std::size_t p, std::vector<Impact>& hits)
 {
-    hits_.clear();
-    const double time = gatherFirst(p);
-    if (hits_.empty() || !arrives(hits_[0])) return true;
+    hits.clear();
+    const double time = gatherFirst(p, hits);
+    if (hits.empty() || !arrives(hits[0])) return true;
     ++clock_;
     state_.gatheredAt[scratch_.pairs[p].place] = clock_;
-    toSpread_ = {scratch_.pairs[p].bodies.a, scratch_.pairs[p].bodies.b};
-    while (!toSpread_.empty()) {
-        const BodyId body = toSpread_.back();
-        toSpread_.pop_back();
+    thread_local std::vector<BodyId> toSpread;
+    toSpread = {scratch_.pairs[p].bodies.a, scratch_.pairs[p].bodies.b};
+    while (!toSpread.empty()) {
+        const BodyId body = toSpread.back();
+        toSpread.pop_back();
         for (const std::size_t q : state_.pairsOfBodies().of(state_.placeOf(body))) {
             const GapPair& pair = scratch_.pairs[q];
             if (pair.isCarried) continue;
             if (isOfHalf_ && pair.part == 2) return false;
             if (state_.gatheredAt[pair.place] == clock_) continue;
             state_.gatheredAt[pair.place] = clock_;
-            const std::size_t before = hits_.size();
-            gatherFirst(q);
-            dropHits(before, [&](const Impact& hit) {
+            const std::size_t before = hits.size();
+            gatherFirst(q, hits);
+            dropHits(hits, before, [&](const Impact& hit) {
                 return !arrives(hit) || std::abs(hit.time - time) > kTogether * state_.dt;
             });
             const auto [a, b] = pair.bodies;
-            if (hits_.size() > before) toSpread_.push_back(a == body ? b : a);
+            if (hits.size() > before) toSpread.push_back(a == body ? b : a);
         }
     }
     return true;
@@ -211,33 +220,26 @@ bool ImpactVisits::gather(std::size_t p)
 
 /// Of all places of a pair that would be hit, those that are hit first: what would follow may
 /// not, once these are answered. None if all would only precede a blow. Answers their time.
-double ImpactVisits::gatherFirst(std::size_t p)
+double ImpactVisits::gatherFirst(std::size_t p, std::vector<Impact>& hits) const
 {
     const GapPair& pair = scratch_.pairs[p];
-    const std::size_t before = hits_.size();
+    const std::size_t before = hits.size();
     double earliest = state_.dt;
     bool isHit = false;
     Impact impact{};
     for (std::size_t r = pair.begin; r < pair.end; ++r) {
         if (!impactOf(pair, scratch_.rows[r], impact)) continue;
-        hits_.push_back(impact);
+        hits.push_back(impact);
         earliest = std::min(earliest, impact.time);
         isHit = isHit || !impact.onlyPrecedes;
     }
     if (!isHit) {
-        dropHits(before, [](const Impact&) { return true; });
+        hits.resize(before);
         return state_.dt;
     }
-    dropHits(before,
+    dropHits(hits, before,
              [&](const Impact& hit) { return hit.time > earliest + kTogether * state_.dt; });
     return earliest;
-}
-
-template <class Which>
-void ImpactVisits::dropHits(std::size_t from, const Which& which)
-{
-    const auto begin = hits_.begin() + static_cast<std::ptrdiff_t>(from);
-    hits_.erase(std::remove_if(begin, hits_.end(), which), hits_.end());
 }
 
 /// How far the centres slide along each other until the impact, if both are free to.
@@ -305,23 +307,24 @@ void ImpactVisits::applyOne(Impact& impact)
 
 /// A face that lands flat is hit at all its corners at once. One by one they would make it
 /// spin.
-void ImpactVisits::applyTogether()
+void ImpactVisits::applyTogether(std::vector<Impact>& hits)
 {
     double earliest = state_.dt, fastest = 0.0;
-    together_.begin(scratch_.bodies);
-    for (Impact& impact : hits_) {
-        together_.add(rowAt(impact));
+    thread_local HitTogether together;
+    together.begin(scratch_.bodies);
+    for (Impact& impact : hits) {
+        together.add(rowAt(impact));
         earliest = std::min(earliest, impact.time);
         fastest = std::max(fastest, impact.velocity.norm());
     }
-    const bool isWhole = together_.solve(kPairIsSolved * fastest) == 1.0;
-    for (std::size_t i = 0; i < hits_.size(); ++i) {
-        const GapRow& row = together_.rows()[i];
+    const bool isWhole = together.solve(kPairIsSolved * fastest) == 1.0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const GapRow& row = together.rows()[i];
         applyImpulses(row, row.worldImpulse(), earliest);
         const FrictionCase kind = !isWhole      ? FrictionCase::fallback
                                   : sticks(row) ? FrictionCase::sticking
                                                 : FrictionCase::sliding;
-        note(hits_[i], row.worldImpulse(), kind);
+        note(hits[i], row.worldImpulse(), kind);
     }
 }
 

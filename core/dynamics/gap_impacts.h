@@ -96,6 +96,7 @@ public:
     void setClock(std::int64_t clock) { clock_ = clock; }
 
     const std::vector<GapImpact>& impacts() const { return noted_; }
+    std::vector<GapImpact> takeImpacts() { return std::exchange(noted_, {}); }
 
     /// When the first row of a pair will be hit; negative: none will.
     double timeOf(const GapPair& pair) const;
@@ -114,14 +115,12 @@ private:
     Vec3 gravityAt(const GapRow& row) const;
     bool impactOf(const GapPair& pair, GapRow& row, Impact& impact) const;
     bool resolvePair(std::size_t p);
-    bool gather(std::size_t p);
-    double gatherFirst(std::size_t p);
-    template <class Which>
-    void dropHits(std::size_t from, const Which& which);
+    bool gather(std::size_t p, std::vector<Impact>& hits);
+    double gatherFirst(std::size_t p, std::vector<Impact>& hits) const;
     Vec3 slideUntil(const Impact& impact) const;
     GapRow rowAt(Impact& impact) const;
     void applyOne(Impact& impact);
-    void applyTogether();
+    void applyTogether(std::vector<Impact>& hits);
     void note(const Impact& impact, const Vec3& impulse, FrictionCase kind);
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time);
     void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& impacts,
@@ -133,9 +132,6 @@ private:
     bool isOfHalf_;
     std::vector<std::size_t> left_;
     std::vector<GapImpact> noted_;
-    std::vector<BodyId> toSpread_;
-    std::vector<Impact> hits_;
-    HitTogether together_;
 };
 
 }  // namespace scree

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/base/sorted.h"
-#include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
 
@@ -105,7 +104,7 @@ void goRoundWithKeyed(const World& world, double dt, const GapIsland& island, Ga
     }
     if (turning.empty()) return;
     sortUnique(turning);
-    for (const BodyId mover : moversOf(scratch, island)) {
+    for (const BodyId mover : island.movers) {
         GapBody& body = scratch.bodies[mover];
         for (const BodyId id : turning) {
             const GapBody& keyed = scratch.bodies[id];
@@ -162,7 +161,7 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
                           late(scratch.bodies[row.a]) - late(scratch.bodies[row.b]));
             }
         }
-        for (const BodyId mover : moversOf(scratch, scratch.islands[island])) {
+        for (const BodyId mover : scratch.islands[island].movers) {
             GapBody& body = scratch.bodies[mover];
             const MeanMotion mean(body, dt);
             body.shift += mean.shift;

@@ -50,6 +50,24 @@ void sortInHalves(std::vector<Item>& items, const Before& before)
     std::inplace_merge(items.begin(), middle, items.end(), before);
 }
 
+void listMovers(const GapScratch& scratch, GapIsland& island)
+{
+    // A body has several pairs: sorting them all took longer than what the list was for.
+    thread_local std::vector<char> isListed;
+    isListed.resize(std::max(isListed.size(), scratch.bodies.size()));
+    std::vector<BodyId>& movers = island.movers;
+    movers.clear();
+    for (const std::size_t i : island.pairs) {
+        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
+            if (isListed[body] || !(scratch.bodies[body].inverseMass > 0.0)) continue;
+            isListed[body] = true;
+            movers.push_back(body);
+        }
+    }
+    for (const BodyId mover : movers) isListed[mover] = false;
+    std::sort(movers.begin(), movers.end());
+}
+
 /// In the order of the first of their pairs.
 void cutIntoIslands(GapScratch& scratch)
 {
@@ -70,6 +88,8 @@ void cutIntoIslands(GapScratch& scratch)
             island.rowCount += pair.end - pair.begin;
         }
     }
+    forEach(scratch.islands.size(), 1,
+            [&](std::size_t n) { listMovers(scratch, scratch.islands[n]); });
 }
 
 /// Bottom to top: what carries is solved before what is carried.
@@ -214,24 +234,6 @@ PairParts partsOf(const GapScratch& scratch, const GapIsland& island,
     const std::span<const std::size_t> all = room;
     return {all.subspan(begin[0], begin[1] - begin[0]), all.subspan(begin[1], begin[2] - begin[1]),
             all.subspan(begin[2])};
-}
-
-std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island)
-{
-    // A body has several pairs: sorting them all took longer than what the list was for.
-    thread_local std::vector<char> isListed;
-    isListed.resize(std::max(isListed.size(), scratch.bodies.size()));
-    std::vector<BodyId> movers;
-    for (const std::size_t i : island.pairs) {
-        for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (isListed[body] || !(scratch.bodies[body].inverseMass > 0.0)) continue;
-            isListed[body] = true;
-            movers.push_back(body);
-        }
-    }
-    for (const BodyId mover : movers) isListed[mover] = false;
-    std::sort(movers.begin(), movers.end());
-    return movers;
 }
 
 }  // namespace scree

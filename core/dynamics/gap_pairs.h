@@ -35,7 +35,4 @@ void groupByBodies(const GapScratch& scratch, std::span<const std::size_t> pairs
 PairParts partsOf(const GapScratch& scratch, const GapIsland& island,
                   std::vector<std::size_t>& room);
 
-/// The bodies of an island that can be moved, sorted.
-std::vector<BodyId> moversOf(const GapScratch& scratch, const GapIsland& island);
-
 }  // namespace scree

@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "core/dynamics/gap_contact.h"
-#include "core/dynamics/gap_pairs.h"
 
 namespace scree {
 namespace {
@@ -82,7 +81,7 @@ bool isPressed(const StepSettings& settings, double dt, const GapScratch& scratc
     const Press press = pressOn(scratch, island);
     if (press.speed == 0.0) return false;
     const double momentum =
-        massOf(scratch, moversOf(scratch, island)) * (press.speed + dt * settings.gravity.norm());
+        massOf(scratch, island.movers) * (press.speed + dt * settings.gravity.norm());
     if (press.impulse <= kPressed * momentum) return false;
     double closing = 0.0;
     forRows(scratch, island.pairs, [&](std::size_t r) {
@@ -96,9 +95,8 @@ bool isPressed(const StepSettings& settings, double dt, const GapScratch& scratc
 void solvePressed(double dt, const GapIsland& island, GapScratch& scratch)
 {
     const Press press = pressOn(scratch, island);
-    const std::vector<BodyId> movers = moversOf(scratch, island);
-    const double yield = kYield * press.rows / massOf(scratch, movers);
-    for (const BodyId mover : movers) {
+    const double yield = kYield * press.rows / massOf(scratch, island.movers);
+    for (const BodyId mover : island.movers) {
         GapBody& body = scratch.bodies[mover];
         body.velocity = body.velocityBefore + dt * body.pull;
         body.spin = body.spinBefore + dt * (body.inverseInertia * body.torque);

@@ -57,6 +57,7 @@ struct GapImpact {
 /// movable body, so they may be solved at once and stop on their own.
 struct GapIsland {
     std::vector<std::size_t> pairs;  ///< bottom to top
+    std::vector<BodyId> movers;      ///< those of its bodies that can be moved, sorted
     std::size_t rowCount = 0;
     bool isRemembered = false;  ///< some of its pairs carried in the last step
     bool isKept = false;        ///< as an earlier attempt at the step has solved it
@@ -111,12 +112,12 @@ struct BodyMove {
 
 /// Whom a step, as solved, takes where it has not looked: gap_unseen.h. Per body.
 struct GapUnseen {
-    std::vector<double> change;   ///< of the velocity it was looked for with [m/s]
-    std::vector<char> isStruck;   ///< so that it ends visibly elsewhere
-    std::vector<char> isFaster;   ///< leaves the box that it was looked for in
-    std::vector<Aabb> boxes;      ///< that nobody leaves
-    std::vector<char> isMet;      ///< per pair that was asked about
-    std::vector<BodyPair> pairs;  ///< that run visibly into each other
+    std::vector<double> change;      ///< of the velocity it was looked for with [m/s]
+    std::vector<char> isStruck;      ///< so that it ends visibly elsewhere
+    std::vector<char> isFaster;      ///< leaves the box that it was looked for in
+    std::vector<Aabb> boxes;         ///< that nobody leaves
+    std::vector<char> isMet;         ///< per pair that was asked about
+    std::vector<BodyPair> pairs;     ///< that run visibly into each other
     std::vector<BodyPair> diverted;  ///< let pass, and met: sorted, of all attempts at this step
 };
 

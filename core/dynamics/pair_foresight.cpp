@@ -69,7 +69,8 @@ Pose Course::poseAt(double t) const
 }
 
 PairForesight::PairForesight(const World& world, const std::vector<Held>& held, GapScratch& scratch,
-                             const GapPair& pair, double dt, double fastest)
+                             const GapPair& pair, double dt, double fastest,
+                             std::vector<GapContact>& room)
     : world_(world),
       scratch_(scratch),
       bodies_(pair.bodies),
@@ -77,7 +78,8 @@ PairForesight::PairForesight(const World& world, const std::vector<Held>& held, 
       a_(world, scratch, held, bodies_.a),
       b_(world, scratch, held, bodies_.b),
       dt_(dt),
-      fastEnough_(kOfFastest * fastest)
+      fastEnough_(kOfFastest * fastest),
+      found_(room)
 {
     const double thinner =
         std::min(world.shapeOf(bodies_.a).thickness(), world.shapeOf(bodies_.b).thickness());

@@ -40,11 +40,11 @@ inline bool bears(const GapRow& row)
     return row.impulse.x() > 0.0;
 }
 
-/// A pair of which something comes closer as fast as that.
+/// A pair of which something comes closer as fast as that. `room`: for the contacts it will have.
 class PairForesight {
 public:
     PairForesight(const World& world, const std::vector<Held>& held, GapScratch& scratch,
-                  const GapPair& pair, double dt, double fastest);
+                  const GapPair& pair, double dt, double fastest, std::vector<GapContact>& room);
 
     /// What comes closer more slowly is another matter [m/s].
     double fastEnough() const { return fastEnough_; }
@@ -83,7 +83,7 @@ private:
     NearFeatures& near_;
     Course a_, b_;
     double dt_, fastEnough_, after_;
-    std::vector<GapContact> found_;
+    std::vector<GapContact>& found_;
 };
 
 }  // namespace scree

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/gap_pairs.h"
 #include "core/dynamics/impulse.h"
 
 namespace scree {
@@ -71,12 +70,12 @@ double framesToSleep(const World& world, BodyId body, double acceleration)
 bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& island)
 {
     if (world.contactMemory.rest.size() < world.bodyCount()) return false;  // nobody sleeps
-    const std::vector<BodyId> movers = moversOf(scratch, island);
-    const auto staying = std::ranges::count_if(movers, [&](BodyId body) {
+    const auto staying = std::ranges::count_if(island.movers, [&](BodyId body) {
         const double frames = framesToSleep(world, body, scratch.bodies[body].pull.norm());
         return world.contactMemory.rest[body].nearby.frames >= kSettlingTime * frames;
     });
-    return static_cast<double>(staying) >= kSettlingShare * static_cast<double>(movers.size());
+    return static_cast<double>(staying) >=
+           kSettlingShare * static_cast<double>(island.movers.size());
 }
 
 void noteStays(World& world)
