@@ -218,11 +218,12 @@ const std::vector<ShotKey> kShapeKeys = {
      .help = "Factor, or one for each axis, baked into the mesh before anything is computed."},
     {.path = "shape.sdf",
      .type = table,
-     .help = "How finely the distance field is sampled. Without it, the thinnest part gets twelve "
-             "voxels and the longest edge at least 48. With method \"scree\" and a refined field, "
-             "whose contacts are those of the mesh itself, it takes no more than a million voxels in "
-             "all, however thin the parts are; without these more than 512 along the longest edge "
-             "are refused."},
+     .help =
+         "How finely the distance field is sampled. Without it, the thinnest part gets twelve "
+         "voxels and the longest edge at least 48. With method \"scree\" and a refined field, "
+         "whose contacts are those of the mesh itself, it takes no more than a million voxels in "
+         "all, however thin the parts are; without these more than 512 along the longest edge "
+         "are refused."},
     {.path = "shape.sdf.resolution",
      .type = integer,
      .unit = "voxels",
@@ -270,19 +271,22 @@ const std::vector<ShotKey> kShapeKeys = {
     {.path = "shape.mesh.repair",
      .type = word,
      .byDefault = "\"none\"",
-     .choices = "none|wrap|shell",
+     .choices = "none|wrap|shell|ground",
      .help =
          "\"none\" refuses holes, sheets and parts that pierce each other. \"wrap\" collides as "
          "the solid around which the mesh winds: closes holes, joins parts, rounds edges by "
          "about a voxel (sdf says how fine, else 64 along the longest edge). \"shell\" gives "
          "the mesh a thickness, for leaves and open bowls. `scree check` says how far what "
-         "collides then is from what is drawn."},
+         "collides then is from what is drawn. \"ground\" closes an open sheet that is seen from "
+         "one side, such as a terrain, by walls down from its rim and a floor: bodies touch "
+         "exactly what is drawn, and what its faces look away from is solid."},
     {.path = "shape.mesh.thickness",
      .unit = "shot's unit of length",
      .min = 0,
      .isOpen = true,
      .help = "Of the shell, half of it on either side of the mesh. Thin shells need small time "
-             "steps and fine fields."},
+             "steps and fine fields. Of the ground, from its lowest point down to its floor; by "
+             "default a tenth of its longest edge."},
     {.path = "shape.collision",
      .type = table,
      .help = "A mesh of its own for collisions: mass, contacts and all that is said of the solid "

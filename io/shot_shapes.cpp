@@ -31,16 +31,18 @@ void readRepair(const ShotNode& mesh, double metresPerUnit, ShapeSettings& setti
 {
     const ShotNode* repair = mesh.find("repair");
     const ShotNode* thickness = mesh.find("thickness");
-    const bool isShell = repair && repair->text == "shell";
-    settings.repair = isShell                            ? MeshRepair::shell
-                      : repair && repair->text == "wrap" ? MeshRepair::wrap
-                                                         : MeshRepair::none;
+    const std::string asked = wordOf(mesh, "repair");
+    const bool isShell = asked == "shell", isGround = asked == "ground";
+    settings.repair = isShell           ? MeshRepair::shell
+                      : isGround        ? MeshRepair::ground
+                      : asked == "wrap" ? MeshRepair::wrap
+                                        : MeshRepair::none;
     if (isShell && !mesh.mentions("thickness")) {
         problems.add(repair->where, "a \"shell\" needs a 'thickness'");
     }
-    if (!isShell && thickness && !mesh.isUnclear("repair"))
-        problems.add(thickness->where, "only a \"shell\" has a 'thickness'");
-    if (thickness) settings.shellThickness = thickness->number * metresPerUnit;
+    if (!isShell && !isGround && thickness && !mesh.isUnclear("repair"))
+        problems.add(thickness->where, "only a \"shell\" and a \"ground\" have a 'thickness'");
+    if (thickness) settings.repairThickness = thickness->number * metresPerUnit;
 }
 
 class ShapeReader {

@@ -156,6 +156,26 @@ void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>&
     }
 }
 
+/// What the shot asked to be done to a mesh; empty if nothing.
+std::string describeAsked(const ShapeRepairs& done)
+{
+    switch (done.asked) {
+        case MeshRepair::none:
+            return "";
+        case MeshRepair::wrap:
+            return formatted("wrapped with voxels of %.3g m", done.voxel);
+        case MeshRepair::shell:
+            return formatted("made a shell with voxels of %.3g m", done.voxel);
+        case MeshRepair::ground:
+            break;
+    }
+    Eigen::Index axis;
+    done.groundUp.cwiseAbs().maxCoeff(&axis);
+    return formatted("closed %.3g m below its lowest point; its faces look along ",
+                     done.groundDepth) +
+           (done.groundUp[axis] > 0.0 ? '+' : '-') + "xyz"[axis];
+}
+
 }  // namespace
 
 std::string describe(const StartOverlap& overlap, const World& world)
@@ -254,16 +274,14 @@ std::vector<std::string> repairsOf(const World& world)
         if (!done.harmless.isNone()) {
             repairs.push_back("shape '" + shape.name + "': " + describe(done.harmless));
         }
-        const bool isRemeshed = done.remeshed != MeshRepair::none;
-        if (!isRemeshed && !done.hasCollisionMesh) continue;
+        if (done.asked == MeshRepair::none && !done.hasCollisionMesh) continue;
         std::string text = "shape '" + shape.name + "': ";
         if (done.hasCollisionMesh) text += "collides as a mesh of its own";
-        if (done.hasCollisionMesh && isRemeshed) text += ", ";
-        if (isRemeshed) {
-            text += done.remeshed == MeshRepair::wrap ? "wrapped" : "made a shell";
-            text += formatted(" with voxels of %.3g m", done.voxel);
-        }
-        repairs.push_back(text + "; " + describe(done.drawnToColliding));
+        if (done.hasCollisionMesh && done.asked != MeshRepair::none) text += ", ";
+        text += describeAsked(done);
+        // The walls and the floor of a ground are nowhere near what is drawn, nor need they be.
+        const bool isComparable = done.asked != MeshRepair::ground || done.hasCollisionMesh;
+        repairs.push_back(isComparable ? text + "; " + describe(done.drawnToColliding) : text);
     }
     return repairs;
 }

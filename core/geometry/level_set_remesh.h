@@ -9,9 +9,10 @@
 namespace scree {
 
 enum class MeshRepair {
-    none,   ///< refuse a mesh that is no solid
-    wrap,   ///< the solid around which the mesh winds more than half: closes holes, joins parts
-    shell,  ///< everything within half a thickness of the mesh
+    none,    ///< refuse a mesh that is no solid
+    wrap,    ///< the solid around which the mesh winds more than half: closes holes, joins parts
+    shell,   ///< everything within half a thickness of the mesh
+    ground,  ///< what lies below an open sheet: ground_solid.h
 };
 
 struct RemeshSettings {

@@ -154,8 +154,9 @@ void requireSolid(const TriMesh& mesh, const std::string& name, DefectSearch sea
                 "shape '" + name +
                     "' is not a closed, outward-oriented solid: " + describe(defects) +
                     "; mend the mesh, or write mesh = { repair = \"wrap\" } to collide as the "
-                    "solid it nearly bounds, or mesh = { repair = \"shell\", thickness = … } to "
-                    "give its sheets a thickness");
+                    "solid it nearly bounds, mesh = { repair = \"shell\", thickness = … } to give "
+                    "its sheets a thickness, or mesh = { repair = \"ground\" } to close a terrain "
+                    "below");
 }
 
 void requireSurface(const TriMesh& mesh, const std::string& name)

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/geometry/ground_solid.h"
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/revolution.h"
@@ -120,7 +121,7 @@ double repairVoxel(const TriMesh& mesh, const ShapeSettings& settings)
     double voxel = longest / settings.resolution.value_or(kRepairResolution);
     if (settings.voxel) voxel = *settings.voxel;
     if (settings.repair == MeshRepair::wrap) return voxel;
-    return std::min(voxel, settings.shellThickness / kRepairVoxelsPerShell);
+    return std::min(voxel, settings.repairThickness / kRepairVoxelsPerShell);
 }
 
 /// The solid that collides, in the artist's frame.
@@ -133,10 +134,16 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
         return solid;
     }
     requireSurface(solid, name);
-    repairs.remeshed = settings.repair;
+    repairs.asked = settings.repair;
+    if (settings.repair == MeshRepair::ground) {
+        GroundSolid ground = closeBelow(solid, settings.repairThickness, name);
+        repairs.groundUp = ground.up;
+        repairs.groundDepth = ground.depth;
+        return std::move(ground.mesh);
+    }
     repairs.voxel = repairVoxel(solid, settings);
     const TriMesh remeshed =
-        remeshSolid(solid, {settings.repair, settings.shellThickness, repairs.voxel}, name);
+        remeshSolid(solid, {settings.repair, settings.repairThickness, repairs.voxel}, name);
     repairs.drawnToColliding = farthestApart(solid, remeshed);
     return remeshed;
 }

@@ -54,14 +54,17 @@ struct ShapeSettings {
     std::optional<bool>
         edgeSamples;  ///< [A8]; otherwise on when edges are long against the thickness
     MeshRepair repair = MeshRepair::none;  ///< of a mesh that is no solid  [A1]
-    double shellThickness = 0.0;           ///< of MeshRepair::shell [m]
+    double repairThickness = 0.0;  ///< of MeshRepair::shell; of MeshRepair::ground below its lowest
+                                   ///< point, 0: as it chooses [m]
 };
 
 /// What was done to the artist's mesh before it became a solid.
 struct ShapeRepairs {
     HarmlessRepairs harmless;
-    MeshRepair remeshed = MeshRepair::none;
-    double voxel = 0.0;              ///< of the remeshing [m]
+    MeshRepair asked = MeshRepair::none;  ///< that the shot asked for
+    double voxel = 0.0;                   ///< of the remeshing [m]
+    Vec3 groundUp = Vec3::Zero();         ///< where the sheet of a ground looks
+    double groundDepth = 0.0;             ///< of its floor below its lowest point [m]
     bool hasCollisionMesh = false;   ///< what collides was made from another mesh than is drawn
     MeshDeviation drawnToColliding;  ///< of the two, in the artist's frame; 0 where they are one
 };

@@ -360,7 +360,7 @@ TEST(ShotImport, ClosesAnOpenNodeWhenAsked)
     writeOpenGltf(folder);
     const std::string keys = "mesh = { repair = \"wrap\" }\nsdf = { resolution = 32 }\n";
     const World world = buildWorld(parseShotText(shotOf(folder, "\"Bowl\"") + keys, "s.toml"));
-    EXPECT_EQ(world.shapeOf(0).repairs.remeshed, MeshRepair::wrap);
+    EXPECT_EQ(world.shapeOf(0).repairs.asked, MeshRepair::wrap);
     EXPECT_NEAR(world.shapeOf(0).unitMass.volume, 1.0 / 6.0, 0.03);
 }
 

@@ -282,7 +282,7 @@ ShapeSettings repairBy(MeshRepair repair, double thickness = 0.0)
 {
     ShapeSettings settings;
     settings.repair = repair;
-    settings.shellThickness = thickness;
+    settings.repairThickness = thickness;
     settings.resolution = 48;
     return settings;
 }
@@ -311,7 +311,7 @@ TEST(TortureMesh, WrapMakesTheSolidThatTheMeshNearlyBounds)
         // Edges are rounded by about a voxel, a forty-eighth: 12 edges of length 1 and a section of
         // half a square voxel, and as much again for what the lattice cuts.
         EXPECT_NEAR(shape->unitMass.volume / item.volume, 1.0, 0.03) << item.name;
-        EXPECT_EQ(shape->repairs.remeshed, MeshRepair::wrap);
+        EXPECT_EQ(shape->repairs.asked, MeshRepair::wrap);
         EXPECT_TRUE(findDefects(shape->mesh, DefectSearch::topology).empty());
     }
 }
@@ -345,6 +345,80 @@ TEST(TortureMesh, AShellGivesASheetItsThickness)
     EXPECT_NEAR(shape->repairs.drawnToColliding.distance / (0.5 * thickness), 1.0, 0.1);
     EXPECT_NE(refusalOf(sheet(4), repairBy(MeshRepair::shell, 0.01)).find("more than the 256"),
               std::string::npos);
+}
+
+/// A sheet with a hill that hangs over, and a hole beside it.
+TriMesh terrain()
+{
+    TriMesh mesh = sheet(24);
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
+        const double x = mesh.points(0, v), z = mesh.points(2, v);
+        const double hill = 0.3 * std::max(0.0, 1.0 - 16.0 * (x * x + z * z));
+        mesh.points(1, v) = hill;
+        mesh.points(0, v) += 1.5 * hill;
+    }
+    Triangles kept(3, mesh.triangles.cols() - 2);
+    kept << mesh.triangles.leftCols(100), mesh.triangles.rightCols(mesh.triangles.cols() - 102);
+    mesh.triangles = kept;
+    return mesh;
+}
+
+TEST(TortureMesh, AGroundIsTouchedWhereItIsDrawn)
+{
+    const TriMesh drawn = terrain();
+    const auto shape = buildMeshShape("thing", drawn, repairBy(MeshRepair::ground));
+    EXPECT_TRUE(findDefects(shape->mesh).empty());
+    EXPECT_EQ(shape->repairs.asked, MeshRepair::ground);
+    EXPECT_EQ(shape->repairs.groundUp, Vec3(0, 1, 0));
+    EXPECT_NEAR(shape->repairs.groundDepth, 0.1, 1e-12);
+    int overhanging = 0;
+    for (Eigen::Index f = 0; f < drawn.triangles.cols(); ++f) {
+        const TriangleCorners corners = cornersOf(drawn, f);
+        overhanging += corners.normal().y() < 0.0;
+        const Vec3 middle = shape->bodyFromAsset * corners.middle();
+        const Vec3 out = shape->bodyFromAsset.orientation * corners.normal();
+        EXPECT_NEAR(shape->distance.value(middle + 1e-3 * out), 1e-3, 1e-9) << f;
+        EXPECT_NEAR(shape->distance.value(middle - 1e-3 * out), -1e-3, 1e-9) << f;
+    }
+    EXPECT_GT(overhanging, 0);
+}
+
+TEST(TortureMesh, AGroundIsSolidBehindItsFacesDownToItsFloor)
+{
+    const TriMesh flat = sheet(4);
+    EXPECT_NEAR(buildMeshShape("thing", flat, repairBy(MeshRepair::ground))->unitMass.volume, 0.1,
+                1e-12);
+    const auto below = buildMeshShape("thing", flat, repairBy(MeshRepair::ground, 2.0));
+    EXPECT_NEAR(below->unitMass.volume, 2.0, 1e-12);
+    EXPECT_NEAR(inverse(below->bodyFromAsset).position.y(), -1.0, 1e-12);
+    const auto above = buildMeshShape("thing", turned(flat), repairBy(MeshRepair::ground, 2.0));
+    EXPECT_EQ(above->repairs.groundUp, Vec3(0, -1, 0));
+    EXPECT_NEAR(inverse(above->bodyFromAsset).position.y(), 1.0, 1e-12);
+    // A closed part beside the sheet has no need of a floor.
+    const auto boulder = buildMeshShape("thing", both(flat, moved(cube(), Vec3(0, 3, 0))),
+                                        repairBy(MeshRepair::ground, 2.0));
+    EXPECT_NEAR(boulder->unitMass.volume, 3.0, 1e-12);
+}
+
+TEST(TortureMesh, WhatMakesNoGroundIsToldWhy)
+{
+    TriMesh tube = cube();
+    tube.triangles = tube.triangles.leftCols(tube.triangles.cols() - 16).eval();
+    const TriMesh flat = sheet(4);
+    const int fin = static_cast<int>(flat.points.cols());
+    const std::pair<TriMesh, const char*> cases[] = {
+        {cube(), "it has no rim"},
+        {tube, "its faces look to all sides alike"},
+        {withTriangle(withPoint(flat, Vec3(0, 1, 0)), 6, 7, fin), "non-manifold edge"},
+        {both(flat, moved(scaled(cube(), 0.5), Vec3(0.03, 0.2, 0.01))),
+         "face that pierces another"},
+        {TriMesh(), "no triangles"},
+    };
+    for (const auto& [mesh, why] : cases) {
+        const std::string told = refusalOf(mesh, repairBy(MeshRepair::ground));
+        EXPECT_NE(told.find(why), std::string::npos) << told;
+        EXPECT_NE(told.find("'thing'"), std::string::npos);
+    }
 }
 
 TEST(TortureMesh, ASheetCannotBeWrapped)
