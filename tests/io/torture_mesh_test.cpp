@@ -347,15 +347,19 @@ TEST(TortureMesh, AShellGivesASheetItsThickness)
               std::string::npos);
 }
 
-/// A sheet with a hill that hangs over, and a hole beside it.
+/// A sheet with a hill that hangs over, a hole beside it, and an upright cliff.
 TriMesh terrain()
 {
-    TriMesh mesh = sheet(24);
+    constexpr int kCells = 24, kCliff = 20;
+    TriMesh mesh = sheet(kCells);
     for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
         const double x = mesh.points(0, v), z = mesh.points(2, v);
         const double hill = 0.3 * std::max(0.0, 1.0 - 16.0 * (x * x + z * z));
         mesh.points(1, v) = hill;
         mesh.points(0, v) += 1.5 * hill;
+        if (v / (kCells + 1) < kCliff) continue;
+        mesh.points(1, v) -= 0.2;
+        mesh.points(2, v) -= 1.0 / kCells;
     }
     Triangles kept(3, mesh.triangles.cols() - 2);
     kept << mesh.triangles.leftCols(100), mesh.triangles.rightCols(mesh.triangles.cols() - 102);
