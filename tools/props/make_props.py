@@ -5,8 +5,8 @@
 
 writes shots/meshes/*.obj and shots/poses/*.poses: crockery, a chain, the stones of an arch, gears
 and their bucket, the letters of a word, a house of cards, an hourglass, a spiral of dominoes, a
-truck and a broken wall. Lengths are in the unit of the shot that uses them. Every mesh but the mug is one closed
-surface; a mug's handle is pushed into its wall, as modellers do, and the shot has it wrapped.
+truck, a hillside and a broken wall. Lengths are in the unit of the shot that uses them. Every mesh but the mug and the hillside is
+one closed surface; a mug's handle is pushed into its wall, as modellers do, and the shot has it wrapped.
 """
 import math
 import os
@@ -178,6 +178,31 @@ def truck():  # m
         yield (f"rock_{number}", pebble(draw, (0.2, 0.15, 0.17), 0.3), "A rock, about 0.4 long [m]")
 
 
+def hillside(width=32.0, length=48.0, cell=0.64):  # m
+    """A gully that comes down along +z and fans out, as an open sheet."""
+    def height(x, z):
+        steep = min(max((z - 4.0) / 29.0, 0.0), 1.0)
+        course = 2.2 * math.sin(0.17 * z)
+        side = 1.7 * (x - course) / (2.8 + 9.0 * steep)
+        rims = 0.2 * max(z - 42.0, 0.0) ** 2 + 0.8 * max(2.0 - z, 0.0) ** 2
+        bumps = (0.3 * math.sin(1.3 * x + 0.5 * z) * math.sin(0.9 * z - 0.4 * x) +
+                 0.12 * math.sin(2.9 * x) * math.sin(2.3 * z + 1.0))
+        return 1.0 + 21.0 * (1.0 - steep) ** 1.4 + 2.2 * (math.hypot(1.0, side) - 1.0) + rims + bumps
+
+    columns, rows = round(width / cell), round(length / cell)
+    points, faces = [], []
+    for j in range(rows + 1):
+        for i in range(columns + 1):
+            x, z = cell * i - 0.5 * width, cell * j
+            points.append((round(x, 2), round(height(x, z), 3), round(z, 2)))
+    for j in range(rows):
+        for i in range(columns):
+            p = i + j * (columns + 1)
+            q = p + columns + 1
+            faces += [(p, q, p + 1), (p + 1, q, q + 1)]
+    yield "hillside", (points, faces), "A gully of 32 by 48 that comes down along +z, an open sheet [m]"
+
+
 def pose(position, quaternion=(1.0, 0.0, 0.0, 0.0)):
     return tuple(position) + tuple(quaternion)
 
@@ -289,7 +314,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     shots = sys.argv[1]
-    for make in (crockery, chain, arch, gears, letters, hourglass, truck):
+    for make in (crockery, chain, arch, gears, letters, hourglass, truck, hillside):
         for name, mesh, words in make():
             write_obj(os.path.join(shots, "meshes", name + ".obj"), mesh, words)
     write_objects(os.path.join(shots, "meshes", "wall.obj"), wall(),
