@@ -2,6 +2,7 @@
 #include "core/geometry/mesh_crossings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -40,6 +41,47 @@ struct Boxed {
     int triangle;
 };
 
+/// All boxes by the strips along an axis that they reach into, and by their order in each. Sweeping
+/// over all at once compares every triangle of a terrain with a whole row of it: of two million
+/// triangles that took most of a start of half a minute.
+class Strips {
+public:
+    Strips(const std::vector<Boxed>& all, const Aabb& whole, int axis)
+        : axis_(axis), from_(whole.min[axis])
+    {
+        const double size = whole.size()[axis];
+        const double count = std::max(1.0, std::floor(std::sqrt(double(all.size())) / 4.0));
+        perLength_ = size > 0.0 ? count / size : 0.0;
+        members_.resize(static_cast<std::size_t>(count));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::size_t last = stripAt(all[i].box.max[axis_]);
+            for (std::size_t strip = stripAt(all[i].box.min[axis_]); strip <= last; ++strip)
+                members_[strip].push_back(i);
+        }
+    }
+
+    std::size_t count() const { return members_.size(); }
+    const std::vector<std::size_t>& membersOf(std::size_t strip) const { return members_[strip]; }
+
+private:
+    std::size_t stripAt(double place) const
+    {
+        const auto strip = static_cast<std::size_t>(std::max(perLength_ * (place - from_), 0.0));
+        return std::min(strip, members_.size() - 1);
+    }
+
+    int axis_;
+    double from_, perLength_;
+    std::vector<std::vector<std::size_t>> members_;
+};
+
+/// A crossing with its place in the order in which they are told, and the edge that pierces.
+struct Found {
+    std::tuple<std::size_t, std::size_t, int, int> order;
+    std::tuple<int, int, int> what;
+    MeshCrossing crossing;
+};
+
 bool sharesPoint(const TriMesh& mesh, int f, int g)
 {
     for (int k = 0; k < 3; ++k) {
@@ -66,38 +108,56 @@ std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
     }
     const double tolerance = kTouching * whole.diagonal();
 
-    // Sweep along the longest axis: only triangles whose boxes overlap there can meet.
-    int axis = 0;
+    // Sweep along the longest axis, in strips along the next: only triangles whose boxes overlap
+    // there can meet.
+    Eigen::Index axis, across;
     whole.size().maxCoeff(&axis);
+    Vec3 others = whole.size();
+    others[axis] = -1.0;
+    others.maxCoeff(&across);
     std::sort(all.begin(), all.end(), [&](const Boxed& f, const Boxed& g) {
         return std::tuple(f.box.min[axis], f.triangle) < std::tuple(g.box.min[axis], g.triangle);
     });
-    std::vector<std::vector<int>> meets(count);
-    forEach(count, kShortWork, [&](std::size_t i) {
-        const auto& [box, f] = all[i];
-        for (std::size_t j = i + 1; j < count && all[j].box.min[axis] <= box.max[axis]; ++j) {
-            const int g = all[j].triangle;
-            if (box.overlaps(all[j].box) && !sharesPoint(mesh, f, g)) meets[i].push_back(g);
+    const Strips strips(all, whole, static_cast<int>(across));
+    std::vector<std::vector<Found>> foundIn(strips.count());
+    forEach(strips.count(), 1, [&](std::size_t strip) {
+        const std::vector<std::size_t>& members = strips.membersOf(strip);
+        const auto test = [&](std::size_t i, std::size_t j, int turn) {
+            const int pierced = all[turn == 0 ? i : j].triangle;
+            const int other = all[turn == 0 ? j : i].triangle;
+            const TriangleCorners corners = cornersOf(mesh, pierced);
+            for (int k = 0; k < 3; ++k) {
+                const int p = mesh.triangles(k, other), q = mesh.triangles((k + 1) % 3, other);
+                const auto place =
+                    pierce(corners, mesh.points.col(p), mesh.points.col(q), tolerance);
+                if (!place) continue;
+                foundIn[strip].push_back({{i, j, turn, k},
+                                          {pierced, std::min(p, q), std::max(p, q)},
+                                          {pierced, *place}});
+            }
+        };
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            const Boxed& f = all[members[m]];
+            for (std::size_t n = m + 1; n < members.size(); ++n) {
+                const Boxed& g = all[members[n]];
+                if (g.box.min[axis] > f.box.max[axis]) break;
+                if (!f.box.overlaps(g.box) || sharesPoint(mesh, f.triangle, g.triangle)) continue;
+                test(members[m], members[n], 0);
+                test(members[m], members[n], 1);
+            }
         }
     });
 
-    std::set<std::tuple<int, int, int>> seen;  // an edge has two faces and is told once
+    std::vector<Found> found;
+    for (const std::vector<Found>& some : foundIn)
+        found.insert(found.end(), some.begin(), some.end());
+    std::sort(found.begin(), found.end(),
+              [](const Found& a, const Found& b) { return a.order < b.order; });
+    // An edge has two faces, and two triangles may meet in several strips: it is told once.
+    std::set<std::tuple<int, int, int>> seen;
     std::vector<MeshCrossing> crossings;
-    const auto test = [&](int pierced, int other) {
-        const TriangleCorners corners = cornersOf(mesh, pierced);
-        for (int k = 0; k < 3; ++k) {
-            const int p = mesh.triangles(k, other), q = mesh.triangles((k + 1) % 3, other);
-            const auto place = pierce(corners, mesh.points.col(p), mesh.points.col(q), tolerance);
-            if (place && seen.emplace(pierced, std::min(p, q), std::max(p, q)).second) {
-                crossings.push_back({pierced, *place});
-            }
-        }
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-        for (const int g : meets[i]) {
-            test(all[i].triangle, g);
-            test(g, all[i].triangle);
-        }
+    for (const Found& one : found) {
+        if (seen.insert(one.what).second) crossings.push_back(one.crossing);
     }
     return crossings;
 }

@@ -372,6 +372,18 @@ TEST(TortureMesh, AGroundIsTouchedWhereItIsDrawn)
     const TriMesh drawn = terrain();
     const auto shape = buildMeshShape("thing", drawn, repairBy(MeshRepair::ground));
     EXPECT_TRUE(findDefects(shape->mesh).empty());
+    int ofFloor = 0;
+    for (Eigen::Index f = 0; f < shape->mesh.triangles.cols(); ++f) {
+        const TriangleCorners corners = cornersOf(shape->mesh, f);
+        const auto heightOf = [&](const Vec3& p) {
+            return (inverse(shape->bodyFromAsset) * p).y();
+        };
+        if (std::max({heightOf(corners.a), heightOf(corners.b), heightOf(corners.c)}) > -0.3 + 1e-9)
+            continue;
+        ++ofFloor;
+        EXPECT_GT(corners.areaVector().norm(), 1e-6) << f;
+    }
+    EXPECT_EQ(ofFloor, drawn.triangles.cols());
     EXPECT_EQ(shape->repairs.asked, MeshRepair::ground);
     EXPECT_EQ(shape->repairs.groundUp, Vec3(0, 1, 0));
     EXPECT_NEAR(shape->repairs.groundDepth, 0.1, 1e-12);
@@ -393,15 +405,19 @@ TEST(TortureMesh, AGroundIsSolidBehindItsFacesDownToItsFloor)
     EXPECT_NEAR(buildMeshShape("thing", flat, repairBy(MeshRepair::ground))->unitMass.volume, 0.1,
                 1e-12);
     const auto below = buildMeshShape("thing", flat, repairBy(MeshRepair::ground, 2.0));
+    EXPECT_EQ(below->mesh.triangles.cols(), 32 + 3 * 16);
     EXPECT_NEAR(below->unitMass.volume, 2.0, 1e-12);
     EXPECT_NEAR(inverse(below->bodyFromAsset).position.y(), -1.0, 1e-12);
     const auto above = buildMeshShape("thing", turned(flat), repairBy(MeshRepair::ground, 2.0));
     EXPECT_EQ(above->repairs.groundUp, Vec3(0, -1, 0));
     EXPECT_NEAR(inverse(above->bodyFromAsset).position.y(), 1.0, 1e-12);
     // A closed part beside the sheet has no need of a floor.
-    const auto boulder = buildMeshShape("thing", both(flat, moved(cube(), Vec3(0, 3, 0))),
-                                        repairBy(MeshRepair::ground, 2.0));
-    EXPECT_NEAR(boulder->unitMass.volume, 3.0, 1e-12);
+    for (const TriMesh& part : {flat, terrain()}) {
+        const auto alone = buildMeshShape("thing", part, repairBy(MeshRepair::ground, 2.0));
+        const auto boulder = buildMeshShape("thing", both(part, moved(cube(), Vec3(0, 3, 0))),
+                                            repairBy(MeshRepair::ground, 2.0));
+        EXPECT_NEAR(boulder->unitMass.volume, alone->unitMass.volume + 1.0, 1e-12);
+    }
 }
 
 TEST(TortureMesh, WhatMakesNoGroundIsToldWhy)

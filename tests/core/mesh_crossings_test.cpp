@@ -1,0 +1,79 @@
+#include "core/geometry/mesh_crossings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/parallel.h"
+#include "core/geometry/primitives.h"
+#include "core/math/rotation.h"
+
+namespace scree {
+namespace {
+
+/// Two rings, one through the wall of the other, askew.
+TriMesh twoRings()
+{
+    const TriMesh a = makeTorus(1.0, 0.25, {40, 20});
+    const TriMesh b =
+        transformed(a, {Vec3(0.31, 0.17, 0.05), rotated(Quat::Identity(), Vec3(0.4, 0.9, 0.2))});
+    TriMesh both{Points(3, a.points.cols() + b.points.cols()),
+                 Triangles(3, a.triangles.cols() + b.triangles.cols())};
+    both.points << a.points, b.points;
+    both.triangles << a.triangles,
+        (b.triangles.array() + static_cast<int>(a.points.cols())).matrix();
+    return both;
+}
+
+double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+    return (b - a).dot((c - a).cross(d - a));
+}
+
+/// By the signs of five volumes, of every edge and every triangle.
+std::set<std::pair<int, std::pair<int, int>>> piercingByVolumes(const TriMesh& mesh)
+{
+    std::set<std::pair<int, int>> edges;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k)
+            edges.insert(std::minmax(mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f)));
+    }
+    std::set<std::pair<int, std::pair<int, int>>> found;
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        const TriangleCorners t = cornersOf(mesh, f);
+        for (const auto& edge : edges) {
+            const auto corners = mesh.triangles.col(f).array();
+            if ((corners == edge.first || corners == edge.second).any()) continue;
+            const Vec3 p = mesh.points.col(edge.first), q = mesh.points.col(edge.second);
+            if (volume(t.a, t.b, t.c, p) * volume(t.a, t.b, t.c, q) >= 0.0) continue;
+            const double sides[] = {volume(p, q, t.a, t.b), volume(p, q, t.b, t.c),
+                                    volume(p, q, t.c, t.a)};
+            const bool isThrough = std::ranges::all_of(sides, [](double v) { return v > 0.0; }) ||
+                                   std::ranges::all_of(sides, [](double v) { return v < 0.0; });
+            if (isThrough) found.insert({static_cast<int>(f), edge});
+        }
+    }
+    return found;
+}
+
+TEST(MeshCrossings, AreWhatComparingAllWithAllFindsOnAnyNumberOfThreads)
+{
+    const TriMesh mesh = twoRings();
+    const int before = threadCount();
+    setThreadCount(1);
+    const std::vector<MeshCrossing> one = findCrossings(mesh);
+    setThreadCount(3);
+    const std::vector<MeshCrossing> three = findCrossings(mesh);
+    setThreadCount(before);
+    EXPECT_EQ(one.size(), piercingByVolumes(mesh).size());
+    EXPECT_GT(one.size(), 50u);
+    ASSERT_EQ(one.size(), three.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_EQ(one[i].triangle, three[i].triangle);
+        EXPECT_EQ(one[i].place, three[i].place);
+    }
+}
+
+}  // namespace
+}  // namespace scree
