@@ -1,9 +1,11 @@
 #include "io/build_world.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "core/dynamics/births.h"
@@ -73,6 +75,10 @@ struct SolidMaker {
 /// where cells are wide more triangles are near.
 constexpr std::size_t kEnoughNodes = 1'000'000;
 
+/// And of all shapes together: a wall of a thousand shards, each with as many as one alone may
+/// have, took a minute and a half and 3 GB to start.
+constexpr std::size_t kEnoughNodesOfAll = 50'000'000;
+
 /// Shapes and materials of a shot by name, each added to the world when the first body needs it.
 class WorldBuilder {
 public:
@@ -80,6 +86,11 @@ public:
         : shot_(shot), fields_(fields), problems_(fileOf(shot))
     {
         for (const ShotShape& shape : shot.shapes) shapeNamed_.emplace(shape.name, &shape);
+        std::set<std::string> used;
+        for (const ShotBody& body : shot.bodies)
+            if (body.shape) used.insert(*body.shape);
+        enoughNodes_ =
+            std::min(kEnoughNodes, kEnoughNodesOfAll / std::max<std::size_t>(used.size(), 1));
     }
 
     World build()
@@ -201,7 +212,7 @@ private:
     {
         ShapeSettings settings = shape.settings;
         if (shot_.settings.method == Method::scree && settings.field == FieldMode::refined)
-            settings.enoughNodes = kEnoughNodes;
+            settings.enoughNodes = enoughNodes_;
         return settings;
     }
 
@@ -230,6 +241,7 @@ private:
 
     const Shot& shot_;
     FieldStore* fields_;
+    std::size_t enoughNodes_;  // of a field, by method `scree`
     ProblemList problems_;
     World world_;
     std::vector<BodyId> sleepers_;

@@ -108,6 +108,25 @@ TEST(BuildWorld, ThinThingsNeedNoFineFieldsByMethodScree)
     }
 }
 
+// A thousand shards, each with as fine a field as one alone may have, took a minute and a half and
+// 3 GB to start.
+TEST(BuildWorld, ManyShapesShareTheNodesOfTheirFields)
+{
+    const test::TemporaryFolder folder;
+    std::string others;
+    for (int n = 0; n < 400; ++n) {
+        const std::string name = "ball_" + std::to_string(n);
+        others += "[shape." + name + "]\nsphere = { radius = 1 }\ncollide = \"exact\"\n" +
+                  "[[body]]\nname = \"" + name + "\"\nshape = \"" + name +
+                  "\"\nmaterial = \"wood\"\nposition = [" + std::to_string(1000 + 5 * n) +
+                  ", 5, 0]\n";
+    }
+    const auto bytesWith = [&](const std::string& end) {
+        return buildWorld(boardsShot(folder, "", end)).shapeOf(0).distance.byteCount();
+    };
+    EXPECT_LE(bytesWith(others), bytesWith("") / 2);
+}
+
 TEST(BuildWorld, DescriptionHasTheArtistsMeshOncePerShapeAndPlanesAsSquares)
 {
     const test::TemporaryFolder folder;
