@@ -19,6 +19,13 @@ namespace {
 /// that may fall 4 % of theirs are awake for longer after they have fallen, and no faster for it.
 constexpr double kFallPerStep = 0.02;
 
+/// Of method `scree`: what ends in an edge is no thinner than this share of the largest ball
+/// inside. A wall of a thousand shards took up to 222 steps a frame for the sake of their edges:
+/// 6746 in all instead of 2297, with overlaps of at most 0.54 % of a shard instead of 0.64 %. With
+/// twice the share, and 1460 steps, many rocked on and on. What is thin in more than a tenth of its
+/// surface, as a pan with a stout handle, stays as thin as that.
+constexpr double kOfInnerBall = 0.25;
+
 /// Of method `scree`: how far bodies that may meet may turn in a step at safety 1 [rad]. Gaps are
 /// known to first order: what turns by φ beside another sinks into it by φ²/2 of its radius.
 constexpr double kTurnPerStep = 0.16;
@@ -96,7 +103,8 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
 {
     const auto [a, b] = pair;
     const double alpha = alphaPerSafety(settings.method) * settings.substeps.safety;
-    const double thinner = std::min(world.shapeOf(a).thickness(), world.shapeOf(b).thickness());
+    const double thinner = std::min(thicknessForSteps(settings.method, world.shapeOf(a)),
+                                    thicknessForSteps(settings.method, world.shapeOf(b)));
     const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
     const BodyId faster =
         world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
@@ -154,6 +162,14 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
 double alphaPerSafety(Method method)
 {
     return method == Method::paper ? 0.5 : 1.0;
+}
+
+double thicknessForSteps(Method method, const Shape& shape)
+{
+    const double thickness = shape.thickness();
+    if (method == Method::paper) return thickness;
+    return std::max(thickness,
+                    std::min(shape.commonThickness, kOfInnerBall * 2.0 * shape.innerBall.radius));
 }
 
 double shownSpin(const World& world, const StepSettings& settings, BodyId body)

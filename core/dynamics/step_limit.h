@@ -17,6 +17,9 @@ struct StepLength {
 /// Share of the thinner body that two surfaces may pass in a step at safety 1.  [A16]
 double alphaPerSafety(Method method);
 
+/// How thick a body is where steps are chosen [m].  [A16]
+double thicknessForSteps(Method method, const Shape& shape);
+
 /// How fast a free body turns what shows of that [rad/s]. What is round about an axis turns about
 /// it in itself, as far as steps of method `scree` are concerned.
 double shownSpin(const World& world, const StepSettings& settings, BodyId body);

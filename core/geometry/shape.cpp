@@ -25,35 +25,47 @@ constexpr int kMarginCells = 4;                // around the mesh
 constexpr int kRepairResolution = 64;          // of the lattice of a wrap, unless the shot says
 constexpr double kRepairVoxelsPerShell = 3.0;  // fewer tear the shell where it bends
 
-/// First percentile, by area, of the length of a ray from a face inward to the opposite wall; at
-/// most the shortest box edge.  [A16]
-double measureThickness(const TriMesh& mesh, const SurfaceRays& rays, const Aabb& box)
-{
+/// The length of a ray from a face inward to the opposite wall, at most the shortest box edge; by
+/// area, up to where it is exceeded.
+class Walls {
+public:
+    Walls(const TriMesh& mesh, const SurfaceRays& rays, const Aabb& box)
+        : most_(box.shortestEdge()), samples_(static_cast<std::size_t>(mesh.triangles.cols()))
+    {
+        const double below = 1e-5 * box.diagonal();
+        forEach(samples_.size(), kShortWork, [&](std::size_t f) {
+            const TriangleCorners corners = cornersOf(mesh, static_cast<Eigen::Index>(f));
+            const Vec3 inward = -corners.normal();
+            const Vec3 origin = corners.middle() + below * inward;
+            const auto hit =
+                rays.firstHit(origin, inward, box.diagonal(), SurfaceRays::Facing::along);
+            samples_[f] =
+                hit ? Sample{below + hit->distance, corners.areaVector().norm()} : Sample{};
+        });
+        for (const Sample& sample : samples_) totalArea_ += sample.area;
+        std::sort(samples_.begin(), samples_.end(), [](const Sample& a, const Sample& b) {
+            return a.thickness < b.thickness || (a.thickness == b.thickness && a.area < b.area);
+        });
+    }
+
+    double atShare(double share) const
+    {
+        double seen = 0.0;
+        for (const Sample& sample : samples_) {
+            seen += sample.area;
+            if (sample.area > 0.0 && seen >= share * totalArea_)
+                return std::min(sample.thickness, most_);
+        }
+        return most_;
+    }
+
+private:
     struct Sample {
         double thickness = 0.0, area = 0.0;  // none where nothing is opposite
     };
-    std::vector<Sample> samples(static_cast<std::size_t>(mesh.triangles.cols()));
-    const double below = 1e-5 * box.diagonal();
-    forEach(samples.size(), kShortWork, [&](std::size_t f) {
-        const TriangleCorners corners = cornersOf(mesh, static_cast<Eigen::Index>(f));
-        const Vec3 inward = -corners.normal();
-        const Vec3 origin = corners.middle() + below * inward;
-        const auto hit = rays.firstHit(origin, inward, box.diagonal(), SurfaceRays::Facing::along);
-        samples[f] = hit ? Sample{below + hit->distance, corners.areaVector().norm()} : Sample{};
-    });
-    double totalArea = 0.0;
-    for (const Sample& sample : samples) totalArea += sample.area;
-    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
-        return a.thickness < b.thickness || (a.thickness == b.thickness && a.area < b.area);
-    });
-    double seen = 0.0;
-    for (const Sample& sample : samples) {
-        seen += sample.area;
-        if (sample.area > 0.0 && seen >= 0.01 * totalArea)
-            return std::min(sample.thickness, box.shortestEdge());
-    }
-    return box.shortestEdge();
-}
+    double most_, totalArea_ = 0.0;
+    std::vector<Sample> samples_;
+};
 
 NodeLayout layOutNodes(const Aabb& box, double spacing)
 {
@@ -194,7 +206,9 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
     }
 
     shape.rays = SurfaceRays(shape.mesh);
-    shape.innerThickness = measureThickness(shape.mesh, shape.rays, shape.box);
+    const Walls walls(shape.mesh, shape.rays, shape.box);
+    shape.innerThickness = walls.atShare(0.01);  // [A16]
+    shape.commonThickness = walls.atShare(0.1);
     shape.usesTrueNormals =
         settings.normals == NormalMode::trueNormals ||
         (settings.normals == NormalMode::automatic && sharpestEdge(shape.mesh) > kSharpEdge);
@@ -259,7 +273,7 @@ std::shared_ptr<const Shape> buildExactShape(const std::string& name, const Exac
     shape->unitMass = solid.massProperties();
     shape->box = solid.box();
     shape->boundingRadius = solid.boundingRadius();
-    shape->innerThickness = shape->box.shortestEdge();
+    shape->innerThickness = shape->commonThickness = shape->box.shortestEdge();
     // No field is sampled, so none can be too large: a playing card may be exact.
     shape->distance = SignedDistance(solid, wantedSpacing({}, shape->box, shape->innerThickness));
     shape->innerBall = {Vec3::Zero(), 0.5 * shape->innerThickness};

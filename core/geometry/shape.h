@@ -81,11 +81,12 @@ struct Shape {
     Pose bodyFromAsset;       ///< object frame from the artist's frame
     MassProperties unitMass;  ///< for density 1 kg/m³, in the object frame
 
-    TriMesh mesh;                 ///< in the object frame [m]
-    Aabb box;                     ///< of the mesh, object frame
-    double boundingRadius = 0.0;  ///< of the mesh about the centre of mass [m]
-    double innerThickness = 0.0;  ///< first percentile of the inscribed-ball diameter [m]  [A16]
-    Ball innerBall;               ///< about as large as any in the solid, object frame [m]
+    TriMesh mesh;                  ///< in the object frame [m]
+    Aabb box;                      ///< of the mesh, object frame
+    double boundingRadius = 0.0;   ///< of the mesh about the centre of mass [m]
+    double innerThickness = 0.0;   ///< first percentile of the inscribed-ball diameter [m]  [A16]
+    double commonThickness = 0.0;  ///< tenth percentile of the same: without the edges it ends in
+    Ball innerBall;                ///< about as large as any in the solid, object frame [m]
     bool usesTrueNormals = false;
     Vec3 turnsThatShow = Vec3::Ones();  ///< by axis of the object frame  [revolution.h]
     double ballRadius = 0.0;            ///< of what touches as a ball, else 0 [m]

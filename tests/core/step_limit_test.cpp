@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/dynamics/step_limit.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
@@ -61,6 +62,30 @@ TEST(StepLimit, WhatSpinsBesideAnotherTurnsLittleInAStep)
     EXPECT_EQ(stepsOfSpinning(0.1, 14.0), 8);
     EXPECT_EQ(stepsOfSpinning(0.1, 22.0), 12);
     EXPECT_LE(stepsOfSpinning(60.0, 22.0), 4);  // where it meets nothing
+}
+
+TEST(StepLimit, WhatIsThinOnlyAtItsEdgeMayPassMoreThanThatInAStep)
+{
+    const auto shapeOf = [](TriMesh mesh, const auto& changeHeight) {
+        for (Eigen::Index v = 0; v < mesh.points.cols(); ++v)
+            mesh.points(1, v) = changeHeight(Vec3(mesh.points.col(v)));
+        ShapeSettings settings;
+        settings.resolution = 48;
+        return buildMeshShape("thing", mesh, settings);
+    };
+    const auto wedge = shapeOf(makeBox({1.0, 1.0, 1.0}, {32, 1, 8}),
+                               [](const Vec3& p) { return p.y() * (0.01 + 0.99 * (p.x() + 0.5)); });
+    EXPECT_LT(wedge->innerThickness, 0.05);
+    EXPECT_EQ(thicknessForSteps(Method::paper, *wedge), wedge->innerThickness);
+    EXPECT_GT(thicknessForSteps(Method::scree, *wedge), 2.0 * wedge->innerThickness);
+    EXPECT_LE(thicknessForSteps(Method::scree, *wedge), 0.5 * wedge->innerBall.radius);
+
+    const auto knobbed = shapeOf(makeBox({1.0, 0.02, 1.0}, {20, 1, 20}), [](const Vec3& p) {
+        const bool isKnob = std::abs(p.x()) < 0.12 && std::abs(p.z()) < 0.12;
+        return p.y() > 0.0 && isKnob ? 0.3 : p.y();
+    });
+    EXPECT_GT(knobbed->innerBall.radius, 0.05);
+    EXPECT_NEAR(thicknessForSteps(Method::scree, *knobbed), 0.02, 1e-6);
 }
 
 TEST(StepLimit, WhatSleepsAsksForNoSteps)
