@@ -5,8 +5,9 @@
 
 writes shots/meshes/*.obj and shots/poses/*.poses: crockery, a chain, the stones of an arch, gears
 and their bucket, the letters of a word, a house of cards, an hourglass, a spiral of dominoes, a
-truck, a hillside and a broken wall. Lengths are in the unit of the shot that uses them. Every mesh but the mug and the hillside is
-one closed surface; a mug's handle is pushed into its wall, as modellers do, and the shot has it wrapped.
+truck, a hillside and a broken wall. Lengths are in the unit of the shot that uses them. Every mesh
+but the mug and the hillside is one closed surface; a mug's handle is pushed into its wall, as
+modellers do, and the shot has it wrapped.
 """
 import math
 import os
