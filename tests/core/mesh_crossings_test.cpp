@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
+#include "tests/support/both_meshes.h"
 
 namespace scree {
 namespace {
@@ -18,12 +19,7 @@ TriMesh twoRings()
     const TriMesh a = makeTorus(1.0, 0.25, {40, 20});
     const TriMesh b =
         transformed(a, {Vec3(0.31, 0.17, 0.05), rotated(Quat::Identity(), Vec3(0.4, 0.9, 0.2))});
-    TriMesh both{Points(3, a.points.cols() + b.points.cols()),
-                 Triangles(3, a.triangles.cols() + b.triangles.cols())};
-    both.points << a.points, b.points;
-    both.triangles << a.triangles,
-        (b.triangles.array() + static_cast<int>(a.points.cols())).matrix();
-    return both;
+    return test::both(a, b);
 }
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)

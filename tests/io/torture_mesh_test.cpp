@@ -19,12 +19,15 @@
 #include "core/geometry/shape_report.h"
 #include "core/geometry/winding_number.h"
 #include "io/mesh_import.h"
+#include "tests/support/both_meshes.h"
 #include "tests/support/import_mesh.h"
 #include "tests/support/refusal.h"
 #include "tests/support/support.h"
 
 namespace scree {
 namespace {
+
+using test::both;
 
 TriMesh cube()
 {
@@ -42,16 +45,6 @@ TriMesh withPoint(TriMesh mesh, const Vec3& point)
 {
     mesh.points.conservativeResize(3, mesh.points.cols() + 1);
     mesh.points.rightCols(1) = point;
-    return mesh;
-}
-
-TriMesh both(const TriMesh& a, const TriMesh& b)
-{
-    TriMesh mesh{Points(3, a.points.cols() + b.points.cols()),
-                 Triangles(3, a.triangles.cols() + b.triangles.cols())};
-    mesh.points << a.points, b.points;
-    mesh.triangles << a.triangles,
-        (b.triangles.array() + static_cast<int>(a.points.cols())).matrix();
     return mesh;
 }
 
