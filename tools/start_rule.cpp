@@ -156,6 +156,21 @@ void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>&
     }
 }
 
+/// A terrain whose faces are turned round is solid above: things would land on its floor.
+void warnOfGroundsUpsideDown(const Shot& shot, const World& world,
+                             std::vector<std::string>& warnings)
+{
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        const Vec3 up =
+            world.worldFromAsset(body).orientation * world.shapeOf(body).repairs.groundUp;
+        if (up.dot(shot.settings.gravity) <= 0.0) continue;
+        warnings.push_back("the faces of '" + world.info[body].name +
+                           "' look down, so that what is above them is solid: turn them round in "
+                           "the file of shape '" +
+                           world.shapeOf(body).name + "'");
+    }
+}
+
 /// What the shot asked to be done to a mesh; empty if nothing.
 std::string describeAsked(const ShapeRepairs& done)
 {
@@ -248,6 +263,7 @@ std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& worl
     }
     warnOfBlockedBirths(world, warnings);
     warnOfSizes(shot, world, warnings);
+    warnOfGroundsUpsideDown(shot, world, warnings);
     warnOfRoughness(world, warnings);
     return warnings;
 }

@@ -50,7 +50,14 @@ public:
         : axis_(axis), from_(whole.min[axis])
     {
         const double size = whole.size()[axis];
-        const double count = std::max(1.0, std::floor(std::sqrt(double(all.size())) / 4.0));
+        double reach = 0.0;
+        for (const Boxed& one : all)
+            reach += one.box.size()[axis] / static_cast<double>(all.size());
+        // At least twice as wide as triangles reach in the mean: there are few more members than
+        // triangles, however long some of these are.
+        const double most = std::sqrt(static_cast<double>(all.size())) / 4.0;
+        const double count =
+            std::max(1.0, std::floor(reach > 0.0 ? std::min(most, size / (2.0 * reach)) : most));
         perLength_ = size > 0.0 ? count / size : 0.0;
         members_.resize(static_cast<std::size_t>(count));
         for (std::size_t i = 0; i < all.size(); ++i) {

@@ -128,6 +128,24 @@ TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
         << away.out;
 }
 
+// Above a terrain whose faces are turned round all is solid: things would land on what nobody sees.
+TEST_F(ShotTools, AGroundThatLooksDownIsWarnedOf)
+{
+    const auto checkWith = [&](const std::string& faces) {
+        writeFileBytes(folder / "sheet.obj", "v 0 -9 0\nv 0 -9 4\nv 4 -9 4\nv 4 -9 0\n" + faces);
+        writeFileBytes(folder / "sheet.toml",
+                       kShotText +
+                           "[shape.sheet]\nfile = \"sheet.obj\"\nmesh = { repair = "
+                           "\"ground\" }\n" +
+                           test::bodyText("sheet", "motion = \"static\"", "sheet"));
+        return run("check sheet.toml --estimate 0");
+    };
+    const Outcome up = checkWith("f 1 2 3 4\n"), down = checkWith("f 4 3 2 1\n");
+    EXPECT_TRUE(contains(up.out, "its faces look along +y")) << up.out << up.err;
+    EXPECT_FALSE(contains(up.out, "look down"));
+    EXPECT_TRUE(contains(down.out, "the faces of 'sheet' look down")) << down.out << down.err;
+}
+
 // Every corner of a copy lies on the surface of its twin, so that no contact tells of it.
 TEST_F(ShotTools, ACopyThatNobodyMovedAwayIsToldAndComesOut)
 {
