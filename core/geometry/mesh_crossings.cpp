@@ -129,7 +129,7 @@ std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
     std::vector<std::vector<Found>> foundIn(strips.count());
     forEach(strips.count(), 1, [&](std::size_t strip) {
         const std::vector<std::size_t>& members = strips.membersOf(strip);
-        const auto test = [&](std::size_t i, std::size_t j, int turn) {
+        const auto test = [&](std::size_t i, std::size_t j, int turn, std::vector<Found>& found) {
             const int pierced = all[turn == 0 ? i : j].triangle;
             const int other = all[turn == 0 ? j : i].triangle;
             const TriangleCorners corners = cornersOf(mesh, pierced);
@@ -138,21 +138,25 @@ std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
                 const auto place =
                     pierce(corners, mesh.points.col(p), mesh.points.col(q), tolerance);
                 if (!place) continue;
-                foundIn[strip].push_back({{i, j, turn, k},
-                                          {pierced, std::min(p, q), std::max(p, q)},
-                                          {pierced, *place}});
+                found.push_back({{i, j, turn, k},
+                                 {pierced, std::min(p, q), std::max(p, q)},
+                                 {pierced, *place}});
             }
         };
-        for (std::size_t m = 0; m < members.size(); ++m) {
+        // Where there is one strip alone, all threads share it.
+        std::vector<std::vector<Found>> ofMembers(members.size());
+        forEach(members.size(), kShortWork, [&](std::size_t m) {
             const Boxed& f = all[members[m]];
             for (std::size_t n = m + 1; n < members.size(); ++n) {
                 const Boxed& g = all[members[n]];
                 if (g.box.min[axis] > f.box.max[axis]) break;
                 if (!f.box.overlaps(g.box) || sharesPoint(mesh, f.triangle, g.triangle)) continue;
-                test(members[m], members[n], 0);
-                test(members[m], members[n], 1);
+                test(members[m], members[n], 0, ofMembers[m]);
+                test(members[m], members[n], 1, ofMembers[m]);
             }
-        }
+        });
+        for (const std::vector<Found>& some : ofMembers)
+            foundIn[strip].insert(foundIn[strip].end(), some.begin(), some.end());
     });
 
     std::vector<Found> found;
