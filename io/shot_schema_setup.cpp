@@ -108,8 +108,9 @@ const std::vector<ShotKey> kSolverKeys = {
      .method = "scree",
      .help =
          "Sweeps over the contacts of a large heap while it moves; small ones are solved to the "
-         "end anyway, and large ones get up to a hundred once they settle. Too few and the heap "
-         "sinks into itself before it comes to rest."},
+         "end anyway, and large ones get up to a hundred once they settle, up to 400 where fewer "
+         "leave forces that drive the heap, as in a wall that rocks. Too few and the heap sinks "
+         "into itself before it comes to rest."},
     {.path = "solver.collision_iterations",
      .type = integer,
      .unit = "sweeps",

@@ -415,17 +415,56 @@ GapSweep GapLanes::sweep()
     for (const Section& section : sections_) {
         swept.residual = std::max(swept.residual, largestOf(section.residual));
         swept.fastest = std::max(swept.fastest, std::sqrt(largestOf(section.squaredSpeed)));
+        swept.energy += sumOf(section.energy);
     }
     return swept;
 }
 
-double GapLanes::goOn(double energyBefore)
+void GapLanes::goOn(double share)
 {
-    double energy = 0.0;
-    for (const Section& section : sections_) energy += sumOf(section.energy);
-    share_ = shareOfLastWay(energy, energyBefore);
-    beginsAnew_ = share_ > 1.0;  // the active set has changed
-    return energy;
+    share_ = share;
+    beginsAnew_ = share > 1.0;
+}
+
+/// Half of what impulses do they do while bodies still move as before, the other half as they move
+/// now; without an error the latter is friction alone.
+GapWork GapLanes::work(const Section& section, const GapScratch& scratch) const
+{
+    GapWork work;
+    for (std::size_t i = section.firstBody; i < section.endBody; ++i) {
+        const GapBody& before = scratch.bodies[idOf_[i]];
+        const Vec3 v = bodies_[i].velocity - before.velocity;
+        const Vec3 w = bodies_[i].spin - before.spin;
+        work.taken += 0.5 * (v.squaredNorm() / before.inverseMass +
+                             w.dot(before.inverseInertia.inverse() * w));
+    }
+    Lanes wrong = kNoLanes, right = kNoLanes;
+    for (const Batch& batch : section.batches) {
+        const Motion motion(batch, bodies_);
+        for (std::size_t r = batch.begin; r < batch.end; ++r) {
+            const Row& row = section.rows[r];
+            const Lanes3 u = velocityAt(row, batch, motion);
+            const Lanes ut = dot(u, row.tangent), us = dot(u, cross(row.normal, row.tangent));
+            const Lanes pushes = row.impulse.x * (dot(u, row.normal) - row.target);
+            const Lanes rubs = fma(row.impulse.y, ut, row.impulse.z * us);
+            wrong += maxOf(kNoLanes, pushes) + maxOf(kNoLanes, rubs);
+            right += maxOf(kNoLanes, -pushes) + maxOf(kNoLanes, -rubs);
+        }
+    }
+    work.taken += sumOf(right);
+    work.wrong = sumOf(wrong);
+    return work;
+}
+
+GapWork GapLanes::work(const GapScratch& scratch) const
+{
+    GapWork sum;
+    for (const Section& section : sections_) {
+        const GapWork of = work(section, scratch);
+        sum.taken += of.taken;
+        sum.wrong += of.wrong;
+    }
+    return sum;
 }
 
 void GapLanes::store(const Section& section, GapScratch& scratch) const

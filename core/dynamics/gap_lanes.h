@@ -26,6 +26,14 @@ namespace scree {
 struct GapSweep {
     double residual = 0.0;  ///< largest change of a velocity at a row [m/s]
     double fastest = 0.0;   ///< of two surfaces against each other, on the way up [m/s]
+    double energy = 0.0;    ///< of the change from what the sweep began with [J]
+};
+
+/// What impulses have done since the bodies were as in GapScratch [J].
+struct GapWork {
+    double taken = 0.0;  ///< energy that they have taken from the bodies, what is wrong left out
+    double wrong =
+        0.0;  ///< energy given to them by impulses that push what parts, rub what follows
 };
 
 class GapLanes {
@@ -39,10 +47,12 @@ public:
     /// One sweep up and one down.
     GapSweep sweep();
 
-    /// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10].
-    /// Answers the energy of that change, to be handed in next time; 0 begins anew. Bodies and
-    /// impulses go when the next sweep comes by, which must follow.
-    double goOn(double energyBefore);
+    /// Goes on along the conjugate direction: what a sweep has changed is a gradient [SNE10]. A
+    /// share of the last way above 1 begins anew. Bodies and impulses go when the next sweep comes
+    /// by, which must follow.
+    void goOn(double share);
+
+    GapWork work(const GapScratch& scratch) const;
 
     /// Hands impulses and velocities back to rows and bodies.
     void store(GapScratch& scratch);
@@ -118,6 +128,7 @@ private:
     void sweepDown(Section& section);
     void begin(Section& section);
     void store(const Section& section, GapScratch& scratch) const;
+    GapWork work(const Section& section, const GapScratch& scratch) const;
     static void fill(const GapScratch& scratch, Batch& batch, Section& section);
     static void fillLane(const GapScratch& scratch, Batch& batch, int lane, Section& section);
     template <bool kRolls>
