@@ -296,6 +296,22 @@ def block_poses():
         yield f"turntable_{ring}", poses
 
 
+def chimney_poses(bricks=24, layers=45, size=(0.25, 0.1, 0.12), gap=0.0005):
+    """Rings of bricks, each half a brick on from the one below; size is length, height, thickness.
+    Every ninth ring is of pale ones."""
+    inner = 0.5 * (size[0] + gap) / math.tan(math.pi / bricks)
+    radius = inner + 0.5 * size[2]
+    kinds = {"red": [], "pale": []}
+    for layer in range(layers):
+        for i in range(bricks):
+            a = 2.0 * math.pi * (i + 0.5 * (layer % 2)) / bricks
+            place = (radius * math.sin(a), (layer + 0.5) * size[1], radius * math.cos(a))
+            kinds["pale" if layer % 9 == 8 else "red"].append(
+                pose(place, about((0, 1, 0), math.degrees(a))))
+    for kind, poses in kinds.items():
+        yield "chimney_" + kind, poses
+
+
 def wall(size=(4.0, 2.5, 0.3), count=200):
     """Its foot in the middle of the ground."""
     draw = random.Random(7)
@@ -320,7 +336,8 @@ def main():
             write_obj(os.path.join(shots, "meshes", name + ".obj"), mesh, words)
     write_objects(os.path.join(shots, "meshes", "wall.obj"), wall(),
                   "A wall of 4 by 2.5 by 0.3, broken into two hundred shards [m]")
-    for make in (arch_poses, chain_poses, card_poses, domino_poses, letter_poses, block_poses):
+    for make in (arch_poses, chain_poses, card_poses, domino_poses, letter_poses, block_poses,
+                 chimney_poses):
         for name, poses in make():
             write_poses(os.path.join(shots, "poses", name + ".poses"), poses)
 
