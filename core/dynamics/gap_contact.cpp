@@ -231,7 +231,7 @@ SweepLimits sweepLimits(const World& world, const StepSettings& settings, const 
 /// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
 /// next step, which begins with what this one found.
 void solve(const World& world, const StepSettings& settings, double dt, const GapScratch& scratch,
-           GapIsland& island, GapLanes& rows)
+           const GapIsland& island, GapLanes& rows)
 {
     double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
     auto [most, left, ofSpeed] = sweepLimits(world, settings, scratch, island);
@@ -241,14 +241,10 @@ void solve(const World& world, const StepSettings& settings, double dt, const Ga
     double energy = 0.0, mayBeWrong = kMuchIsWrong;
     for (int done = 1;; ++done) {
         const GapSweep swept = rows.sweep();
-        if (done == 1) {
-            island.leftOfSpeed = ofSpeed * swept.fastest;
-            enough = std::max({enough, left * swept.residual, island.leftOfSpeed});
-        }
+        if (done == 1) enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
         if (swept.residual <= enough) return;
         if (done >= most) {
-            // What remembers nothing feels weights already that no row has given it in these
-            // sweeps.
+            // The bodies of what remembers nothing feel its first impulses before it is built.
             if (done >= kMostSweeps || !island.isRemembered) return;
             const GapWork work = rows.work(scratch);
             if (work.wrong <= mayBeWrong * work.taken) return;
@@ -261,7 +257,7 @@ void solve(const World& world, const StepSettings& settings, double dt, const Ga
 }
 
 void solveIsland(const World& world, const StepSettings& settings, double dt, GapScratch& scratch,
-                 GapIsland& island)
+                 const GapIsland& island)
 {
     thread_local GapLanes lanes;
     lanes.build(scratch, island);

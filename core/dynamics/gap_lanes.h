@@ -29,11 +29,11 @@ struct GapSweep {
     double energy = 0.0;    ///< of the change from what the sweep began with [J]
 };
 
-/// What impulses have done since the bodies were as in GapScratch [J].
+/// What impulses have done to the energy since the bodies were as in GapScratch [J]; couples are
+/// left out.
 struct GapWork {
-    double taken = 0.0;  ///< energy that they have taken from the bodies, what is wrong left out
-    double wrong =
-        0.0;  ///< energy given to them by impulses that push what parts, rub what follows
+    double taken = 0.0;  ///< by those that are right
+    double wrong = 0.0;  ///< given by those that push what parts, or rub what follows them
 };
 
 class GapLanes {

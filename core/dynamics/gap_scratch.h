@@ -59,7 +59,6 @@ struct GapIsland {
     std::vector<std::size_t> pairs;  ///< bottom to top
     std::vector<BodyId> movers;      ///< those of its bodies that can be moved, sorted
     std::size_t rowCount = 0;
-    double leftOfSpeed = 0.0;   ///< what its sweeps may have left of the fastest slip [m/s]
     bool isRemembered = false;  ///< some of its pairs carried in the last step
     bool isKept = false;        ///< as an earlier attempt at the step has solved it
 };

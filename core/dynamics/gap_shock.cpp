@@ -23,11 +23,6 @@ constexpr int kShockSweeps = 30, kWeightSweeps = 100;
 /// A row that closes this share of the smaller body past zero in a step calls for shock: where the
 /// sweeps could have solved the problem to the end, and where they had to stop.
 constexpr double kVisibleWhenSolved = 1e-5, kVisibleInHeaps = 1e-3;
-/// So many times what the sweeps were allowed to leave of the fastest slip does as well: what pins
-/// a chain that swings does work on it. In six seconds five tonnes on twenty links of two kilograms
-/// got a fifth of their fall back, and a tenth so; half a tonne 0.8 % and 0.4 %. With thirty times,
-/// what eight tonnes land on is crushed by 1.7 mm.
-constexpr double kBeyondWhatIsLeft = 10.0;
 /// What a level of shock may leave of that, as a share.
 constexpr double kWellBelow = 0.1;
 
@@ -76,8 +71,9 @@ private:
 
 /// The motion of the bodies that a solve may move, so that it can be undone. Pinned bodies
 /// are as heavy as the world: what is wedged between two of them that close cannot obey both, and
-/// each sweep throws it harder. More than twice the energy there was and that of a step's fall is
-/// such a throw.
+/// each sweep throws it harder; and what hangs on those that swing is driven by them. More than the
+/// energy there was and that of a step's fall is such a throw. Allowed to double it, five tonnes on
+/// twenty links of two kilograms got a fifth of their fall back within six seconds.
 class LevelMotion {
 public:
     LevelMotion(const GapScratch& scratch, const std::vector<std::size_t>& rows)
@@ -103,7 +99,7 @@ public:
             const GapBody& b = scratch.bodies[before.body];
             fall += 0.5 * (dt * b.pull).squaredNorm() / b.inverseMass;
         }
-        return energy(scratch) > 2.0 * energy_ + fall;
+        return energy(scratch) > energy_ + fall;
     }
 
     void restore(GapScratch& scratch) const
@@ -175,8 +171,7 @@ double visibleSpeed(const World& world, const StepSettings& settings, double dt,
                     const GapIsland& island, const GapRow& row)
 {
     const double visible = isHeap(settings, island) ? kVisibleInHeaps : kVisibleWhenSolved;
-    return std::max(visible * smallerRadius(world, row.a, row.b) / dt,
-                    kBeyondWhatIsLeft * island.leftOfSpeed);
+    return visible * smallerRadius(world, row.a, row.b) / dt;
 }
 
 /// How fast the surfaces at a row close beyond its target [m/s].
