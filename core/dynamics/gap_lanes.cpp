@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/dynamics/gap_contact.h"
 
 namespace scree {
 

@@ -22,6 +22,7 @@
 #include "core/math/rotation.h"
 #include "tests/support/deepest_contact.h"
 #include "tests/support/draw.h"
+#include "tests/support/gap_energy.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -845,17 +846,6 @@ TEST(GapLanes, AnIslandThatIsCutHasTheSameBitsOnOneAndTwoThreads)
             EXPECT_EQ(shared.bodies[i].spin, alone.bodies[i].spin);
         }
     }
-}
-
-double kineticEnergy(const std::vector<GapBody>& bodies)
-{
-    double sum = 0.0;
-    for (const GapBody& body : bodies) {
-        if (body.inverseMass == 0.0) continue;
-        sum += 0.5 * (body.velocity.squaredNorm() / body.inverseMass +
-                      body.spin.dot(body.inverseInertia.inverse() * body.spin));
-    }
-    return sum;
 }
 
 /// What bodies that nobody drives lose is what impulses take and do not give back.
