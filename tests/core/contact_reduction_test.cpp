@@ -82,6 +82,27 @@ TEST(ContactReduction, WhatStandsOnABossStandsOnAllOfIt)
     EXPECT_GE(std::ssize(contacts) - onBoss, 6);
 }
 
+// A spoon that lay on the floor by a bent underside was told of the deeper of its rows at one end
+// only, pushed up there, and told of the other end.
+TEST(ContactReduction, ARowThatLiesDeeperThanThoseBesideItKeepsBothEnds)
+{
+    std::vector<Vec3> places;
+    std::vector<double> gaps;
+    for (int row = -1; row <= 1; ++row) {
+        for (int i = 0; i <= 8; ++i) {
+            places.emplace_back(-0.4 + 0.1 * i, 0.0, 0.05 * row);
+            gaps.push_back(row == 0 ? -2e-4 - 1e-6 * i : 0.0);
+        }
+    }
+    std::vector<GapContact> contacts = contactsAt(places, gaps);
+    reduceContacts(contacts, 0, Mat3::Identity(), 1.0);
+    for (const double end : {-0.4, 0.4}) {
+        EXPECT_TRUE(std::ranges::any_of(contacts, [&](const GapContact& c) {
+            return c.gap < 0.0 && std::abs(c.rA.x() - end) < 1e-9;
+        })) << end;
+    }
+}
+
 TEST(ContactReduction, FewContactsAndThoseOfOtherNormalsStay)
 {
     std::vector<GapContact> contacts = contactsAt(circle(8, 1.0), std::vector<double>(8, 0.0));
