@@ -54,15 +54,42 @@ void addState(FrameEncoder& encoder, const FrameState& state)
     if (!state.bornAt.empty()) encoder.add("body.born_at", 1, state.bornAt);
 }
 
+void addStays(FrameEncoder& encoder, const std::string& name, const std::vector<BodyRest>& all,
+              Stay BodyRest::*member)
+{
+    std::vector<std::int32_t> frames;
+    std::vector<double> position, orientation;
+    for (const BodyRest& rest : all) {
+        const Stay& stay = rest.*member;
+        frames.push_back(stay.frames);
+        append(position, stay.position);
+        append(orientation, stay.orientation);
+    }
+    encoder.add(name, 1, frames);
+    encoder.add(name + "_position", 3, position);
+    encoder.add(name + "_orientation", 4, orientation);
+}
+
+/// Takes of before there was such a thing begin to count anew.
+void readStays(const FrameDecoder& decoder, const std::string& name, std::uint64_t bodyCount,
+               std::vector<BodyRest>& all, Stay BodyRest::*member)
+{
+    if (decoder.rowsOf(name) == 0) return;
+    const auto frames = decoder.read<std::int32_t>(name, bodyCount, 1);
+    const auto position = decoder.read<double>(name + "_position", bodyCount, 3);
+    const auto orientation = decoder.read<double>(name + "_orientation", bodyCount, 4);
+    for (std::size_t i = 0; i < bodyCount; ++i)
+        all[i].*member = {vectorAt(position, i), quaternionAt(orientation, i), frames[i]};
+}
+
 /// Nothing at all where nothing is remembered: for method `paper`, and at time zero unless bodies
 /// start asleep.
 void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
 {
     if (memory.dt == 0.0 && memory.contacts.empty() && memory.rest.empty()) return;
-    std::vector<std::int32_t> bodies, still, nearby;
+    std::vector<std::int32_t> bodies, still;
     std::vector<std::int64_t> features;
-    std::vector<double> place, force, couple, position, orientation, pull, nearPosition,
-        nearOrientation;
+    std::vector<double> place, force, couple, position, orientation, pull;
     bool anyCouple = false;
     for (const RememberedContact& contact : memory.contacts) {
         bodies.insert(bodies.end(), {contact.a, contact.b});
@@ -77,9 +104,6 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
         append(position, rest.still.position);
         append(orientation, rest.still.orientation);
         append(pull, rest.pull);
-        nearby.push_back(rest.nearby.frames);
-        append(nearPosition, rest.nearby.position);
-        append(nearOrientation, rest.nearby.orientation);
     }
     encoder.add<double>("memory.dt", 1, {memory.dt});
     encoder.add("memory.bodies", 2, bodies);
@@ -91,9 +115,8 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
     encoder.add("rest.position", 3, position);
     encoder.add("rest.orientation", 4, orientation);
     encoder.add("rest.pull", 3, pull);
-    encoder.add("rest.nearby", 1, nearby);
-    encoder.add("rest.nearby_position", 3, nearPosition);
-    encoder.add("rest.nearby_orientation", 4, nearOrientation);
+    addStays(encoder, "rest.nearby", memory.rest, &BodyRest::nearby);
+    addStays(encoder, "rest.around", memory.rest, &BodyRest::around);
 }
 
 /// Poses and velocities of one or more samples, sample after sample.
@@ -228,15 +251,8 @@ void readMemory(const FrameDecoder& decoder, std::uint64_t bodyCount, ContactMem
         rest.pull = vectorAt(pull, i);
         rest.isAsleep = still[2 * i + 1] != 0;
     }
-    // Takes of before there was such a thing begin to count anew.
-    if (decoder.rowsOf("rest.nearby") == 0) return;
-    const auto nearby = decoder.read<std::int32_t>("rest.nearby", bodyCount, 1);
-    const auto nearPosition = decoder.read<double>("rest.nearby_position", bodyCount, 3);
-    const auto nearOrientation = decoder.read<double>("rest.nearby_orientation", bodyCount, 4);
-    for (std::size_t i = 0; i < bodyCount; ++i) {
-        memory.rest[i].nearby = {vectorAt(nearPosition, i), quaternionAt(nearOrientation, i),
-                                 nearby[i]};
-    }
+    readStays(decoder, "rest.nearby", bodyCount, memory.rest, &BodyRest::nearby);
+    readStays(decoder, "rest.around", bodyCount, memory.rest, &BodyRest::around);
 }
 
 void readPoses(const FrameDecoder& decoder, const std::string& prefix, std::uint64_t bodyCount,

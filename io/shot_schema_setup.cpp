@@ -98,7 +98,8 @@ const std::vector<ShotKey> kSolverKeys = {
      .help = "Bodies that the whole step leaves where they are fall asleep together: no motion at "
              "all, and no cost. They wake when something is about to touch them or a force "
              "changes. What rocks in its place for some seconds and goes nowhere is calmed, so "
-             "that it does not keep a heap awake."},
+             "that it does not keep a heap awake; what rocks wider, as bowls do, later. What "
+             "hangs may swing."},
     {.path = "solver.contact_sweeps",
      .type = integer,
      .unit = "sweeps",

@@ -126,8 +126,8 @@ const std::vector<ShotKey> kShapeKeys = {
      .byDefault = "[2, 2, 2]",
      .min = 1,
      .max = 512,
-     .help = "Squares along each edge. Points of the mesh are what is tested against other bodies: "
-             "boxes of one segment, stacked with their edges aligned, do not stand."},
+     .help = "Squares along each edge. Method \"paper\" tests the points of the mesh against other "
+             "bodies: its boxes of one segment, stacked with their edges aligned, do not stand."},
     {.path = "shape.sphere",
      .type = table,
      .excludes = "torus|box|cylinder|capsule|file",
@@ -172,8 +172,8 @@ const std::vector<ShotKey> kShapeKeys = {
      .byDefault = "1",
      .min = 1,
      .max = 4096,
-     .help = "Rows of points along the height. Long sides without any can be pierced by thin "
-             "bodies, since points are what is tested."},
+     .help = "Rows of points along the height. With method \"paper\", which tests the points of the "
+             "mesh, long sides without any can be pierced by thin bodies."},
     {.path = "shape.capsule",
      .type = table,
      .excludes = "torus|box|sphere|cylinder|file",

@@ -73,8 +73,8 @@ bool isSame(const Stay& a, const Stay& b)
 
 bool isSame(const BodyRest& a, const BodyRest& b)
 {
-    return isSame(a.still, b.still) && isSame(a.nearby, b.nearby) && isSame(a.pull, b.pull) &&
-           a.isAsleep == b.isAsleep;
+    return isSame(a.still, b.still) && isSame(a.nearby, b.nearby) && isSame(a.around, b.around) &&
+           isSame(a.pull, b.pull) && a.isAsleep == b.isAsleep;
 }
 
 bool isSame(const RememberedContact& a, const RememberedContact& b)

@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    std::array<std::uint64_t, 24> words_;
+    std::array<std::uint64_t, 32> words_;
     std::size_t count_ = 0;
 };
 
@@ -80,9 +80,11 @@ std::uint64_t hashOf(const BodyRest& rest, std::uint64_t seed)
         .add(rest.still.orientation)
         .add(rest.nearby.position)
         .add(rest.nearby.orientation)
+        .add(rest.around.position)
+        .add(rest.around.orientation)
         .add(rest.pull)
         .add(rest.still.frames, rest.nearby.frames)
-        .add(std::uint64_t{rest.isAsleep})
+        .add(rest.around.frames, std::int32_t{rest.isAsleep})
         .hash(seed);
 }
 

@@ -16,6 +16,12 @@ namespace {
 /// it should.
 constexpr double kCalmWait = 6.0, kCalmTime = 1.5;
 
+/// What rocks wider, a bowl on its round bottom or a plank on a ball, is let do so for this time,
+/// and then loses 1/e of its motion in that on its ways back: of two hundred odds and ends three
+/// bowls rocked on for as long as anybody looked. What falls over does not come back, and what
+/// hangs may swing.
+constexpr double kLongWait = 18.0, kLongTime = 4.0;
+
 /// But not what goes on and on, however slowly: what has come at least this share of what it would
 /// have in kCalmWait with the velocity it has. What speeds up evenly from rest has come half of
 /// that by then, and what rocks comes back; with a quarter a plank that rocked on a ball took as
@@ -26,64 +32,98 @@ constexpr double kGoesOn = 0.45;
 /// kept a heap of a thousand awake for a second longer.
 constexpr double kCreeps = 4e-3;
 
-/// Whether a body moves on from where it was, and has for as long as `time`.
-bool goesOn(const World& world, BodyId body, double time, const Stay& since)
+/// How a body moves against the way it has come since, both as far as a point of it may.
+struct Course {
+    double along;   ///< way times speed: negative where it comes back [m²/s]
+    double square;  ///< of the speed [m²/s²]
+};
+
+Course courseOf(const World& world, BodyId body, const Stay& since)
 {
     const BodyMotion& motion = world.motion[body];
     const double radius = world.shapeOf(body).boundingRadius;
     const Vec3 way = motion.position - since.position;
     const Vec3 turn = radius * rotationVector(motion.orientation * since.orientation.conjugate());
     const Vec3 speedOfTurn = radius * angularVelocity(motion, world.mass[body]);
-    const double along = way.dot(motion.velocity) + turn.dot(speedOfTurn);
-    const double speeds = motion.velocity.squaredNorm() + speedOfTurn.squaredNorm();
-    return time * std::sqrt(speeds) >= kCreeps * radius && along >= kGoesOn * time * speeds;
+    return {way.dot(motion.velocity) + turn.dot(speedOfTurn),
+            motion.velocity.squaredNorm() + speedOfTurn.squaredNorm()};
 }
 
-void calm(World& world, BodyId body, double acceleration)
+/// Whether a body moves on from where it was, and has for as long as `time`.
+bool goesOn(const World& world, BodyId body, double time, const Stay& since)
+{
+    const Course course = courseOf(world, body, since);
+    const double radius = world.shapeOf(body).boundingRadius;
+    return time * std::sqrt(course.square) >= kCreeps * radius &&
+           course.along >= kGoesOn * time * course.square;
+}
+
+void calm(World& world, BodyId body, double acceleration, bool hangs)
 {
     if (acceleration == 0.0) return;
-    const Stay& nearby = world.contactMemory.rest[body].nearby;
+    const BodyRest& rest = world.contactMemory.rest[body];
     const double unit = unitOfTime(world, body, acceleration);
-    const double wait = kCalmWait * unit;
-    if (nearby.frames * world.frameDuration < wait || goesOn(world, body, wait, nearby)) return;
-    const double kept = 1.0 / (1.0 + world.frameDuration / (kCalmTime * unit));
+    const auto hasStayed = [&](const Stay& stay, double wait) {
+        return stay.frames * world.frameDuration >= wait * unit;
+    };
+    double time = 0.0;
+    if (hasStayed(rest.nearby, kCalmWait) && !goesOn(world, body, kCalmWait * unit, rest.nearby))
+        time = kCalmTime * unit;
+    else if (!hangs && hasStayed(rest.around, kLongWait) &&
+             courseOf(world, body, rest.around).along < 0.0)
+        time = kLongTime * unit;
+    else
+        return;
+    const double kept = 1.0 / (1.0 + world.frameDuration / time);
     world.motion[body].velocity *= kept;
     world.motion[body].angularMomentum *= kept;
 }
 
-/// Per body: whether it is stepped, lies on others, and no script moves any of these, nor what
-/// those lie on in turn.
-std::vector<char> whoMayBeCalmed(const World& world, const GapScratch& scratch)
+/// How a body is held up by others.
+struct Carriage {
+    bool mayBeCalmed = false;  ///< it is stepped, lies on others, and no script moves any of these
+    double hanging = 0.0;      ///< sum of what holds it times how far above its centre that is
+};
+
+std::vector<Carriage> carriages(const World& world, const GapScratch& scratch)
 {
     DisjointSets sets(world.bodyCount());
-    std::vector<char> isCarried(world.bodyCount(), 0), isDrivenSet(world.bodyCount(), 0);
+    std::vector<Carriage> carried(world.bodyCount());
+    std::vector<char> isDrivenSet(world.bodyCount(), 0);
+    const auto carry = [&](BodyId body, const Vec3& r, const Vec3& impulse) {
+        const Vec3& pull = scratch.forces[body].acceleration;
+        carried[body].mayBeCalmed = world.isStepped(body);
+        carried[body].hanging += impulse.dot(pull) * r.dot(pull);
+    };
     for (const GapRow& row : scratch.rows) {
         if (row.impulse.x() == 0.0) continue;
-        const auto a = static_cast<std::size_t>(row.a), b = static_cast<std::size_t>(row.b);
-        isCarried[a] = isCarried[b] = 1;
-        if (world.isStepped(row.a) && world.isStepped(row.b)) sets.join(a, b);
+        const Vec3 impulse = row.worldImpulse();
+        carry(row.a, row.rA, impulse);
+        carry(row.b, row.rB, -impulse);
+        if (world.isStepped(row.a) && world.isStepped(row.b))
+            sets.join(static_cast<std::size_t>(row.a), static_cast<std::size_t>(row.b));
     }
     for (const GapRow& row : scratch.rows) {
         if (row.impulse.x() == 0.0) continue;
-        for (const auto& [carrier, carried] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}}) {
+        for (const auto& [carrier, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}}) {
             if (isDriven(scratch.bodies[carrier]))
-                isDrivenSet[sets.find(static_cast<std::size_t>(carried))] = 1;
+                isDrivenSet[sets.find(static_cast<std::size_t>(other))] = 1;
         }
     }
-    std::vector<char> may(world.bodyCount(), 0);
-    for (std::size_t i = 0; i < may.size(); ++i)
-        may[i] =
-            world.isStepped(static_cast<BodyId>(i)) && isCarried[i] && !isDrivenSet[sets.find(i)];
-    return may;
+    for (std::size_t i = 0; i < carried.size(); ++i)
+        carried[i].mayBeCalmed = carried[i].mayBeCalmed && !isDrivenSet[sets.find(i)];
+    return carried;
 }
 
 }  // namespace
 
 void calmWhatRocks(World& world, const GapScratch& scratch)
 {
-    const std::vector<char> may = whoMayBeCalmed(world, scratch);
+    const std::vector<Carriage> carried = carriages(world, scratch);
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        if (may[i]) calm(world, static_cast<BodyId>(i), scratch.forces[i].acceleration.norm());
+        const double acceleration = scratch.forces[i].acceleration.norm();
+        if (carried[i].mayBeCalmed)
+            calm(world, static_cast<BodyId>(i), acceleration, carried[i].hanging > 0.0);
     }
 }
 

@@ -2,7 +2,7 @@
 //
 // A ring that leans on two others and rocks loses next to nothing at each swing: nothing in a world
 // of rigid bodies takes that energy, and one such ring keeps a whole heap awake. So it loses its
-// motion by and by.
+// motion by and by. What rocks wide, as a bowl on its round bottom, does so for longer first.
 #pragma once
 
 #include "core/dynamics/gap_scratch.h"

@@ -122,7 +122,7 @@ void sleepFromTheStart(World& world, const StepSettings& settings,
     for (const BodyId body : bodies) {
         const BodyMotion& motion = world.motion[body];
         const Stay here{motion.position, motion.orientation, 0};
-        world.contactMemory.rest[body] = {here, here, forces[body].acceleration, true};
+        world.contactMemory.rest[body] = {here, here, here, forces[body].acceleration, true};
     }
     world.contactMemory.contacts = contactsOfSleepers(world);
 }

@@ -16,6 +16,8 @@ constexpr double kStillTime = 1.4;
 
 /// What has stayed within this share of its size of one place may rock, but goes nowhere.
 constexpr double kNearby = 0.05;
+/// The same of what rocks as wide as a bowl does on its round bottom.
+constexpr double kAround = 0.4;
 
 /// So many times as long as it takes to fall asleep this share of an island must have stayed nearby
 /// before the island is said to settle.
@@ -86,6 +88,7 @@ void noteStays(World& world)
         BodyRest& rest = world.contactMemory.rest[i];
         noteStay(world, body, kStill, rest.still);
         noteStay(world, body, kNearby, rest.nearby);
+        noteStay(world, body, kAround, rest.around);
     }
 }
 

@@ -29,6 +29,7 @@ struct Stay {
 struct BodyRest {
     Stay still;                ///< it does not move at all
     Stay nearby;               ///< it may rock, but goes nowhere
+    Stay around;               ///< the same, as wide as a bowl rocks on its round bottom
     Vec3 pull = Vec3::Zero();  ///< what acted on it when it fell asleep [m/s²]
     bool isAsleep = false;
 };

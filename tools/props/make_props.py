@@ -237,6 +237,22 @@ def chain_poses():
         yield f"chain_{number}", poses
 
 
+def mail_poses(columns=16, rows=54, apart=(2.5, 0.7), tilt=35.0):
+    """A square of rings of radius 1, each through the four beside it: rows lean one way and the
+    other, half a column aside. Those along the hem are of another metal."""
+    kinds = {"steel": [], "brass": []}
+    for row in range(rows):
+        odd = row % 2
+        for column in range(columns - odd):
+            place = ((column - 0.5 * (columns - 1 - odd)) * apart[0], 14.0,
+                     (row - 0.5 * (rows - 1)) * apart[1])
+            isHem = column in (0, columns - 1 - odd) or row in (0, 1, rows - 2, rows - 1)
+            kinds["brass" if isHem else "steel"].append(
+                pose(place, about((1, 0, 0), tilt if odd else -tilt)))
+    for kind, poses in kinds.items():
+        yield "mail_" + kind, poses
+
+
 def card_poses(length=8.8, thickness=0.12, lean=29.0, storeys=4):
     """Pairs of leaning cards [thickness, length, width] and the cards that lie across them."""
     s, c = math.sin(math.radians(lean)), math.cos(math.radians(lean))
@@ -336,7 +352,7 @@ def main():
             write_obj(os.path.join(shots, "meshes", name + ".obj"), mesh, words)
     write_objects(os.path.join(shots, "meshes", "wall.obj"), wall(),
                   "A wall of 4 by 2.5 by 0.3, broken into two hundred shards [m]")
-    for make in (arch_poses, chain_poses, card_poses, domino_poses, letter_poses, block_poses,
+    for make in (arch_poses, chain_poses, mail_poses, card_poses, domino_poses, letter_poses, block_poses,
                  chimney_poses):
         for name, poses in make():
             write_poses(os.path.join(shots, "poses", name + ".poses"), poses)
