@@ -29,6 +29,9 @@ constexpr double kStrictly = 1e-6;
 /// Sine of the angle between the axes of two sides below which they lie along each other.
 constexpr double kParallel = 1e-2;
 
+/// Heights that differ by less than this share of the smaller body are one; for rounding.
+constexpr double kSameHeight = 1e-7;
+
 /// Cosine, taken from 1, of the angle within which a normal is that of a face.
 constexpr double kSameFace = 1e-9;
 
@@ -233,6 +236,14 @@ Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const Featu
     return {Result::rounded, {first.isRound() ? smooth : foot, n, gap}};
 }
 
+/// Whether the place that faces what is flat lies higher above that than the corner that was found
+/// there, which the round surface goes through: where normals do not fit the corners, as on a rock.
+bool isAboveCorner(const RelativePair& pair, const FeatureContact& corner, const Rounding& rounding)
+{
+    return rounding.result == Result::rounded &&
+           rounding.contact.gap > corner.gap + kSameHeight * smallerRadius(pair.first, pair.second);
+}
+
 /// A round body beside a sharp edge, on one of its faces: no corner of the round one need be near
 /// that. Where a coin leans on the side of another that edge spoke with its facets, in one step but
 /// not the next, 2e-3 of the coin apart.
@@ -274,7 +285,10 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
     if (first.isSide() && second.isSide()) return betweenSides(first, second, contact);
     // To what is sharp or flat a side is its facets: a pole holds rings as well so.
     if ((first.isSide() && !second.isRound()) || (second.isSide() && !first.isRound())) return {};
-    if (first.isFlat() || second.isFlat()) return onFlat(pair, first, second, contact);
+    if (first.isFlat() || second.isFlat()) {
+        const Rounding rounding = onFlat(pair, first, second, contact);
+        return isAboveCorner(pair, contact, rounding) ? Rounding{} : rounding;
+    }
 
     const std::optional<Vec3>& axis = first.axis() ? first.axis() : second.axis();
     if (axis) n = (n - axis->dot(n) * *axis).normalized();

@@ -185,6 +185,34 @@ TEST(RoundContacts, WavyStripsInEachOtherAreToldOfNoFacetBeyondItsEnd)
     EXPECT_LE(tooDeep, 6u);  // at the rims; 101 of 420 once
 }
 
+// The place of a rock that faced the floor, by its normals, was not the lowest: the corner beside
+// it sank into the floor.
+TEST(RoundContacts, NoCornerOfARockIsLowerThanItIsToldToBe)
+{
+    TriMesh mesh = makeSphere(0.5, 2);
+    for (Eigen::Index v = 0; v < mesh.points.cols(); ++v)
+        mesh.points.col(v) *= 1.0 + 0.06 * randomUnit(42, 0, static_cast<std::uint64_t>(v));
+    const auto rock = buildMeshShape("rock", mesh);
+    ASSERT_FALSE(rock->roundFacets.isEmpty());
+    World world;
+    addPlane(world, addMaterial(world, 0.5, 0.0));
+    const Shape& floor = world.shapeOf(0);
+    std::size_t rounded = 0;
+    for (std::uint64_t draw = 0; draw < 1000; ++draw) {
+        Pose pose{Vec3::Zero(), exponentialMap(3.0 * signedUnits(draw, 0))};
+        double lowest = 1.0;
+        for (const auto& point : rock->features.points().colwise())
+            lowest = std::min(lowest, (pose * Vec3(point)).y());
+        pose.position.y() = -lowest;
+        const auto contacts =
+            contactsOf(*rock, pose, floor, {Vec3::Zero(), Quat::Identity()}, 0.01);
+        ASSERT_FALSE(contacts.empty()) << draw;
+        EXPECT_LE(nearestOf(contacts).gap, 1e-7) << draw;
+        rounded += kindOf(nearestOf(contacts).feature) == FeatureKind::round;
+    }
+    EXPECT_GT(rounded, 100u);
+}
+
 // Told of facets, two such balls met off the line of centres by up to 4°, and the blow went aside.
 TEST(RoundContacts, MeshedBallsTouchOnceOnTheLineOfTheirCentresHoweverTheyAreTurned)
 {
