@@ -192,9 +192,9 @@ std::optional<Vec3> turnFor(const Mat3& advance, const Vec3& n, const Vec3& t,
 }
 
 /// Whether a place is, give or take `tolerance`, on a face with this normal: not on an edge that is
-/// seen from aside, nor past the rim. Of a hollow with flat facets a plane goes on for a good way
-/// close to the next ones, and deeper: two forks nested in each other were told of 36 µm of overlap
-/// that there was not, in one step but not the next. In the frame of the shape.
+/// seen from aside, nor past the end of the face. There its plane may go on for a good way close
+/// above the facets beside it: two forks nested in each other were told of 36 µm of overlap that
+/// there was not, in one step but not the next. In the frame of the shape.
 bool isOnFace(const Shape& shape, const Vec3& place, const Vec3& normal, double tolerance)
 {
     if (shape.isPlane) return true;

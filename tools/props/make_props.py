@@ -352,8 +352,8 @@ def main():
             write_obj(os.path.join(shots, "meshes", name + ".obj"), mesh, words)
     write_objects(os.path.join(shots, "meshes", "wall.obj"), wall(),
                   "A wall of 4 by 2.5 by 0.3, broken into two hundred shards [m]")
-    for make in (arch_poses, chain_poses, mail_poses, card_poses, domino_poses, letter_poses, block_poses,
-                 chimney_poses):
+    for make in (arch_poses, chain_poses, mail_poses, card_poses, domino_poses, letter_poses,
+                 block_poses, chimney_poses):
         for name, poses in make():
             write_poses(os.path.join(shots, "poses", name + ".poses"), poses)
 
