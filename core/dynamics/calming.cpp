@@ -16,12 +16,6 @@ namespace {
 /// it should.
 constexpr double kCalmWait = 6.0, kCalmTime = 1.5;
 
-/// What rocks wider, a bowl on its round bottom or a plank on a ball, is let do so for this time,
-/// and then loses 1/e of its motion in that on its ways back: of two hundred odds and ends three
-/// bowls rocked on for as long as anybody looked. What falls over does not come back, and what
-/// hangs may swing.
-constexpr double kLongWait = 18.0, kLongTime = 4.0;
-
 /// But not what goes on and on, however slowly: what has come at least this share of what it would
 /// have in kCalmWait with the velocity it has. What speeds up evenly from rest has come half of
 /// that by then, and what rocks comes back; with a quarter a plank that rocked on a ball took as
@@ -31,6 +25,12 @@ constexpr double kGoesOn = 0.45;
 /// As long as it goes by this share of its size in that time: cubes that settled by less than that
 /// kept a heap of a thousand awake for a second longer.
 constexpr double kCreeps = 4e-3;
+
+/// What rocks wider, a bowl on its round bottom or a plank on a ball, is let do so for this time,
+/// and then loses 1/e of its motion in that on its ways back: of two hundred odds and ends three
+/// bowls rocked on for as long as anybody looked. What falls over does not come back, and what
+/// hangs may swing.
+constexpr double kLongWait = 18.0, kLongTime = 4.0;
 
 /// How a body moves against the way it has come since, both as far as a point of it may.
 struct Course {
@@ -81,7 +81,7 @@ void calm(World& world, BodyId body, double acceleration, bool hangs)
 
 /// How a body is held up by others.
 struct Carriage {
-    bool mayBeCalmed = false;  ///< it is stepped, lies on others, and no script moves any of these
+    bool mayBeCalmed = false;  ///< it is stepped, others hold it, and no script moves any of these
     double hanging = 0.0;      ///< sum of what holds it times how far above its centre that is
 };
 
