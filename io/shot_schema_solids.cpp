@@ -172,8 +172,9 @@ const std::vector<ShotKey> kShapeKeys = {
      .byDefault = "1",
      .min = 1,
      .max = 4096,
-     .help = "Rows of points along the height. With method \"paper\", which tests the points of the "
-             "mesh, long sides without any can be pierced by thin bodies."},
+     .help =
+         "Rows of points along the height. With method \"paper\", which tests the points of the "
+         "mesh, long sides without any can be pierced by thin bodies."},
     {.path = "shape.capsule",
      .type = table,
      .excludes = "torus|box|sphere|cylinder|file",
@@ -195,7 +196,10 @@ const std::vector<ShotKey> kShapeKeys = {
      .byDefault = "20",
      .min = 3,
      .max = 4096,
-     .help = "Sides around the axis."},
+     .help =
+         "Sides around the axis. From 18 on, with 5 rings or more, method \"scree\" lets it touch "
+         "capsules, balls and planes as the round solid that it stands for, which is faster too; "
+         "coarser ones do so as what they are."},
     {.path = "shape.capsule.rings",
      .type = integer,
      .byDefault = "5",

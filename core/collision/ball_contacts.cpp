@@ -100,16 +100,6 @@ bool isNearest(const Place& place, const Vec3& c, const std::vector<Neighbour>& 
     return nearest->distance >= place.distance - slack;
 }
 
-/// Balls in one place lie on each other.
-void findBetweenBalls(const Vec3& c, double radius, double otherRadius, double reach,
-                      std::vector<BallContact>& found)
-{
-    const double apart = c.norm(), gap = apart - otherRadius - radius;
-    if (gap >= reach) return;
-    const Vec3 n = apart > 0.0 ? Vec3(c / apart) : Vec3(Vec3::UnitY());
-    found.push_back({{0, 0}, {c - radius * n, n, gap}});
-}
-
 /// What the distance field alone tells: all there is to tell of a convex solid, and the way out for
 /// a ball that has its centre inside of a mesh.
 void findByField(const SignedDistance& field, const Vec3& c, double radius, double reach,
@@ -127,10 +117,8 @@ void findBallContacts(const RelativePair& pair, double reach, std::vector<BallCo
 {
     found.clear();
     const SignedDistance& field = pair.second.distance;
-    const double radius = pair.first.ballRadius;
+    const double radius = pair.first.capsule.radius;
     const Vec3& c = pair.translation;
-    if (pair.second.isBall())
-        return findBetweenBalls(c, radius, pair.second.ballRadius, reach, found);
     if (field.lowerBound(c) - radius >= reach) return;
     if (field.solid() || field.value(c) <= kSharpness * radius) {
         return findByField(field, c, radius, reach, found);

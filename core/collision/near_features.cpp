@@ -7,6 +7,7 @@
 
 #include "core/base/fetch.h"
 #include "core/collision/ball_contacts.h"
+#include "core/collision/capsule_contacts.h"
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
 #include "core/collision/corner_contacts.h"
@@ -52,6 +53,26 @@ struct BothWays {
     {
     }
 };
+
+/// Whether the one is a capsule or ball, and the other too or a plane.
+bool areCapsules(const RelativePair& pair)
+{
+    const Shape &a = pair.first, &b = pair.second;
+    return (a.isCapsule() && (b.isCapsule() || b.isPlane)) || (a.isPlane && b.isCapsule());
+}
+
+/// Of such a pair; answers how far they are apart [m].
+double addCapsuleContacts(const BothWays& ways, double reach, std::vector<GapContact>& contacts)
+{
+    const bool isA = ways.pair.first.isCapsule();
+    thread_local std::vector<CapsuleContact> found;
+    const double apart = findCapsuleContacts(isA ? ways.pair : ways.back, reach, found);
+    for (const CapsuleContact& one : found) {
+        contacts.push_back((isA ? ways.ofA : ways.ofB)(
+            featureId(FeatureKind::ball, one.ofFirst, one.ofSecond), one.contact));
+    }
+    return apart;
+}
 
 /// Of a pair of which one is a ball.
 void addBallContacts(const BothWays& ways, double reach, ContactList& list)
@@ -180,6 +201,7 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const Shape &shapeA = *bodies.shapeA, &shapeB = *bodies.shapeB;
     const BothWays ways(bodies);
     const RelativePair &pair = ways.pair, &back = ways.back;
+    if (areCapsules(pair)) return addCapsuleContacts(ways, reach, contacts);
     const double smaller = smallerRadius(shapeA, shapeB);
     const double bulge = bulgeOf(pair);
     const std::size_t known = contacts.size();

@@ -63,7 +63,7 @@ public:
     {
         if (part.kind == Kind::ball) {
             isRound_ = true;
-            place_ = {translation, 0.0, shape.ballRadius * Mat3::Identity()};
+            place_ = {translation, 0.0, shape.capsule.radius * Mat3::Identity()};
         } else if (!shape.isBall() && !shape.roundFacets.isEmpty()) {
             findFacet(rotation.transpose() * (near - translation), rotation.transpose() * outward);
         }
@@ -89,7 +89,7 @@ public:
     {
         if (!isRound_) return Search::found;
         if (part_.kind == Kind::ball) {
-            place_.point = translation_ + shape_.ballRadius * outward;
+            place_.point = translation_ + shape_.capsule.radius * outward;
             return Search::found;
         }
         const Vec3 own = rotation_.transpose() * outward;

@@ -27,13 +27,26 @@ Vec3 turnsThatShow(const TriMesh& mesh)
     return show;
 }
 
-double ballRadiusOf(const TriMesh& mesh, const RoundFacets& facets)
+Capsule capsuleOf(const TriMesh& mesh, const RoundFacets& facets)
 {
-    constexpr double kSinglePrecision = 1e-5;  // as files have it, and their centre of mass
-    if (!facets.areAll()) return 0.0;
-    const Eigen::RowVectorXd distances = mesh.points.colwise().norm();
-    const double radius = distances.maxCoeff();
-    return distances.minCoeff() >= (1.0 - kSinglePrecision) * radius ? radius : 0.0;
+    constexpr double kRounded = 1e-4;  // in a file, six digits of a metre of something small
+    if (!facets.areAll()) return {};
+    for (int axis = -1; axis < 3; ++axis) {  // first of all a ball
+        Points across = mesh.points;
+        double half = 0.0;
+        if (axis >= 0) {
+            const double highest = across.row(axis).cwiseAbs().maxCoeff();
+            across.row(axis).setZero();
+            half = highest - across.colwise().norm().maxCoeff();
+            if (half <= 0.0) continue;
+            across.row(axis) = (mesh.points.row(axis).array().abs() - half).max(0.0);
+        }
+        const Eigen::RowVectorXd distances = across.colwise().norm();
+        const double radius = distances.maxCoeff();
+        if (distances.minCoeff() < (1.0 - kRounded) * radius) continue;
+        return {axis < 0 ? Vec3(Vec3::Zero()) : Vec3(half * Vec3::Unit(axis)), radius};
+    }
+    return {};
 }
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Is a mesh a ball, or about which axes a solid of revolution, as far as facets can be?  [A16, A40]
+// Is a mesh a ball or a capsule, or about which axes a solid of revolution, as far as facets can be?  [A16, A40]
 //
 // A ball that spins goes nowhere by that, nor does the tread of a wheel: what bounds steps and
 // searches by how far a surface moves need not count such turns. Five hundred marbles that ran down
@@ -7,6 +7,7 @@
 
 #include "core/geometry/round_facets.h"
 #include "core/geometry/tri_mesh.h"
+#include "core/math/capsule.h"
 
 namespace scree {
 
@@ -14,8 +15,8 @@ namespace scree {
 /// surface where it is, but for facets that stand for something round (kFineTurn), else 1.
 Vec3 turnsThatShow(const TriMesh& mesh);
 
-/// The radius of a mesh that stands for a ball about its origin: all facets are round, and all
-/// points as far from there [m]. Else 0.
-double ballRadiusOf(const TriMesh& mesh, const RoundFacets& facets);
+/// The capsule or ball about its origin, along an axis of the frame, that a mesh stands for: all
+/// facets are round, and all points as far from a segment. Its radius is 0 if there is none.
+Capsule capsuleOf(const TriMesh& mesh, const RoundFacets& facets);
 
 }  // namespace scree

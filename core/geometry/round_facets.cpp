@@ -21,7 +21,9 @@ constexpr int kMostSteps = 3;  // triangles  [A40]
 /// normal: with the mean of all, the face of a box with rounded edges would be a pillow to roll on,
 /// and the side of a capsule a barrel.
 constexpr double kSmallest = 0.2;
-constexpr double kHollow = -1e-6;  // sine of how far an edge may sag inward; for rounding
+/// Sine of how far an edge may sag inward: files round points, and the squares of a capsule's side
+/// of which one bent in by that were the facets of a prism.
+constexpr double kHollow = -1e-4;
 
 /// Volume of the normals of a facet, or area of those of an edge, below which it does not bend both
 /// ways, or not at all. Points may be of single precision.

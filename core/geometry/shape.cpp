@@ -220,7 +220,7 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
     if (!shape.usesTrueNormals) {
         shape.smooth = SmoothSurface(shape.mesh);
         shape.roundFacets = RoundFacets(shape.mesh);
-        shape.ballRadius = ballRadiusOf(shape.mesh, shape.roundFacets);
+        shape.capsule = capsuleOf(shape.mesh, shape.roundFacets);
     }
     shape.turnsThatShow = shape.isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape.mesh);
 
@@ -278,7 +278,7 @@ std::shared_ptr<const Shape> buildExactShape(const std::string& name, const Exac
     shape->distance = SignedDistance(solid, wantedSpacing({}, shape->box, shape->innerThickness));
     shape->innerBall = {Vec3::Zero(), 0.5 * shape->innerThickness};
     shape->samplesMove = solid.form() != ExactSolid::Form::box;
-    if (solid.form() == ExactSolid::Form::sphere) shape->ballRadius = solid.half().x();
+    if (solid.form() == ExactSolid::Form::sphere) shape->capsule.radius = solid.half().x();
     shape->turnsThatShow = shape->isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape->mesh);
     if (solid.form() != ExactSolid::Form::sphere) shape->features = ContactFeatures(shape->mesh);
     shape->rims = RoundRims(shape->features);

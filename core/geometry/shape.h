@@ -26,6 +26,7 @@
 #include "core/geometry/surface_samples.h"
 #include "core/geometry/tri_mesh.h"
 #include "core/math/aabb.h"
+#include "core/math/capsule.h"
 
 namespace scree {
 
@@ -89,7 +90,7 @@ struct Shape {
     Ball innerBall;                ///< about as large as any in the solid, object frame [m]
     bool usesTrueNormals = false;
     Vec3 turnsThatShow = Vec3::Ones();  ///< by axis of the object frame  [revolution.h]
-    double ballRadius = 0.0;            ///< of what touches as a ball, else 0 [m]
+    Capsule capsule;                    ///< that it touches as, or ball; else of radius 0
 
     SignedDistance distance;   ///< grid, exact refinement, or plane
     SurfaceSamples samples;    ///< empty for a plane and where samples move
@@ -102,10 +103,11 @@ struct Shape {
     /// No place of the mesh lies farther below what it stands for than this [m].
     double bulge() const { return std::max(roundFacets.bulge(), rims.bulge()); }
 
-    /// An exact sphere, or a mesh that stands for one and is fine enough: with method `scree` it
-    /// touches as a ball. Five hundred marbles of 1280 triangles took fifty times as long as
-    /// meshes.
-    bool isBall() const { return ballRadius > 0.0; }
+    /// An exact sphere, or a mesh that stands for a capsule or a ball and is fine enough: with
+    /// method `scree` it touches others of its kind as that, and a ball all bodies. Five hundred
+    /// marbles of 1280 triangles took fifty times as long as meshes.
+    bool isCapsule() const { return capsule.radius > 0.0; }
+    bool isBall() const { return isCapsule() && capsule.isBall(); }
 
     bool showsAllTurns() const { return turnsThatShow == Vec3::Ones(); }
     /// What of a turn, or of a spin, moves the surface, in the world of a body that stands so.

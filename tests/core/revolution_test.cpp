@@ -34,7 +34,10 @@ TEST(Revolution, AHandleShows)
 
 TEST(Revolution, AFineMeshAllOfWhosePointsAreAsFarAwayIsABall)
 {
-    const auto ballOf = [](const TriMesh& mesh) { return buildMeshShape("it", mesh)->ballRadius; };
+    const auto ballOf = [](const TriMesh& mesh) {
+        const auto shape = buildMeshShape("it", mesh);
+        return shape->isBall() ? shape->capsule.radius : 0.0;
+    };
     EXPECT_NEAR(ballOf(makeSphere(0.5, 3)), 0.5, 1e-6);
     EXPECT_NEAR(ballOf(makeSphere(0.5, 2)), 0.5, 1e-6);
     EXPECT_EQ(ballOf(makeSphere(0.5, 1)), 0.0);
@@ -43,6 +46,30 @@ TEST(Revolution, AFineMeshAllOfWhosePointsAreAsFarAwayIsABall)
     TriMesh egg = makeSphere(0.5, 3);
     egg.points.row(1) *= 1.001;
     EXPECT_EQ(ballOf(egg), 0.0);
+}
+
+TEST(Revolution, AFineMeshAllOfWhosePointsAreAsFarFromASegmentIsACapsule)
+{
+    const auto capsuleOf = [](const TriMesh& mesh) { return buildMeshShape("it", mesh)->capsule; };
+    // Wherever it stands, and with the digits that a file has.
+    TriMesh mesh = makeCapsule(0.2, 1.0, 20, 5);
+    const Pose askew{{1.0, -2.0, 0.5}, Quat(0.5, 0.1, -0.7, 0.3).normalized()};
+    mesh = transformed(mesh, askew);
+    mesh.points = (1e5 * mesh.points).array().round().matrix() / 1e5;
+    const Capsule capsule = capsuleOf(mesh);
+    EXPECT_NEAR(capsule.radius, 0.2, 1e-5);
+    EXPECT_NEAR(capsule.half.norm(), 0.5, 1e-5);
+    EXPECT_EQ(capsuleOf(makeSphere(0.5, 3)).half, Vec3(Vec3::Zero()));
+    EXPECT_NEAR(capsuleOf(makeCapsule(0.2, 1.0, 18, 5)).radius, 0.2, 1e-6);
+    // Too few sides, too few bands, no round ends, one end blown up.
+    EXPECT_EQ(capsuleOf(makeCapsule(0.2, 1.0, 17, 5)).radius, 0.0);
+    EXPECT_EQ(capsuleOf(makeCapsule(0.2, 1.0, 20, 4)).radius, 0.0);
+    EXPECT_EQ(capsuleOf(makeCylinder(0.2, 1.0, 32, 4)).radius, 0.0);
+    TriMesh club = makeCapsule(0.2, 1.0, 32, 8);
+    for (Eigen::Index v = 0; v < club.points.cols(); ++v) {
+        if (club.points(1, v) > 0.0) club.points.col(v).x() *= 1.001;
+    }
+    EXPECT_EQ(capsuleOf(club).radius, 0.0);
 }
 
 }  // namespace

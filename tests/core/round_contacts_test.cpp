@@ -261,13 +261,14 @@ Pose bodyAt(const Shape& shape, const Pose& worldFromAsset)
     return worldFromAsset * inverse(shape.bodyFromAsset);
 }
 
-// Told of the facets of their sides, they met up to 10 degrees off, at up to ten places.
-TEST(RoundContacts, CapsulesAndBallsTouchOnceOnTheLineBetweenTheirAxesAtSidesAndEnds)
+// Told of the facets of their sides, they met up to 10 degrees off, at up to ten places. An end
+// that is within reach besides has a contact of its own.
+TEST(RoundContacts, CapsulesAndBallsTouchOnTheLineBetweenTheirAxesAtSidesAndEnds)
 {
     const std::vector<Stick> sticks{{0.5, 0.0}, {0.2, 1.0, 20, 5}, {0.5, 3.0, 48, 12}};
     std::vector<std::shared_ptr<const Shape>> shapes;
     for (const Stick& stick : sticks) shapes.push_back(stick.mesh());
-    int apart = 0;
+    int apart = 0, several = 0;
     for (std::uint64_t draw = 0; draw < 600; ++draw) {
         const std::size_t i = draw % 3, j = 1 + draw / 3 % 2;
         const double gap = 2e-3 * randomUnit(42, draw, 0);
@@ -282,10 +283,13 @@ TEST(RoundContacts, CapsulesAndBallsTouchOnceOnTheLineBetweenTheirAxesAtSidesAnd
         a.position -= between - (reach + gap) * line;
         const std::vector<GapContact> contacts =
             contactsOf(*shapes[i], bodyAt(*shapes[i], a), *shapes[j], bodyAt(*shapes[j], b), 4e-3);
-        ASSERT_EQ(contacts.size(), 1u) << draw;
-        EXPECT_LT((contacts[0].normal - line).norm(), 1e-4) << draw;
-        EXPECT_NEAR(contacts[0].gap, gap, 1e-4) << draw;  // of facets up to 3 mm deep
+        ASSERT_FALSE(contacts.empty()) << draw;
+        const GapContact& nearest = nearestOf(contacts);
+        EXPECT_LT((nearest.normal - line).norm(), 1e-4) << draw;
+        EXPECT_NEAR(nearest.gap, gap, 1e-6) << draw;
+        several += contacts.size() > 1;
     }
+    EXPECT_LE(several, 30);
     EXPECT_GE(apart, 500);
 }
 
