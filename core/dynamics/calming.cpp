@@ -96,7 +96,7 @@ std::vector<Carriage> carriages(const World& world, const GapScratch& scratch)
         carried[body].hanging += impulse.dot(pull) * r.dot(pull);
     };
     for (const GapRow& row : scratch.rows) {
-        if (row.impulse.x() == 0.0) continue;
+        if (!row.carries()) continue;
         const Vec3 impulse = row.worldImpulse();
         carry(row.a, row.rA, impulse);
         carry(row.b, row.rB, -impulse);
@@ -104,7 +104,7 @@ std::vector<Carriage> carriages(const World& world, const GapScratch& scratch)
             sets.join(static_cast<std::size_t>(row.a), static_cast<std::size_t>(row.b));
     }
     for (const GapRow& row : scratch.rows) {
-        if (row.impulse.x() == 0.0) continue;
+        if (!row.carries()) continue;
         for (const auto& [carrier, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}}) {
             if (isDriven(scratch.bodies[carrier]))
                 isDrivenSet[sets.find(static_cast<std::size_t>(other))] = 1;

@@ -187,7 +187,7 @@ double rub(GapRow& row, double ut, double us)
     const double* k = row.frictionMass;
     double t1 = before.y() - (k[0] * ut + k[1] * us);
     double t2 = before.z() - (k[1] * ut + k[2] * us);
-    const double limit = row.friction * before.x();
+    const double limit = row.frictionLimit();
     if (t1 * t1 + t2 * t2 > limit * limit) {
         // Projecting the sticking impulse would turn friction away from the sliding direction.
         t1 = before.y() - row.slideMass * ut;
@@ -277,7 +277,7 @@ double visitRow(GapRow& row, const Vec3& u)
 {
     const Vec3 before = row.impulse;
     const double normal = normalImpulse(row, u.x()), pushed = normal - before.x();
-    if (normal == 0.0 && before.isZero(0.0)) return 0.0;
+    if (normal == 0.0 && row.squeeze == 0.0 && before.isZero(0.0)) return 0.0;
     row.impulse.x() = normal;
     const double rubbed = rub(row, u.y() + pushed * row.normalIntoFriction[0],
                               u.z() + pushed * row.normalIntoFriction[1]);
@@ -323,7 +323,8 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
             const GapBody& b = scratch.bodies[row.b];
             const double end = endOfRow(row, a, b, a.pull - b.pull, dt);
             const double little = kStops * dt * std::max(a.pull.norm(), b.pull.norm());
-            stopsAny = end < -dt * little || row.impulse.x() * row.inverseNormalMass > little;
+            stopsAny = end < -dt * little ||
+                       (row.impulse.x() + row.squeeze) * row.inverseNormalMass > little;
         }
     });
     for (std::size_t n = 0; n < stops.size(); ++n) {
@@ -377,7 +378,7 @@ ImpulseCounts countImpulses(GapScratch& scratch)
             pair.bearing = 0;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapRow& row = scratch.rows[r];
-                if (row.impulse.x() == 0.0) continue;
+                if (!row.carries()) continue;
                 ++pair.bearing;
                 ++(sticks(row) ? stick : slide);
             }

@@ -10,7 +10,7 @@ const std::vector<Held>& heldAsBefore(double dt, GapBlock& block, const GapScrat
         HeldByPair& sum = block.heldByPairs[pair.place];
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
-            if (row.impulse.x() == 0.0) continue;
+            if (!row.carries()) continue;
             const Vec3 impulse = row.worldImpulse();
             sum.impulse += impulse;
             sum.turnOfA += row.rA.cross(impulse) + row.couple;

@@ -55,9 +55,9 @@ void extrapolate(Number share, const Vector& before, Vector& way, Vector& now)
 }
 
 /// Where friction holds the places of rows: as of one row, gap_rows.h.
-LaneMask sticks(Lanes friction, const Lanes3& impulse)
+LaneMask sticks(Lanes friction, Lanes squeeze, const Lanes3& impulse)
 {
-    const Lanes limit = kSlides * friction * impulse.x;
+    const Lanes limit = kSlides * friction * (impulse.x + squeeze);
     return fma(impulse.y, impulse.y, impulse.z * impulse.z) < limit * limit;
 }
 
@@ -199,6 +199,7 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane, Secti
     place(batch.a, scratch.bodies[from->a], from->movesA);
     place(batch.b, scratch.bodies[from->b], from->movesB);
     batch.aFromB.set(lane, from->rB - from->rA);
+    batch.squeeze[lane] = from->squeeze;
     for (std::size_t r = batch.begin; r < batch.end; ++r, ++from) {
         Row& row = section.rows[r];
         row.rA.set(lane, from->rA);
@@ -264,7 +265,8 @@ inline Lanes GapLanes::resistSpin(std::size_t place, const Batch& batch, Motion&
     const Lanes wn = dot(w, row.normal), before = dot(old, row.normal);
     const Lanes most = roll.spinningArm * row.impulse.x;
     const Lanes about = minOf(maxOf(fnma(wn, roll.spinMass, before), -most), most);
-    const Lanes mass = sticks(row.friction, row.impulse) ? roll.rollMass : roll.slipMass;
+    const Lanes mass =
+        sticks(row.friction, batch.squeeze, row.impulse) ? roll.rollMass : roll.slipMass;
     const Lanes3 across = fnma(mass, fnma(wn, row.normal, w), fnma(before, row.normal, old));
     const Lanes length = sqrtOf(dot(across, across)), limit = roll.rollingArm * row.impulse.x;
     const Lanes shorter = length > limit ? limit / length : lanesOf(1.0);
@@ -300,7 +302,7 @@ inline void GapLanes::visit(std::size_t place, const Batch& batch, const Lanes3&
     }
     const Lanes stickT = fnma(row.massTt, ut, fnma(row.massTs, us, old.y));
     const Lanes stickS = fnma(row.massTs, ut, fnma(row.massSs, us, old.z));
-    const Lanes limit = row.friction * normal;
+    const Lanes limit = row.friction * (normal + batch.squeeze);
     const auto slides = fma(stickT, stickT, stickS * stickS) > limit * limit;
     const Lanes slideT = fnma(row.slideMass, ut, old.y), slideS = fnma(row.slideMass, us, old.z);
     const Lanes length = sqrtOf(fma(slideT, slideT, slideS * slideS));

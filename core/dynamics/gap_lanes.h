@@ -97,6 +97,7 @@ private:
     struct Batch {
         Side a, b;
         Lanes3 aFromB;              // centres: what turns rA into rB
+        Lanes squeeze = kNoLanes;   // of each row
         std::int32_t from[kLanes];  // the first row of each in GapScratch::rows
         int lanesUsed = 0;
         std::size_t begin = 0, end = 0;  // its rows in the section

@@ -35,7 +35,7 @@ struct MeanMotion {
 bool lasts(const GapRow& row, const Vec3& s, double gapAtEnd, double blind)
 {
     const double apart = s.dot(row.normal);
-    if (row.impulse.x() == 0.0) return apart >= -blind || gapAtEnd + apart >= 0.0;
+    if (!row.carries()) return apart >= -blind || gapAtEnd + apart >= 0.0;
     if (std::abs(apart) > blind) return false;
     return !sticks(row) || (s - apart * row.normal).norm() <= blind;
 }
@@ -130,7 +130,7 @@ bool lasts(const World& world, double dt, const GapScratch& scratch, const GapIs
         const double blind = kLasting * smallerRadius(world, idA, idB);
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch.rows[r];
-            if (row.impulse.x() > 0.0 && (isDriven(a) || isDriven(b))) return false;
+            if (row.carries() && (isDriven(a) || isDriven(b))) return false;
             const Vec3 s = ofA.shift + ofA.turn.cross(row.rA) - ofB.shift - ofB.turn.cross(row.rB);
             const double gapAtEnd =
                 row.gap + shiftAt(row, a, b) + dt * velocityAt(row, a, b).dot(row.normal);
@@ -156,7 +156,7 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
             const GapPair& pair = scratch.pairs[i];
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 const GapRow& row = scratch.rows[r];
-                if (row.impulse.x() == 0.0) continue;
+                if (!row.carries()) continue;
                 addCouple(world, scratch, row, row.worldImpulse(),
                           late(scratch.bodies[row.a]) - late(scratch.bodies[row.b]));
             }
@@ -211,7 +211,7 @@ PairTurn rememberContacts(const World& world, double dt, GapScratch& scratch, co
     const Vec3 bFromA = world.motion[pair.bodies.a].position - world.motion[pair.bodies.b].position;
     for (std::size_t r = pair.begin; r < pair.end; ++r) {
         const GapRow& row = scratch.rows[r];
-        if (row.impulse.x() == 0.0) continue;
+        if (!row.carries()) continue;
         turn.movesA = row.movesA;
         turn.movesB = row.movesB;
         const Vec3 impulse = row.worldImpulse();

@@ -93,7 +93,7 @@ bool isStillCarried(const GapScratch& scratch, const Rider& rider)
     if (pair == scratch.pairs.end() || !(pair->bodies == bodies)) return false;
     return std::any_of(scratch.rows.begin() + static_cast<std::ptrdiff_t>(pair->begin),
                        scratch.rows.begin() + static_cast<std::ptrdiff_t>(pair->end),
-                       [](const GapRow& row) { return row.wasHit || row.impulse.x() > 0.0; });
+                       [](const GapRow& row) { return row.wasHit || row.carries(); });
 }
 
 /// What a body has more of the velocity of its carrier than it should, as contacts have seen that;

@@ -202,6 +202,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
                 row.wasHit = false;
                 row.isOfBlow = false;
                 row.impulse = Vec3::Zero();
+                row.squeeze = 0.0;
                 row.isUnmovedA = isUnmovedA;
                 row.isUnmovedB = isUnmovedB;
                 prepareRow(scratch.bodies, row);

@@ -46,6 +46,8 @@ struct GapRow {
     Vec3 normal;                   ///< from B to A
     double gap;                    ///< [m]
     Vec3 impulse;                  ///< along normal, tangent and second tangent, on A [N s]
+    double squeeze;                ///< what presses it besides, for friction alone: gap_press.h
+                                   ///< [N s]
     Vec3 tangent;                  ///< the second tangent is normal × tangent
     double friction, restitution;  ///< [-]
     double target;             ///< normal velocity that closes the gap within the step [m/s], ≤ 0
@@ -58,6 +60,10 @@ struct GapRow {
                                      ///< holds the place, at most [1/(kg m²)]
     Vec3 couple;                     ///< of that resistance, on A, world [N m s]
 
+    /// Without an impulse along the normal only what is squeezed does.
+    bool carries() const { return !impulse.isZero(0.0); }
+    /// What friction may be, at most [N s].
+    double frictionLimit() const { return friction * (impulse.x() + squeeze); }
     bool resistsSpin() const { return rollingArm > 0.0 || spinningArm > 0.0; }
     Vec3 secondTangent() const { return normal.cross(tangent); }
     Vec3 worldImpulse() const
@@ -83,7 +89,7 @@ inline constexpr double kSlides = 1.0 - 1e-9;
 /// Whether friction holds the place of a row.
 inline bool sticks(const GapRow& row)
 {
-    const double limit = row.friction * row.impulse.x() * kSlides;
+    const double limit = kSlides * row.frictionLimit();
     return row.impulse.y() * row.impulse.y() + row.impulse.z() * row.impulse.z() < limit * limit;
 }
 

@@ -78,7 +78,7 @@ void keepAwakeWhoIsHeldUp(const World& world, const GapScratch& scratch,
         for (const std::size_t i : scratch.order) {  // bottom to top: few rounds
             for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
                 const GapRow& row = scratch.rows[r];
-                if (row.impulse.x() == 0.0) continue;
+                if (!row.carries()) continue;
                 const Vec3 impulse = row.worldImpulse();
                 const auto keepIfHeldUp = [&](BodyId body, BodyId by, const Vec3& push) {
                     if (!maySleep[body] || lies(by)) return;

@@ -23,6 +23,7 @@
 #include "core/dynamics/gap_lead.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
+#include "core/dynamics/gap_press.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_riders.h"
 #include "core/dynamics/gap_shock.h"
@@ -152,6 +153,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
     {
         const PhaseTimer timer(seconds, Phase::contactGraph);
         buildRows(world, settings_, dt, block, scratch);
+        gripSqueezed(world, dt, block, scratch);
     }
     // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
     // never mistaken for what has just landed.

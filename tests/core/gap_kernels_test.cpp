@@ -679,6 +679,7 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling, std::uint64_t size = 12)
             row.normal = signedUnits(seed, 5006 + 20 * r).normalized();
             row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
             row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
+            row.squeeze = p % 4 == 0 ? 0.1 * randomUnit(seed, 5014, p) : 0.0;
             prepareRow(scratch.bodies, row);
             if (rolling && p % 3 == 0) {
                 row.rollingArm = 0.2 * randomUnit(seed, 5011, r);

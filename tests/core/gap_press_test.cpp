@@ -77,5 +77,84 @@ TEST(GapPress, ABallInAWedgeThatClosesLeavesItAtTheSpeedOfRigidBodies)
     EXPECT_NEAR(world.motion[ball].velocity.x(), 0.5 / std::tan(angle), 0.03);
 }
 
+/// Boxes of 1 m in a row on the ground between two jaws, which close until each is `deep` in the
+/// outer ones, lift them by 2 m within a second, and open after another.
+struct Jaws {
+    World world;
+    Stepper stepper{screeSettings()};
+    std::vector<BodyId> boxes;
+
+    Jaws(int count, double deep, double friction)
+    {
+        const MaterialId material = addMaterial(world, friction, 0.0);
+        addPlane(world, material);
+        const double middle = 0.5 * (count - 1);
+        for (int i = 0; i < count; ++i) {
+            boxes.push_back(addBody(world, boxShape(Vec3::Ones(), 1), material,
+                                    {{i - middle, 0.5, 0.0}, Quat::Identity()}));
+        }
+        for (const double side : {-1.0, 1.0}) {
+            const auto at = [&](double apart, double y) {
+                return Pose{{side * (0.5 * count + 0.1 + apart), y, 0.0}, Quat::Identity()};
+            };
+            BodyDefinition definition;
+            definition.name = side < 0.0 ? "left" : "right";
+            definition.shape = world.addShape(boxShape({0.2, 1.0, 1.0}, 1));
+            definition.material = material;
+            definition.kind = BodyKind::keyed;
+            definition.script =
+                std::make_shared<MotionScript>(std::vector<MotionKey>{{0.0, at(0.2, 0.7)},
+                                                                      {0.5, at(-deep, 0.7)},
+                                                                      {1.0, at(-deep, 0.7)},
+                                                                      {2.0, at(-deep, 2.7)},
+                                                                      {3.0, at(-deep, 2.7)},
+                                                                      {3.25, at(0.2, 2.7)}},
+                                               KeyInterpolation::smooth);
+            world.addBody(definition);
+        }
+    }
+
+    void run(int frames)
+    {
+        for (int f = 0; f < frames; ++f) stepper.advanceFrame(world, kDt);
+    }
+
+    /// How far above the ground, where it began.
+    double lifted(BodyId box) const { return world.motion[box].position.y() - 0.5; }
+};
+
+// It lay on the ground as the jaws went up: nothing closes any more, so that no impulse was due,
+// and no friction.
+TEST(GapPress, JawsClosedTooFarCarryWhatIsBetweenThemUntilTheyOpen)
+{
+    for (const double deep : {0.002, 0.005, 0.02}) {
+        Jaws jaws(1, deep, 0.5);
+        const BodyId box = jaws.boxes[0];
+        jaws.run(72);
+        EXPECT_NEAR(jaws.lifted(box), 2.0, 5e-3) << deep;
+        EXPECT_LT(jaws.world.motion[box].velocity.norm(), 5e-3) << deep;
+        jaws.run(48);
+        EXPECT_NEAR(jaws.lifted(box), 0.0, 5e-3) << deep;
+    }
+}
+
+TEST(GapPress, SoTheyCarryARowThatHoldsTogetherByItself)
+{
+    for (const int count : {2, 5}) {
+        Jaws jaws(count, 0.02, 0.5);
+        jaws.run(72);
+        for (const BodyId box : jaws.boxes) EXPECT_NEAR(jaws.lifted(box), 2.0, 0.1) << count;
+    }
+}
+
+TEST(GapPress, JawsThatOnlyTouchOrAreSlipperyCarryNothing)
+{
+    for (const auto& [deep, friction] : {std::pair(0.0, 0.5), std::pair(0.02, 0.0)}) {
+        Jaws jaws(1, deep, friction);
+        jaws.run(72);
+        EXPECT_NEAR(jaws.lifted(jaws.boxes[0]), 0.0, 5e-3) << deep << " " << friction;
+    }
+}
+
 }  // namespace
 }  // namespace scree::test
