@@ -45,8 +45,8 @@ const std::vector<ShotKey> kBodyKeys = {
      .choices = "dynamic|static|keyed",
      .help = "\"dynamic\" bodies are moved by gravity and impulses; \"static\" ones never move, "
              "whatever hits them; \"keyed\" ones follow their keys, whatever is in their way. With "
-             "method \"scree\" two of them carry by friction what they are closed on by half a "
-             "hundredth of its size too far; much farther, and it is pushed out."},
+             "method \"scree\" two of them carry by friction what both overlap by half a per cent "
+             "to two of its size; more, and it is pushed out."},
     {.path = "body.position",
      .type = numbers,
      .unit = "shot's unit of length",
