@@ -96,6 +96,8 @@ void gripSqueezed(const World& world, double dt, const GapBlock& block, GapScrat
         if ((isKeyed(pair.bodies.a) || isKeyed(pair.bodies.b)) && excessOf(pair) > 0.0)
             squeezed.push_back(pair.island);
     }
+    std::ranges::sort(squeezed);
+    squeezed.erase(std::unique(squeezed.begin(), squeezed.end()), squeezed.end());
     for (const std::size_t island : squeezed) {
         for (const std::size_t i : scratch.islands[island].pairs) {
             const GapPair& pair = scratch.pairs[i];

@@ -1,4 +1,5 @@
-// Is a mesh a ball or a capsule, or about which axes a solid of revolution, as far as facets can be?  [A16, A40]
+// Is a mesh a ball or a capsule, or about which axes a solid of revolution, as far as facets can
+// be?  [A16, A40]
 //
 // A ball that spins goes nowhere by that, nor does the tread of a wheel: what bounds steps and
 // searches by how far a surface moves need not count such turns. Five hundred marbles that ran down
