@@ -10,9 +10,10 @@
 namespace scree {
 namespace {
 
-/// How far after a blow bodies are looked at, as a share of the smaller one and of what is thin in
-/// either; and the share of that by which they must have gone in.
-constexpr double kAfter = 5e-3, kOfThickness = 0.25, kGoneIn = 0.5;
+/// How far after a blow bodies are looked at, as a share of the smaller one, of what is thin in
+/// either, and of the ball inside: edges that are in by half of that are none that touch
+/// (deepestEdges). And the share by which they must have gone in.
+constexpr double kAfter = 5e-3, kOfThickness = 0.25, kOfInnerBall = 0.25, kGoneIn = 0.5;
 
 /// What comes closer by less than this share of the fastest is another matter: it settles, or the
 /// ground it slides on gives way a little.
@@ -81,9 +82,13 @@ PairForesight::PairForesight(const World& world, const std::vector<Held>& held, 
       fastEnough_(kOfFastest * fastest),
       found_(room)
 {
-    const double thinner =
-        std::min(world.shapeOf(bodies_.a).thickness(), world.shapeOf(bodies_.b).thickness());
-    after_ = std::min(kAfter * smallerRadius(world, bodies_.a, bodies_.b), kOfThickness * thinner);
+    after_ = kAfter * smallerRadius(world, bodies_.a, bodies_.b);
+    for (const BodyId body : {bodies_.a, bodies_.b}) {
+        const Shape& shape = world.shapeOf(body);
+        if (shape.isPlane) continue;
+        after_ = std::min(
+            {after_, kOfThickness * shape.thickness(), kOfInnerBall * shape.innerBall.radius});
+    }
 }
 
 bool PairForesight::passes(const std::vector<GapContact>& contacts)

@@ -305,8 +305,7 @@ std::vector<FastBody> findTooFast(const World& world, const StepSettings& settin
         const double spin = shownSpin(world, settings, body);
         const double drop = g > 0.0 ? ground.dropOf(body).value_or(0.0) : 0.0;
         const double landing = std::sqrt(v * v + 2.0 * g * drop);
-        const double way = alphaPerSafety(settings.method) * settings.substeps.safety *
-                           thicknessForSteps(settings.method, shape);
+        const double way = settings.substeps.safety * passedPerStep(settings.method, shape);
         const auto stepsAt = [&](double speed) {
             return frameDuration * (speed + spin * shape.boundingRadius) / way;
         };

@@ -26,6 +26,14 @@ constexpr double kFallPerStep = 0.02;
 /// surface, as a pan with a stout handle, stays as thin as that.
 constexpr double kOfInnerBall = 0.25;
 
+/// Of method `scree`: how far the surfaces of bodies that may meet may pass each other in a step at
+/// safety 1, as a share of the bounding radius, however thin they are: contacts are known before
+/// they touch, so that nothing is stepped over, and only their features change on a long way. A
+/// hundred and sixty forks and spoons took 112 steps a frame when it was their thickness, and take
+/// 24, with overlaps of at most 0.27 % either way. Of 192 plates of 8 mm thrown at others at up to
+/// 25 m/s none gets through, with three tenths neither.
+constexpr double kPassedPerStep = 0.2;
+
 /// Of method `scree`: how far bodies that may meet may turn in a step at safety 1 [rad]. Gaps are
 /// known to first order: what turns by φ beside another sinks into it by φ²/2 of its radius.
 constexpr double kTurnPerStep = 0.16;
@@ -102,10 +110,8 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
                  StepLength& limit)
 {
     const auto [a, b] = pair;
-    const double alpha = alphaPerSafety(settings.method) * settings.substeps.safety;
-    const double thinner = std::min(thicknessForSteps(settings.method, world.shapeOf(a)),
-                                    thicknessForSteps(settings.method, world.shapeOf(b)));
     const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
+    const Shape &shapeA = world.shapeOf(a), &shapeB = world.shapeOf(b);
     const BodyId faster =
         world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
     const bool isPaper = settings.method == Method::paper;
@@ -119,8 +125,10 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const double g = std::max(pullA.norm(), pullB.norm());
     const double way = (s + g * remaining) * remaining;
     if (!isPaper && (isHighAbove(world, a, b, way) || isHighAbove(world, b, a, way))) return;
-    tighten(limit, timeToPass(alpha * thinner, s, (pullA - pullB).norm()), StepLimit::relativeSpeed,
-            faster);
+    const double passed =
+        settings.substeps.safety *
+        std::min(passedPerStep(settings.method, shapeA), passedPerStep(settings.method, shapeB));
+    tighten(limit, timeToPass(passed, s, (pullA - pullB).norm()), StepLimit::relativeSpeed, faster);
     const double spin = std::max(outlooks[a].spin, outlooks[b].spin);
     if (!isPaper && spin > 0.0) {
         tighten(limit, kTurnPerStep * settings.substeps.safety / spin, StepLimit::spin,
@@ -128,6 +136,8 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     }
     if (g > 0.0 && (isPaper || isStepped)) {
         const double share = isPaper ? settings.hoverLimit : kFallPerStep;
+        const double thinner = std::min(thicknessForSteps(settings.method, shapeA),
+                                        thicknessForSteps(settings.method, shapeB));
         tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
     }
 }
@@ -156,20 +166,22 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
 
 }  // namespace
 
-/// Method `scree` knows gaps before they close: a thousand rings overlap by no more at twice the
-/// step. At twice that again five hundred bones take the same time, since every step looks twice as
-/// far.
-double alphaPerSafety(Method method)
-{
-    return method == Method::paper ? 0.5 : 1.0;
-}
-
 double thicknessForSteps(Method method, const Shape& shape)
 {
     const double thickness = shape.thickness();
     if (method == Method::paper) return thickness;
     return std::max(thickness,
                     std::min(shape.commonThickness, kOfInnerBall * 2.0 * shape.innerBall.radius));
+}
+
+double passedPerStep(Method method, const Shape& shape)
+{
+    const double thickness = thicknessForSteps(method, shape);
+    if (method == Method::paper) return 0.5 * thickness;
+    // Knowing gaps before they close, a thousand rings overlap by no more at a whole thickness than
+    // at half of it. At twice that again five hundred bones take the same time, since every step
+    // looks twice as far.
+    return shape.isPlane ? thickness : std::max(thickness, kPassedPerStep * shape.boundingRadius);
 }
 
 double shownSpin(const World& world, const StepSettings& settings, BodyId body)

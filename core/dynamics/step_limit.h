@@ -1,5 +1,6 @@
-// How long a step may be. The method detects nothing between positions, so bodies that may meet
-// must not pass a good part of the thinner one in a step.  [A16]
+// How long a step may be. Method `paper` detects nothing between positions, so bodies that may meet
+// must not pass a good part of the thinner one in a step. Method `scree` knows contacts before they
+// touch, and what they are only as long as nobody has gone a good part of his size.  [A16]
 #pragma once
 
 #include "core/diagnostics/step_report.h"
@@ -14,11 +15,12 @@ struct StepLength {
     bool capReached = false;  ///< the limit of steps a frame forbids what the motion asks for
 };
 
-/// Share of the thinner body that two surfaces may pass in a step at safety 1.  [A16]
-double alphaPerSafety(Method method);
-
 /// How thick a body is where steps are chosen [m].  [A16]
 double thicknessForSteps(Method method, const Shape& shape);
+
+/// How far two surfaces may pass each other in a step at safety 1, as far as this body is concerned
+/// [m].  [A16]
+double passedPerStep(Method method, const Shape& shape);
 
 /// How fast a free body turns what shows of that [rad/s]. What is round about an axis turns about
 /// it in itself, as far as steps of method `scree` are concerned.

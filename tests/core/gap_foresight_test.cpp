@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/random.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
@@ -12,15 +13,21 @@ namespace {
 
 constexpr double kFrame = 1.0 / 24.0;
 
-BodyId addSlab(World& world, MaterialId material, const Vec3& size, const Vec3& centre)
+BodyId addFixed(World& world, MaterialId material, std::shared_ptr<const Shape> shape,
+                const Pose& worldFromAsset)
 {
     BodyDefinition definition;
-    definition.name = "slab_" + std::to_string(world.bodyCount());
-    definition.shape = world.addShape(boxShape(size, 1));
+    definition.name = "fixed_" + std::to_string(world.bodyCount());
+    definition.shape = world.addShape(std::move(shape));
     definition.material = material;
     definition.kind = BodyKind::fixed;
-    definition.worldFromAsset.position = centre;
+    definition.worldFromAsset = worldFromAsset;
     return world.addBody(definition);
+}
+
+BodyId addSlab(World& world, MaterialId material, const Vec3& size, const Vec3& centre)
+{
+    return addFixed(world, material, boxShape(size, 1), {centre, Quat::Identity()});
 }
 
 StepSettings settingsWith(double gravity)
@@ -239,6 +246,80 @@ TEST(GapForesight, NothingIsShotThroughAThinWall)
         run(world, 0.0, 0.5);
         EXPECT_LT(world.motion[1].position.x(), 0.0) << speed;
     }
+}
+
+/// A plate of 8 mm that flies past another, without turning.
+struct ThrownPlate {
+    Pose fixed, thrown;
+    Vec3 velocity;
+};
+
+const Vec3 kPlate(0.6, 0.008, 0.3);
+
+ThrownPlate drawPlate(int number)
+{
+    int drawn = 0;
+    const auto share = [&] { return 2.0 * randomUnit(5, number, drawn++) - 1.0; };
+    const auto vector = [&] {
+        const double x = share(), y = share();
+        return Vec3(x, y, share());
+    };
+    const auto turned = [&] { return fromEulerXyz(kPi * vector()); };
+    const Vec3 way = vector().normalized();
+    return {
+        {Vec3::Zero(), turned()}, {0.15 * vector() - way, turned()}, (12.0 + 8.0 * share()) * way};
+}
+
+/// Whether some place on an edge of the first plate is at least a millimetre inside the second.
+bool hasEdgeInside(const Pose& secondFromFirst)
+{
+    constexpr int kPlaces = 60;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int edge = 0; edge < 4; ++edge) {
+            for (int i = 0; i <= kPlaces; ++i) {
+                Vec3 place = 0.5 * kPlate;
+                place[axis] *= 2.0 * i / kPlaces - 1.0;
+                place[(axis + 1) % 3] *= edge % 2 == 0 ? 1.0 : -1.0;
+                place[(axis + 2) % 3] *= edge < 2 ? 1.0 : -1.0;
+                const Vec3 inside = 0.5 * kPlate - (secondFromFirst * place).cwiseAbs();
+                if (inside.minCoeff() >= 0.001) return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool isInTheWay(const ThrownPlate& plate, double seconds)
+{
+    const double step = 0.002 / plate.velocity.norm();
+    for (double t = 0.0; t < seconds; t += step) {
+        const Pose then{plate.thrown.position + t * plate.velocity, plate.thrown.orientation};
+        const Pose fixedFromThrown = inverse(plate.fixed) * then;
+        if (hasEdgeInside(fixedFromThrown) || hasEdgeInside(inverse(fixedFromThrown))) return true;
+    }
+    return false;
+}
+
+TEST(GapForesight, NoPlateFliesThroughAnother)
+{
+    // Edge to edge they are seen for a moment only, and in that they must not be let pass.
+    constexpr double kSeconds = 4.0 * kFrame;
+    ShapeSettings asInShots;
+    asInShots.enoughNodes = 1'000'000;
+    const auto shape = buildMeshShape("plate", makeBox(kPlate, {1, 1, 1}), asInShots);
+    int inTheWay = 0;
+    for (int i = 0; i < 100; ++i) {
+        const ThrownPlate plate = drawPlate(i);
+        if (!isInTheWay(plate, kSeconds)) continue;
+        ++inTheWay;
+        World world;
+        const MaterialId material = addMaterial(world, 0.3, 0.2);
+        addFixed(world, material, shape, plate.fixed);
+        addBody(world, shape, material, plate.thrown, 1.0, plate.velocity);
+        run(world, 0.0, kSeconds);
+        EXPECT_GT((world.motion[1].velocity - plate.velocity).norm(), 0.01) << i;
+    }
+    EXPECT_GE(inTheWay, 60);
 }
 
 }  // namespace
