@@ -23,6 +23,7 @@
 #include "core/dynamics/gap_lead.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_motion.h"
+#include "core/dynamics/gap_overrun.h"
 #include "core/dynamics/gap_press.h"
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_riders.h"
@@ -163,6 +164,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         foreseeBlows(world, settings_, dt, held, block, scratch);
         const std::vector<VelocityLead> trails = trailPlaces(world, block, scratch);
         resolveImpacts(settings_, dt, held, block, scratch);
+        endOverruns(world, dt, block, scratch);
         takeBack(trails, scratch);
         findLevels(dt, block, scratch);
     }

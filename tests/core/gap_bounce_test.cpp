@@ -333,6 +333,29 @@ TEST(GapBounce, ABodyThatIsStruckLateInAStepDoesNotRunThroughWhatItMeetsBefore)
     EXPECT_GE((world.motion[2].position - world.motion[0].position).norm(), 1.0);
 }
 
+TEST(GapBounce, WhatIsStoppedLateInAStepDoesNotRunThroughWhatWasStoppedBefore)
+{
+    // Two blocks that touch fly into something heavy: the first at once, which goes on slowly, the
+    // second by its corners near the end of the step. Nothing closes between the two then.
+    constexpr double kSpeed = 3.0, kSlow = 0.01, kHeavy = 1e9;
+    World world;
+    const MaterialId material = addMaterial(world, 0.0, 0.0);
+    const auto add = [&](const Vec3& size, const Vec3& centre, double mass, double speed) {
+        return addBody(world, exactBox(size, 1), material, {centre, Quat::Identity()}, mass,
+                       speed * Vec3::UnitX());
+    };
+    const BodyId second = add({1.0, 1.0, 1.0}, Vec3::Zero(), 1.0, kSpeed);
+    const BodyId first = add({1.0, 0.3, 0.5}, {1.0, 0.0, 0.0}, 1.0, kSpeed);
+    add({1.0, 0.3, 0.5}, {2.0, 0.0, 0.0}, kHeavy, kSlow);
+    const double later = 0.9 * kSpeed * kStep;
+    for (const double side : {-1.0, 1.0})
+        add({1.0, 0.2, 1.5}, {1.0 + later, 0.4 * side, 0.0}, kHeavy, 0.0);
+    Stepper(weightless()).step(world, kStep);
+    EXPECT_NEAR(world.motion[first].position.x(), 1.0 + kSlow * kStep, 1e-6);
+    EXPECT_LE(world.motion[second].position.x(), 1e-3);
+    EXPECT_NEAR(world.motion[second].velocity.x(), 0.0, 1e-3 * kSpeed);
+}
+
 /// A ball of eighty triangles, battered by up to 15 % and flattened.
 std::shared_ptr<const Shape> stoneShape(std::uint64_t seed)
 {
