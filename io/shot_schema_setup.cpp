@@ -308,7 +308,8 @@ const std::vector<ShotKey> kStartKeys = {
      .choices = "error|warn|separate",
      .help =
          "What to do with bodies that overlap by more than solver.penetration.warn where the "
-         "shot puts them: \"error\" names them and stops, \"warn\" names them and goes on (most "
+         "shot puts them, or go through a wall of each other, however thin: \"error\" names them "
+         "and stops, \"warn\" names them and goes on (most "
          "come apart while the shot runs, which shows; a body in the place of its copy stays "
          "there), \"separate\" pushes them apart before the first frame, giving them no velocity, "
          "and stops if they will not come apart."},

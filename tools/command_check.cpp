@@ -226,7 +226,8 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
         overlaps.push_back({{"a", world.info[overlap.a].name},
                             {"b", world.info[overlap.b].name},
                             {"depth_m", overlap.depth},
-                            {"ratio", overlap.ratio}});
+                            {"ratio", overlap.ratio},
+                            {"through_wall", overlap.isThroughWall}});
     }
     const nlohmann::ordered_json json = {
         {"name", shot.name},

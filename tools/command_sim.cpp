@@ -275,17 +275,19 @@ private:
     /// A step knows overlaps by the contacts it found, and is silent about what it did not find. So
     /// every two seconds of the shot, and in its last frame, the poses are looked at afresh: the
     /// points of every body in the field of every other.
-    void lookAtPoses(int frame, FrameReport& report) const
+    void lookAtPoses(int frame, FrameReport& report)
     {
         const int every = std::max(1, static_cast<int>(std::lround(2.0 * shot_.framesPerSecond)));
         if ((frame - shot_.firstFrame) % every != 0 && frame != shot_.lastFrame) return;
         const std::vector<StartOverlap> deeper =
             findStartOverlaps(world_, report.sum.worstOverlapRatio);
-        if (deeper.empty()) return;
         for (const StartOverlap& overlap : deeper) {
             report.sum.deepestAfterPushOut =
                 std::max(report.sum.deepestAfterPushOut, overlap.depth);
+            // Of the first frame start.overlap has told.
+            if (overlap.isThroughWall && frame > shot_.firstFrame) warnOfWall(frame, overlap);
         }
+        if (deeper.empty() || deeper.front().ratio <= report.sum.worstOverlapRatio) return;
         report.sum.worstOverlapRatio = deeper.front().ratio;
         report.sum.worstA = deeper.front().a;
         report.sum.worstB = deeper.front().b;
@@ -312,6 +314,18 @@ private:
         else
             console_.warning(text);
         wasTold = true;
+    }
+
+    /// What has come there does not come out again.
+    void warnOfWall(int frame, const StartOverlap& overlap)
+    {
+        const std::string text =
+            "frame " + std::to_string(frame) + ": " + describe(overlap, world_);
+        if (toldWall_)
+            console_.detail(text);
+        else
+            console_.warning(text);
+        toldWall_ = true;
     }
 
     void warnOfCap(int frame, const FrameReport& report)
@@ -380,7 +394,7 @@ private:
     int lastFrame_ = 0;
     bool isStopped_ = false;
     int stoppedIn_ = 0;
-    bool toldWarning_ = false, toldFailure_ = false, toldCap_ = false;
+    bool toldWarning_ = false, toldFailure_ = false, toldCap_ = false, toldWall_ = false;
 };
 
 }  // namespace

@@ -197,7 +197,8 @@ std::string describe(const StartOverlap& overlap, const World& world)
 {
     return world.info[overlap.a].name + " and " + world.info[overlap.b].name +
            formatted(": %.3g m, %.2g %% of the smaller one's length", overlap.depth,
-                     100.0 * overlap.ratio);
+                     100.0 * overlap.ratio) +
+           (overlap.isThroughWall ? ", through a wall" : "");
 }
 
 void applyStartRule(const Shot& shot, World& world, Console& console)

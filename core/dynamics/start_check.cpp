@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <unsupported/Eigen/BVH>
@@ -23,6 +24,12 @@
 
 namespace scree {
 namespace {
+
+/// What is in another by so much of what is thin in either goes through a wall of it. Half would be
+/// as deep as it can be, and samples do not see all of that. Bottles that had been strewn with the
+/// neck of one in the side of another, by 0.6 % of their length, rolled about like that for as long
+/// as anybody looked.
+constexpr double kThroughWall = 0.3;
 
 constexpr int kMostRounds = 100;                 // of pushing apart
 constexpr double kSeparationStep = 1.0 / 240.0;  // whose fall tells who rests on whom [s]
@@ -100,6 +107,14 @@ private:
     const World& world_;
     std::map<const Shape*, Inside> inside_;
 };
+
+/// How deep is through a wall of one of the two [m]; what a plane bounds has none.
+double throughWall(const World& world, BodyPair bodies)
+{
+    const Shape &a = world.shapeOf(bodies.a), &b = world.shapeOf(bodies.b);
+    if (a.isPlane || b.isPlane) return std::numeric_limits<double>::infinity();
+    return kThroughWall * std::min(a.commonThickness, b.commonThickness);
+}
 
 /// One sweep of push-out over everything that overlaps, as the methods do it.
 void separateGapsOnce(World& world, const StepSettings& settings)
@@ -239,10 +254,12 @@ std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRati
         for (std::size_t i = begin; i < end; ++i) {
             const auto [a, b] = pairs[i];
             const PlacedPair pair = placePair(world, pairs[i]);
-            const double least = leastRatio * smallerEdge(world, a, b);
+            const double through = throughWall(world, pairs[i]);
+            const double least = std::min(leastRatio * smallerEdge(world, a, b), through);
             if (apartAtLeast(pair) > -least) continue;
             const double depth = innerDepth(a, b, std::max(depthOf(pair, least), least));
-            if (depth > least) found[i] = {a, b, depth, overlapRatio(world, pairs[i], depth)};
+            if (depth <= least) continue;
+            found[i] = {a, b, depth, overlapRatio(world, pairs[i], depth), depth > through};
         }
     });
     std::vector<StartOverlap> overlaps;

@@ -11,6 +11,7 @@
 #include "core/geometry/shape.h"
 #include "core/math/rotation.h"
 #include "tests/support/draw.h"
+#include "tests/support/scenes.h"
 
 namespace scree {
 namespace {
@@ -92,6 +93,28 @@ TEST_F(StartCheck, OverlapsAreListedByDepthAndTouchingIsNone)
     // Bodies whose groups do not meet may stand within each other.
     world.info[high].groups.collidesWith = 0;
     EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 0u);
+}
+
+// What is thin is never deep in anything, and stays where no way leads out.
+TEST_F(StartCheck, WhatGoesThroughAWallIsToldHoweverThinThatIs)
+{
+    const double thick = 0.004;
+    const auto plate = test::exactBox({0.6, thick, 0.4}, 4);
+    const auto stand = [&](const Vec3& place, double degrees) {
+        const Quat turned(Eigen::AngleAxisd(degrees * kPi / 180.0, Vec3::UnitX()));
+        return test::addBody(world, plate, 0, {place, turned});
+    };
+    stand({0, 0, 0}, 0.0);
+    stand({0, 0.9 * thick, 0}, 0.0);  // lies on the first, a tenth of it too low
+    EXPECT_TRUE(findStartOverlaps(world, 0.01).empty());
+    const BodyId crossed = stand({0, 0.1, 0.1}, 90.0);
+    const std::vector<StartOverlap> overlaps = findStartOverlaps(world, 0.01);
+    ASSERT_EQ(overlaps.size(), 2u);
+    for (const StartOverlap& overlap : overlaps) {
+        EXPECT_EQ(overlap.b, crossed);
+        EXPECT_TRUE(overlap.isThroughWall);
+        EXPECT_LE(overlap.ratio, 0.01);
+    }
 }
 
 class SeparationAtStart : public StartCheck, public testing::WithParamInterface<Method> {

@@ -328,5 +328,19 @@ TEST_F(MishapsTest, TheFirstLineOfTheFiguresTellsHowDeepTheStartOverlaps)
         "grounddeep");
 }
 
+TEST_F(MishapsTest, WhatHasComeThroughAWallIsToldWhereverThatIs)
+{
+    // Two boards crosswise, as nothing but the shot itself puts them.
+    const std::string crossed =
+        "[start]\noverlap = \"warn\"\n[shape.board]\nbox = { size = [1, 0.01, 0.6] }\n" +
+        test::bodyText("upright",
+                       "position = [9, 0.5, 0]\nrotation = [0, 0, 90]\nmotion = \"static\"",
+                       "board") +
+        test::bodyText("loose", "position = [9, 0.2, 0]", "board");
+    const Outcome done = runScree({"sim", shot("t", "1001-1050", crossed), "-o", file("t"), "-q"});
+    EXPECT_TRUE(says(done, "frame 1049: upright and loose")) << done.err;
+    EXPECT_TRUE(says(done, "through a wall")) << done.err;
+}
+
 }  // namespace
 }  // namespace scree
