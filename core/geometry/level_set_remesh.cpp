@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/geometry/mesh_decimation.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/mesh_repair.h"
 #include "core/geometry/winding_number.h"
@@ -25,6 +26,11 @@ constexpr double kMostVoxels = 256.0;  // along the longest edge
 constexpr int kMarginVoxels = 4;
 constexpr int kLattices = 4;         // tried before giving up
 constexpr double kBandVoxels = 3.0;  // distances beyond are not needed
+
+/// How far cells that say nothing new may lie off the surface that is left without them, in voxels.
+/// A hundred and fifty tetrapods, four cones each that pierce each other, took 1040 ms a frame with
+/// their 34 000 triangles, and take 51 with 1600.
+constexpr double kLostVoxels = 0.1;
 
 using openvdb::FloatGrid;
 
@@ -149,7 +155,9 @@ TriMesh remeshSolid(const TriMesh& mesh, const RemeshSettings& settings, const s
                     "': nothing is left of it after repair; its faces disagree about what "
                     "is outside, or it is thinner than a voxel. \"shell\" needs no outside");
         }
-        if (findDefects(solid, DefectSearch::topology).empty()) return solid;
+        if (!findDefects(solid, DefectSearch::topology).empty()) continue;
+        const TriMesh few = decimatedWithin(solid, kLostVoxels * settings.voxel);
+        return findDefects(few, DefectSearch::topology).empty() ? few : solid;
     }
     requireSolid(solid, name, DefectSearch::topology);
     return solid;

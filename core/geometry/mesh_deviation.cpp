@@ -5,6 +5,7 @@
 
 #include "core/geometry/surface_rays.h"
 #include "core/geometry/triangle_distance.h"
+#include "core/geometry/winding_number.h"
 
 namespace scree {
 namespace {
@@ -32,8 +33,10 @@ double longestEdgeOfBox(const TriMesh& mesh)
     return (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
 }
 
-/// Takes over what lies farther from `surface` than what is known.
-void look(const TriMesh& from, const TriMesh& surface, bool isFirst, MeshDeviation& farthest)
+/// Takes over what lies farther from `surface` than what is known, and is looked at.
+template <class IsLookedAt>
+void look(const TriMesh& from, const TriMesh& surface, bool isFirst, MeshDeviation& farthest,
+          const IsLookedAt& isLookedAt)
 {
     const SurfaceRays rays(surface);
     const double spacing = longestEdgeOfBox(from) / kLooksAlongTheBox;
@@ -42,9 +45,14 @@ void look(const TriMesh& from, const TriMesh& surface, bool isFirst, MeshDeviati
             const Vec3 closest =
                 closestOnTriangle(p, cornersOf(surface, rays.closestTriangle(p))).point;
             const double distance = (p - closest).norm();
-            if (distance > farthest.distance) farthest = {distance, p, isFirst};
+            if (distance > farthest.distance && isLookedAt(t, p)) farthest = {distance, p, isFirst};
         });
     }
+}
+
+bool always(Eigen::Index, const Vec3&)
+{
+    return true;
 }
 
 }  // namespace
@@ -52,8 +60,23 @@ void look(const TriMesh& from, const TriMesh& surface, bool isFirst, MeshDeviati
 MeshDeviation farthestApart(const TriMesh& a, const TriMesh& b)
 {
     MeshDeviation farthest;
-    look(a, b, true, farthest);
-    look(b, a, false, farthest);
+    look(a, b, true, farthest, always);
+    look(b, a, false, farthest, always);
+    return farthest;
+}
+
+MeshDeviation farthestApartInSight(const TriMesh& drawn, const TriMesh& solid)
+{
+    constexpr double kBefore = 1e-6;  // a face, of the box
+    constexpr double kWithin = 0.75;  // beside a hole it is a half
+    const WindingNumber winding(drawn);
+    const double before = kBefore * longestEdgeOfBox(drawn);
+    MeshDeviation farthest;
+    look(drawn, solid, true, farthest, [&](Eigen::Index triangle, const Vec3& p) {
+        const Vec3 out = cornersOf(drawn, triangle).areaVector().normalized();
+        return winding.at(p + before * out) < kWithin;
+    });
+    look(solid, drawn, false, farthest, always);
     return farthest;
 }
 

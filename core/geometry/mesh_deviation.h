@@ -17,4 +17,8 @@ struct MeshDeviation {
 /// bound, short by at most that spacing. Both need at least one triangle.
 MeshDeviation farthestApart(const TriMesh& a, const TriMesh& b);
 
+/// The same where `drawn` can be seen: of parts that pierce each other not what lies within the
+/// others, which no solid of them all has.
+MeshDeviation farthestApartInSight(const TriMesh& drawn, const TriMesh& solid);
+
 }  // namespace scree

@@ -156,7 +156,7 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
     repairs.voxel = repairVoxel(solid, settings);
     const TriMesh remeshed =
         remeshSolid(solid, {settings.repair, settings.repairThickness, repairs.voxel}, name);
-    repairs.drawnToColliding = farthestApart(solid, remeshed);
+    repairs.drawnToColliding = farthestApartInSight(solid, remeshed);
     return remeshed;
 }
 

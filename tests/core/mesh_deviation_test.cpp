@@ -51,5 +51,23 @@ TEST(MeshDeviation, AShapeWithACollisionMeshIsDrawnAsOneAndCollidesAsTheOther)
     EXPECT_THROW(buildMeshShape("leaf", box, leaf, {}, nullptr), Error);
 }
 
+TEST(MeshDeviation, OfPartsThatPierceEachOtherOnlyWhatIsSeenCounts)
+{
+    // Crosswise: the middle of each lies a tenth of a metre within the other.
+    const TriMesh bar = makeBox({1.0, 0.2, 0.2}, {1, 1, 1});
+    TriMesh cross = bar;
+    cross.points.conservativeResize(3, 16);
+    cross.points.rightCols(8) = bar.points;
+    cross.points.rightCols(8).row(0).swap(cross.points.rightCols(8).row(1));
+    cross.points.rightCols(8).row(0) *= -1.0;
+    cross.triangles.conservativeResize(3, 24);
+    cross.triangles.rightCols(12) = bar.triangles.array() + 8;
+    ShapeSettings wrapped;
+    wrapped.repair = MeshRepair::wrap;
+    const auto shape = buildMeshShape("cross", cross, wrapped);
+    EXPECT_GT(farthestApart(cross, shape->mesh).distance, 0.05);
+    EXPECT_LE(shape->repairs.drawnToColliding.distance, 2.0 * shape->repairs.voxel);
+}
+
 }  // namespace
 }  // namespace scree

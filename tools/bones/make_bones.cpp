@@ -13,7 +13,7 @@
 #include "io/byte_order.h"
 #include "io/file_bytes.h"
 #include "tools/bones/bone_forms.h"
-#include "tools/bones/decimate.h"
+#include "core/geometry/mesh_decimation.h"
 #include "tools/bones/funnel.h"
 
 namespace scree {

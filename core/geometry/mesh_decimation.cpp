@@ -1,8 +1,9 @@
-#include "tools/bones/decimate.h"
+#include "core/geometry/mesh_decimation.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
+#include <OpenMesh/Tools/Decimater/ModHausdorffT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <string>
@@ -59,33 +60,62 @@ TriMesh toTriMesh(const Halfedges& halfedges)
     return mesh;
 }
 
+/// Collapses edges by their quadric error, whatever else it is told to keep to.
+class Decimation {
+public:
+    explicit Decimation(const TriMesh& mesh) : halfedges_(toHalfedges(mesh)), decimater_(halfedges_)
+    {
+        halfedges_.request_face_normals();
+        halfedges_.update_face_normals();
+        OpenMesh::Decimater::ModQuadricT<Halfedges>::Handle quadric;
+        OpenMesh::Decimater::ModNormalFlippingT<Halfedges>::Handle flipping;
+        OpenMesh::Decimater::ModAspectRatioT<Halfedges>::Handle aspect;
+        decimater_.add(quadric);
+        decimater_.add(flipping);
+        decimater_.add(aspect);
+        decimater_.module(quadric).unset_max_err();
+        decimater_.module(flipping).set_max_normal_deviation(kLargestTurn);
+        decimater_.module(aspect).set_aspect_ratio(1.0 / kSlimmest);
+    }
+
+    void stayWithin(double tolerance)
+    {
+        OpenMesh::Decimater::ModHausdorffT<Halfedges>::Handle hausdorff;
+        decimater_.add(hausdorff);
+        decimater_.module(hausdorff).set_tolerance(tolerance);
+    }
+
+    TriMesh downTo(std::size_t triangleCount)
+    {
+        decimater_.initialize();
+        decimater_.decimate_to_faces(0, triangleCount);
+        halfedges_.garbage_collection();
+        return toTriMesh(halfedges_);
+    }
+
+private:
+    Halfedges halfedges_;
+    OpenMesh::Decimater::DecimaterT<Halfedges> decimater_;
+};
+
 }  // namespace
 
 TriMesh decimated(const TriMesh& mesh, int triangleCount)
 {
-    Halfedges halfedges = toHalfedges(mesh);
-    halfedges.request_face_normals();
-    halfedges.update_face_normals();
-
-    OpenMesh::Decimater::DecimaterT<Halfedges> decimater(halfedges);
-    OpenMesh::Decimater::ModQuadricT<Halfedges>::Handle quadric;
-    OpenMesh::Decimater::ModNormalFlippingT<Halfedges>::Handle flipping;
-    OpenMesh::Decimater::ModAspectRatioT<Halfedges>::Handle aspect;
-    decimater.add(quadric);
-    decimater.add(flipping);
-    decimater.add(aspect);
-    decimater.module(quadric).unset_max_err();
-    decimater.module(flipping).set_max_normal_deviation(kLargestTurn);
-    decimater.module(aspect).set_aspect_ratio(1.0 / kSlimmest);
-    decimater.initialize();
-    decimater.decimate_to_faces(0, static_cast<std::size_t>(triangleCount));
-    halfedges.garbage_collection();
-    if (static_cast<int>(halfedges.n_faces()) != triangleCount) {
+    const TriMesh few = Decimation(mesh).downTo(static_cast<std::size_t>(triangleCount));
+    if (few.triangles.cols() != triangleCount) {
         throw Error(ErrorKind::badInput,
-                    "decimation stops at " + std::to_string(halfedges.n_faces()) +
+                    "decimation stops at " + std::to_string(few.triangles.cols()) +
                         " triangles instead of " + std::to_string(triangleCount));
     }
-    return toTriMesh(halfedges);
+    return few;
+}
+
+TriMesh decimatedWithin(const TriMesh& mesh, double tolerance)
+{
+    Decimation decimation(mesh);
+    decimation.stayWithin(tolerance);
+    return decimation.downTo(0);
 }
 
 }  // namespace scree

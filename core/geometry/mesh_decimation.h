@@ -11,4 +11,8 @@ namespace scree {
 /// manifold or cannot be brought down so far.
 TriMesh decimated(const TriMesh& mesh, int triangleCount);
 
+/// The same with as few triangles as leave every old point within `tolerance` of the new surface
+/// [m].
+TriMesh decimatedWithin(const TriMesh& mesh, double tolerance);
+
 }  // namespace scree
