@@ -39,16 +39,16 @@ RigidMotion motionOf(const GapBody& body, double dt)
 }
 
 /// As solved, do the bodies run visibly into each other where they have not been looked at: at gaps
-/// above `seen` [m]?
+/// above `seen`? None is below `least`, but where that is exact, as of balls, by rounding [m].
 bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodies, double dt,
-                    double seen, NearFeatures& near)
+                    double seen, double least, NearFeatures& near)
 {
     const auto [a, b] = bodies;
     const double visible = kVisible * smallerRadius(world, a, b);
     const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
     const double within =
         farthestApproach(world, bodies, motionOf(bodyA, dt), motionOf(bodyB, dt)) - visible;
-    if (within <= seen) return false;
+    if (within <= std::max(seen, least)) return false;
     thread_local std::vector<GapContact> contacts;
     contacts.clear();
     near.findContacts(placePair(world, bodies), within, contacts);
@@ -120,9 +120,9 @@ void findUnseenAmongNear(const World& world, double dt, GapScratch& scratch)
         NearPair& pair = near[i];
         if (!unseen.isStruck[pair.bodies.a] && !unseen.isStruck[pair.bodies.b]) return;
         if (!isSolvedAnew(scratch, pair.bodies)) return;
-        const double seen =
-            std::max(pair.foundWithin, pair.farUntil - odometerOf(scratch, pair.bodies));
-        unseen.isMet[i] = runsIntoUnseen(world, scratch, pair.bodies, dt, seen, pair.near);
+        const double least = pair.farUntil - odometerOf(scratch, pair.bodies);
+        unseen.isMet[i] =
+            runsIntoUnseen(world, scratch, pair.bodies, dt, pair.foundWithin, least, pair.near);
     });
     for (std::size_t i = 0; i < near.size(); ++i) {
         if (unseen.isMet[i]) unseen.pairs.push_back(near[i].bodies);
@@ -183,7 +183,7 @@ void findUnseenBeyondBoxes(const World& world, double dt, GapScratch& scratch)
     forEach(found.size(), 4, [&](std::size_t i) {
         if (std::ranges::binary_search(scratch.nearPairs, found[i], {}, &NearPair::bodies)) return;
         NearFeatures ofNone;
-        unseen.isMet[i] = runsIntoUnseen(world, scratch, found[i], dt, 0.0, ofNone);
+        unseen.isMet[i] = runsIntoUnseen(world, scratch, found[i], dt, 0.0, 0.0, ofNone);
     });
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (unseen.isMet[i]) unseen.pairs.push_back(found[i]);

@@ -125,6 +125,32 @@ TEST(GapForesight, WhatIsThrownUpHitsWhatWouldHavePassedIt)
     }
 }
 
+TEST(GapForesight, ABallThatFollowsAnotherDoesNotRunIntoItWhenThatIsStopped)
+{
+    // What both have of their speed in common is not looked for, until one is stopped. How far the
+    // two are apart is known to the rounding of how far they have come, which must not hide where
+    // they touch.
+    constexpr double kRadius = 0.03, kStep = 1.0 / 144.0, kSpeed = 3.0;
+    const auto ball = buildMeshShape("ball", makeSphere(kRadius, 3));
+    for (int i = 0; i < 40; ++i) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.0, 0.2);
+        addPlane(world, material);
+        const Vec3 low(0.1 * i, kRadius + 40.3 * kStep * kSpeed, 0.0);
+        const Vec3 way = Vec3(0.3 + 0.01 * i, 1.0, -0.2).normalized();
+        const Vec3 high = low + (2.0 * kRadius + 0.004 + 1e-4 * i) * way;
+        for (const Vec3& place : {low, high}) {
+            addBody(world, ball, material, {place, Quat::Identity()}, 1.0, -kSpeed * Vec3::UnitY());
+        }
+        Stepper stepper(settingsWith(0.0));
+        for (int step = 0; step < 42; ++step) {
+            stepper.step(world, kStep);
+            const double apart = (world.motion[2].position - world.motion[1].position).norm();
+            EXPECT_GE(apart, (2.0 - 5e-3) * kRadius) << i << " after " << step;
+        }
+    }
+}
+
 TEST(GapForesight, APlateThatIsThrownUpIsNotCutIntoByOneThatWouldHavePassedOver)
 {
     // Over its rim by a tenth of a millimetre, if the floor did not throw it up before the step
