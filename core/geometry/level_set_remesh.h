@@ -22,9 +22,10 @@ struct RemeshSettings {
 };
 
 /// Closed, manifold and outward. Sharp edges are rounded by about a voxel, and what is nearly flat
-/// has few triangles. The result does not depend on the number of threads. Throws Error{badInput} naming `name` when the mesh cannot be
-/// read as a surface at all, when nothing remains (faces that disagree about what is outside), or
-/// when the lattice would be finer than 256 voxels along the longest edge.
+/// has few triangles. The result does not depend on the number of threads. Throws Error{badInput}
+/// naming `name` when the mesh cannot be read as a surface at all, when nothing remains (faces that
+/// disagree about what is outside), or when the lattice would be finer than 256 voxels along the
+/// longest edge.
 TriMesh remeshSolid(const TriMesh& mesh, const RemeshSettings& settings, const std::string& name);
 
 }  // namespace scree
