@@ -316,7 +316,7 @@ private:
         wasTold = true;
     }
 
-    /// What has come there does not come out again.
+    /// What has come there seldom comes out again.
     void warnOfWall(int frame, const StartOverlap& overlap)
     {
         const std::string text =

@@ -14,7 +14,7 @@ struct StartOverlap {
     double depth = 0.0;          ///< [m]
     double ratio = 0.0;          ///< of the smaller body's longest box edge [-]
     bool isThroughWall = false;  ///< nearly as deep as anything can be in what is thin of either:
-                                 ///< from there no way leads out
+                                 ///< contacts seldom lead out of there
 };
 
 /// Pairs that overlap by more than `leastRatio`, or through a wall however little that is of their
