@@ -40,7 +40,9 @@ constexpr int kPairsPerLevel = 2;  // at most, of a chain
 
 /// A large heap gets as many once it settles. It begins with what held it in the last step, so that
 /// a dozen do while it moves; but they leave it to creep, and of 150 coins in a bowl, forty levels,
-/// half went on doing so for as long as anybody looked. It costs little: it is soon asleep.
+/// half went on doing so for as long as anybody looked. It costs little: it is soon asleep. So is
+/// what should have settled long ago, as a chimney with a hole in its foot that crept until it
+/// fell.
 constexpr int kSweepsToRest = 100;
 
 /// Impulses that are too large work: they part what they should hold, and friction drives what it

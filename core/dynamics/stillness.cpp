@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/dynamics/impulse.h"
 
@@ -69,12 +70,23 @@ double framesToSleep(const World& world, BodyId body, double acceleration)
     return std::max(std::ceil(time / world.frameDuration), double{kStillFrames});
 }
 
+double unitsAround(const World& world, const GapScratch& scratch, BodyId body)
+{
+    const GapBody& seen = scratch.bodies[body];
+    if (isDriven(seen)) return 0.0;
+    if (seen.inverseMass == 0.0) return std::numeric_limits<double>::infinity();
+    if (world.contactMemory.rest.size() < world.bodyCount()) return 0.0;
+    return world.contactMemory.rest[body].around.frames * world.frameDuration /
+           unitOfTime(world, body, seen.pull.norm());
+}
+
 bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& island)
 {
     if (world.contactMemory.rest.size() < world.bodyCount()) return false;  // nobody sleeps
     const auto staying = std::ranges::count_if(island.movers, [&](BodyId body) {
         const double frames = framesToSleep(world, body, scratch.bodies[body].pull.norm());
-        return world.contactMemory.rest[body].nearby.frames >= kSettlingTime * frames;
+        return world.contactMemory.rest[body].nearby.frames >= kSettlingTime * frames ||
+               unitsAround(world, scratch, body) >= kLongAround;
     });
     return static_cast<double>(staying) >=
            kSettlingShare * static_cast<double>(island.movers.size());

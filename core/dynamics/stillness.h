@@ -16,7 +16,16 @@ double unitOfTime(const World& world, BodyId body, double acceleration);
 /// How long a body must lie still to fall asleep, in frames.
 double framesToSleep(const World& world, BodyId body, double acceleration);
 
-/// Whether nearly all bodies of an island have stayed nearby for long: it is about to come to rest.
+/// For how long a body has gone nowhere, though it may rock widely, in units of time; infinite for
+/// what stands where it is, 0 for what a script moves and where nobody sleeps.
+double unitsAround(const World& world, const GapScratch& scratch, BodyId body);
+
+/// What has gone nowhere for so long should have come to rest: six seconds for a ring of 2.5 m, two
+/// for a brick.
+inline constexpr double kLongAround = 16.0;
+
+/// Whether nearly all bodies of an island have stayed nearby for a while, or around for long: it is
+/// about to come to rest, or should have.
 bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& island);
 
 /// At the end of a frame: notes of every body whether it has stayed where it was, or where it is

@@ -295,6 +295,7 @@ std::shared_ptr<const Shape> buildPlaneShape(const std::string& name)
     auto shape = std::make_shared<Shape>();
     shape->name = name;
     shape->isPlane = true;
+    shape->commonThickness = Shape::kEndless;
     shape->distance = SignedDistance(ExactSolid::plane());
     shape->box = Aabb::everything();
     return shape;

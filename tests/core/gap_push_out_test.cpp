@@ -73,6 +73,32 @@ TEST(GapPushOut, WhatStepsLeaveIsTakenAwayBitByBit)
     EXPECT_NEAR(world.motion[1].position.y(), 0.498 + 0.2 * (0.002 - 8.7e-5), 1e-5);
 }
 
+// What is wedged in a chimney sank as much as it was lifted, and went somewhere on that, until the
+// chimney fell.
+TEST(GapPushOut, WhatHasStayedInItsPlaceForLongIsLeftAShareOfItsThickness)
+{
+    const auto risenAfter = [](double units) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.3);
+        addPlane(world, material);
+        const Stay here{Vec3(0.0, 0.498, 0.0), Quat::Identity(), 0};
+        addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material, {here.position, here.orientation});
+        world.frameDuration = 1.0 / 24.0;
+        world.contactMemory.rest.assign(2, {here, here, here});
+        const double unit = std::sqrt(0.5 * std::sqrt(3.0) / 9.81);
+        world.contactMemory.rest[1].around.frames =
+            static_cast<std::int32_t>(std::lround(units * unit / world.frameDuration));
+        Stepper stepper(screeSettings());
+        stepper.step(world, kStep);
+        return world.motion[1].position.y() - here.position.y();
+    };
+    EXPECT_NEAR(risenAfter(12.0), 0.2 * (0.002 - 8.7e-5), 1e-6);
+    // Halfway from the slop to 4 mm it is less than at first, and then nothing.
+    EXPECT_NEAR(risenAfter(20.0), 0.2 * (0.002 - 1.06e-3), 2e-5);
+    EXPECT_NEAR(risenAfter(24.0), 0.0, 1e-15);
+    EXPECT_NEAR(risenAfter(48.0), 0.0, 1e-15);
+}
+
 // The upper cube was not asked: it was pushed into, and lifted out again in the steps to come.
 TEST(GapPushOut, WhatIsPushedOutOfOneIsNotPushedIntoAnother)
 {
