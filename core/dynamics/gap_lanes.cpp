@@ -427,17 +427,21 @@ void GapLanes::goOn(double share)
     beginsAnew_ = share > 1.0;
 }
 
-/// Half of what impulses do they do while bodies still move as before, the other half as they move
-/// now; without an error the latter is friction alone.
+/// Half of what impulses do they do while bodies move as before, the other half as they move now;
+/// without an error the latter is friction alone.
 GapWork GapLanes::work(const Section& section, const GapScratch& scratch) const
 {
     GapWork work;
     for (std::size_t i = section.firstBody; i < section.endBody; ++i) {
         const GapBody& before = scratch.bodies[idOf_[i]];
-        const Vec3 v = bodies_[i].velocity - before.velocity;
-        const Vec3 w = bodies_[i].spin - before.spin;
-        work.taken += 0.5 * (v.squaredNorm() / before.inverseMass +
-                             w.dot(before.inverseInertia.inverse() * w));
+        const Vec3 push = (bodies_[i].velocity - before.velocity) / before.inverseMass;
+        const Vec3 twist = before.inverseInertia.inverse() * (bodies_[i].spin - before.spin);
+        const auto against = [&](const Vec3& velocity, const Vec3& spin) {
+            return 0.5 *
+                   (push.dot(bodies_[i].velocity - velocity) + twist.dot(bodies_[i].spin - spin));
+        };
+        work.taken += against(before.velocityBefore, before.spinBefore);
+        work.borne += against(before.velocity, before.spin);
     }
     Lanes wrong = kNoLanes, right = kNoLanes;
     for (const Batch& batch : section.batches) {
@@ -453,6 +457,7 @@ GapWork GapLanes::work(const Section& section, const GapScratch& scratch) const
         }
     }
     work.taken += sumOf(right);
+    work.borne += sumOf(right);
     work.wrong = sumOf(wrong);
     return work;
 }
@@ -463,6 +468,7 @@ GapWork GapLanes::work(const GapScratch& scratch) const
     for (const Section& section : sections_) {
         const GapWork of = work(section, scratch);
         sum.taken += of.taken;
+        sum.borne += of.borne;
         sum.wrong += of.wrong;
     }
     return sum;

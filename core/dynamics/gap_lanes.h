@@ -29,10 +29,12 @@ struct GapSweep {
     double energy = 0.0;    ///< of the change from what the sweep began with [J]
 };
 
-/// What impulses have done to the energy since the bodies were as in GapScratch [J]; couples are
+/// What impulses have done to the energy in a step, as its sweeps have left them [J]; couples are
 /// left out.
 struct GapWork {
-    double taken = 0.0;  ///< by those that are right
+    double taken = 0.0;  ///< by those that are right, from the motion before the step
+    double borne = 0.0;  ///< the same and what pulls had given in the step: where all lies still,
+                         ///< what it would have begun to fall with
     double wrong = 0.0;  ///< given by those that push what parts, or rub what follows them
 };
 
