@@ -52,9 +52,8 @@ constexpr int kSweepsToRest = 100;
 /// one of 840 with a hole in it rocked wider and wider, and half of it fell after four seconds.
 /// Where more than a tenth is wrong sweeps go on until half of that is, and the wall sleeps after
 /// three seconds. When little moves that would take forever: what is wrong may be so small a share
-/// of what gravity has set about. With twice that the wall rocks for half a second longer, with
-/// half of it sweeps take half as long again.
-constexpr double kMuchIsWrong = 0.1, kLittleIsWrong = 0.05, kWrongInVain = 0.01;
+/// of what gravity has set about. With three times that one of three such walls falls.
+constexpr double kMuchIsWrong = 0.1, kLittleIsWrong = 0.05, kWrongInVain = 0.005;
 constexpr int kSweepsBetweenLooks = 10;
 
 /// What a sweep may still change, as a share of what gravity does in a step, or, where rows are
