@@ -86,7 +86,7 @@ struct Shape {
     Aabb box;                      ///< of the mesh, object frame
     double boundingRadius = 0.0;   ///< of the mesh about the centre of mass [m]
     double innerThickness = 0.0;   ///< first percentile of the inscribed-ball diameter [m]  [A16]
-    double commonThickness = 0.0;  ///< tenth percentile of the same: without the edges it ends in
+    double commonThickness = 0.0;  ///< tenth percentile of it: without edges; of a plane endless
     Ball innerBall;                ///< about as large as any in the solid, object frame [m]
     bool usesTrueNormals = false;
     Vec3 turnsThatShow = Vec3::Ones();  ///< by axis of the object frame  [revolution.h]
