@@ -50,8 +50,8 @@ constexpr int kSweepsToRest = 100;
 /// that is a twentieth after the sweeps of the settings, and does not show. A wall of bricks that
 /// rocks by a finger's breadth is left with two thirds, and step after step that becomes motion:
 /// one of 840 with a hole in it rocked wider and wider, and half of it fell after four seconds.
-/// Where more than a tenth is wrong sweeps go on until half of that is, and the wall sleeps after
-/// three seconds. When little moves that would take forever: what is wrong may be so small a share
+/// Where more than a tenth is wrong sweeps go on until half of that is, and the wall sleeps within
+/// seven seconds. When little moves that would take forever: what is wrong may be so small a share
 /// of what gravity has set about. With three times that one of three such walls falls.
 constexpr double kMuchIsWrong = 0.1, kLittleIsWrong = 0.05, kWrongInVain = 0.005;
 constexpr int kSweepsBetweenLooks = 10;
