@@ -56,6 +56,13 @@ constexpr int kSweepsToRest = 100;
 constexpr double kMuchIsWrong = 0.1, kLittleIsWrong = 0.05, kWrongInVain = 0.005;
 constexpr int kSweepsBetweenLooks = 10;
 
+/// So many sweeps in a unit of time (stillness.h) at most, for what is wrong: what takes many is
+/// how a whole wall sways, and that takes its time, in however many steps, each of which goes on
+/// with what the one before has found. With four hundred in each a wall that is being shot through,
+/// seventeen steps a frame, takes more than twice the time, and stands no better; with two thirds
+/// of these one of a dozen falls.
+constexpr double kSweepsPerUnit = 2400.0;
+
 /// What a sweep may still change, as a share of what gravity does in a step, or, where rows are
 /// many, of what the first sweep changed. Forty cubes of which each step left a hundredth drifted
 /// 15 mm in 10 s.
@@ -232,6 +239,19 @@ SweepLimits sweepLimits(const World& world, const StepSettings& settings, const 
     return {most, left, mayTumble ? kShareOfSpeed : 0.0};
 }
 
+/// The most sweeps of an island in a step of which much is wrong. None where the bodies feel their
+/// first impulses before these are built, as those of what remembers nothing do.
+int sweepsWhileWrong(const World& world, double dt, const GapScratch& scratch,
+                     const GapIsland& island)
+{
+    if (!island.isRemembered) return 0;
+    double units = 0.0;
+    for (const BodyId body : island.movers)
+        units += dt / unitOfTime(world, body, scratch.bodies[body].pull.norm());
+    const double ofEach = units / static_cast<double>(island.movers.size());
+    return static_cast<int>(std::min<double>(kSweepsPerUnit * ofEach, kMostSweeps));
+}
+
 /// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
 /// next step, which begins with what this one found.
 void solve(const World& world, const StepSettings& settings, double dt, const GapScratch& scratch,
@@ -248,8 +268,7 @@ void solve(const World& world, const StepSettings& settings, double dt, const Ga
         if (done == 1) enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
         if (swept.residual <= enough) return;
         if (done >= most) {
-            // The bodies of what remembers nothing feel its first impulses before it is built.
-            if (done >= kMostSweeps || !island.isRemembered) return;
+            if (done >= sweepsWhileWrong(world, dt, scratch, island)) return;
             const GapWork work = rows.work(scratch);
             if (work.wrong <= std::max(mayBeWrong * work.taken, kWrongInVain * work.borne)) return;
             mayBeWrong = kLittleIsWrong;

@@ -1,5 +1,8 @@
 // frame/stack: cubes of a metre on each other for ten seconds, at one fixed step a frame and at
 // ten, and by how much the top has sunk and drifted at the end. Printed as of the other frames.
+//
+// frame/wall: bricks that lean over and fall, by columns and layers, at four steps a frame and at
+// sixteen, which should not cost four times as much.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -38,6 +41,27 @@ BENCHMARK(simulateStack)
     ->ArgsProduct({{10}, {100}, {1, 10}})
     ->ArgsProduct({{2}, {1000, 10000}, {1, 10}})
     ->Apply(byFrames);
+
+void simulateWall(benchmark::State& state)
+{
+    setThreadCount(1);
+    World world = leaningWall(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    StepSettings settings = screeSettings();
+    settings.substeps.min = settings.substeps.max = static_cast<int>(state.range(2));
+    Stepper stepper(settings);
+    FrameTally tally;
+    for (auto _ : state) tally.add(stepper.advanceFrame(world, 1.0 / 24.0));
+    tally.tell(state);
+}
+
+BENCHMARK(simulateWall)
+    ->Name("frame/wall")
+    ->ArgNames({"columns", "layers", "steps"})
+    ->ArgsProduct({{12}, {30}, {4, 16}})
+    ->Iterations(24)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace scree::test

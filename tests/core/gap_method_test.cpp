@@ -450,23 +450,10 @@ struct WallEnergy {
     double most = 0.0, atLast = 0.0;
 };
 
-/// The energy of a wall of bricks that leans over on its lowest layer, for a second.
+/// Within a second.
 WallEnergy energyOfALeaningWall(int columns, int layers)
 {
-    const Vec3 size(0.25, 0.1, 0.12);
-    const double turning = 0.1;  // about its foot [rad/s]
-    World world;
-    const MaterialId material = addMaterial(world, 0.6, 0.1);
-    addPlane(world, material);
-    const auto brick = boxShape(size, 1);
-    for (int layer = 0; layer < layers; ++layer) {
-        const double height = (layer + 0.5) * size.y();
-        for (int i = 0; i < columns + layer % 2; ++i) {
-            const Vec3 position((i - 0.5 * (layer % 2)) * size.x(), height, 0.0);
-            addBody(world, brick, material, {position, Quat::Identity()}, 5.7,
-                    {0.0, 0.0, turning * height});
-        }
-    }
+    World world = leaningWall(columns, layers);
     const StepSettings settings = screeSettings();
     Stepper stepper(settings);
     double given = 0.0;

@@ -186,6 +186,25 @@ World stackOfCubes(int count, double topMass)
     return world;
 }
 
+World leaningWall(int columns, int layers)
+{
+    const Vec3 size(0.25, 0.1, 0.12);
+    const double turning = 0.1;  // about its foot [rad/s]
+    World world;
+    const MaterialId material = addMaterial(world, 0.6, 0.1);
+    addPlane(world, material);
+    const auto brick = boxShape(size, 1);
+    for (int layer = 0; layer < layers; ++layer) {
+        const double height = (layer + 0.5) * size.y();
+        for (int i = 0; i < columns + layer % 2; ++i) {
+            const Vec3 position((i - 0.5 * (layer % 2)) * size.x(), height, 0.0);
+            addBody(world, brick, material, {position, Quat::Identity()}, 5.7,
+                    {0.0, 0.0, turning * height});
+        }
+    }
+    return world;
+}
+
 Vec3 angularVelocityOf(const World& world, BodyId body)
 {
     return angularVelocity(world.motion[body], world.mass[body]);

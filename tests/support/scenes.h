@@ -55,6 +55,9 @@ BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId mate
 /// each way; the last and top one weighs `topMass`.
 World stackOfCubes(int count, double topMass);
 
+/// A wall of bricks, laid dry in stretcher bond, that leans over on its lowest layer.
+World leaningWall(int columns, int layers);
+
 Vec3 angularVelocityOf(const World& world, BodyId body);
 
 /// Largest displacement of any vertex of the body between two worlds [m].
