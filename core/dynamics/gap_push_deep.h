@@ -6,6 +6,7 @@
 // script: a fifth a step would show it coming apart for a second.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/dynamics/gap_pushes.h"
@@ -31,14 +32,16 @@ private:
         double left;  // for the steps to remove, as a share of the smaller body
     };
 
+    std::vector<std::vector<std::size_t>> pairsByLevel() const;
     bool isDeep(BodyPair pair, double depth) const;
     void findDeepPairs();
     void pushLevel(const std::vector<std::size_t>& level, double fraction);
     void addRows(std::size_t i);
     bool isFrozen(BodyId body, int level) const;
     double look(NearPair& pair, double reach);
-    void displaceAll();
-    void lookAfterwards();
+    bool holdBack(std::span<const BodyId> bodies);
+    bool displaceAll();
+    double lookAgain();
 
     World& world_;
     const StepSettings& settings_;

@@ -42,6 +42,32 @@ TEST(GapPushOut, AColumnSunkenIntoItselfRisesFromTheFloorInOneStepWhateverItsTop
     }
 }
 
+/// Twenty bricks, each hardly deep in the next: the top one is to rise by 35 mm, and nobody looks
+/// so far.
+TEST(GapPushOut, AColumnThatRisesDoesNotGoThroughWhatLiesAhead)
+{
+    constexpr double kDeep = 1.8e-3, kAhead = 0.02, kThickness = 0.02;
+    constexpr int kBricks = 20;
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    for (int i = 0; i < kBricks; ++i) {
+        addBody(world, boxShape({0.25, 0.1, 0.12}, 1), material,
+                {Vec3(0.0, 0.05 - kDeep + (0.1 - kDeep) * i, 0.0), Quat::Identity()});
+    }
+    const BodyId top = kBricks;
+    const double ceiling = world.motion[top].position.y() + 0.05 + kAhead;
+    addBody(world, boxShape({0.3, kThickness, 0.3}, 1), material,
+            {Vec3(0.0, ceiling + 0.5 * kThickness, 0.0), Quat::Identity()}, 100.0);
+    Stepper stepper(screeSettings());
+    for (int n = 0; n < 30; ++n) {
+        const StepReport report = stepper.step(world, 1.0 / 960.0);
+        const double lid = world.motion[top + 1].position.y() - 0.5 * kThickness;
+        EXPECT_LE(world.motion[top].position.y() + 0.05 - lid, kDeep) << n;
+        EXPECT_LE(report.deepestAfterPushOut, 1.5 * kDeep) << n;
+    }
+}
+
 TEST(GapPushOut, WhatPartsKeepsItsCommonCentreItsVelocityAndItsOrientation)
 {
     World world;
