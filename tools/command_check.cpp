@@ -1,8 +1,11 @@
 // What can be said of a shot before simulating it.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/geometry/shape_report.h"
@@ -23,10 +26,11 @@ namespace {
 
 constexpr double kMostEstimateSeconds = 20.0;
 constexpr std::size_t kMostOverlapsPrinted = 20;
+constexpr std::size_t kMostShapesPrinted = 24;
 
 struct CheckOptions {
     std::string shot;
-    bool resolved = false, json = false, noCache = false;
+    bool resolved = false, json = false, noCache = false, allShapes = false;
     int estimateFrames = 3;
     std::optional<int> threads;
     std::vector<std::string> overrides;
@@ -130,6 +134,49 @@ void printShape(const std::string& name, const ShapeUse& use)
         std::printf("  round   %s\n", shape.isBall() ? "a ball" : "about an axis");
 }
 
+/// Of many shapes, as of a building in shards: what they range over, and which to look at first.
+void printShapesTogether(const std::map<std::string, ShapeUse>& shapes)
+{
+    struct Extreme {
+        double value = 0.0;
+        std::string of;
+    };
+    std::optional<Extreme> lightest, heaviest, thinnest, coarsest, farthestOff;
+    const auto note = [](std::optional<Extreme>& extreme, double value, const std::string& name,
+                         const auto& isBeyond) {
+        if (!extreme || isBeyond(value, extreme->value)) extreme = {value, name};
+    };
+    std::size_t triangles = 0;
+    for (const auto& [name, use] : shapes) {
+        const Shape& shape = *use.shape;
+        triangles += use.report.triangles;
+        if (use.heaviest > 0.0) {
+            note(lightest, use.lightest, name, std::less());
+            note(heaviest, use.heaviest, name, std::greater());
+        }
+        note(thinnest, shape.innerThickness, name, std::less());
+        const double off = use.report.fieldVolume / use.report.meshVolume - 1.0;
+        note(farthestOff, 100.0 * off, name,
+             [](double a, double b) { return std::abs(a) > std::abs(b); });
+        if (!shape.distance.solid())
+            note(coarsest, shape.innerThickness / shape.distance.spacing(), name, std::less());
+    }
+    const auto print = [](const char* label, const std::optional<Extreme>& extreme,
+                          const char* format) {
+        if (!extreme) return;
+        std::printf("  %s", label);
+        std::printf(format, extreme->value);
+        std::printf(": \"%s\"\n", extreme->of.c_str());
+    };
+    std::printf("%zu shapes of %zu triangles; each of them with --shapes\n", shapes.size(),
+                triangles);
+    print("lightest  ", lightest, "%.4g kg");
+    print("heaviest  ", heaviest, "%.4g kg");
+    print("thinnest  ", thinnest, "a wall of %.4g m");
+    print("coarsest  ", coarsest, "%.1f voxels across the thinnest wall");
+    print("volume    ", farthestOff, "by the field %+.2g %% of that by the mesh, at most");
+}
+
 void printList(const char* title, const std::vector<std::string>& lines)
 {
     if (lines.empty()) return;
@@ -147,12 +194,16 @@ void printCache(const DistanceCache& cache)
 }
 
 void printText(const Shot& shot, const World& world, const ShotReport& report,
-               const DistanceCache& cache)
+               const DistanceCache& cache, bool allShapes)
 {
     std::printf("%s: frames %d-%d at %g a second, %zu bodies, %zu of them movable\n\n",
                 shot.name.c_str(), shot.firstFrame, shot.lastFrame, shot.framesPerSecond,
                 report.bodies, report.movable);
-    for (const auto& [name, use] : report.shapes) printShape(name, use);
+    if (allShapes || report.shapes.size() <= kMostShapesPrinted) {
+        for (const auto& [name, use] : report.shapes) printShape(name, use);
+    } else {
+        printShapesTogether(report.shapes);
+    }
     printList("repaired", report.repairs);
     std::vector<std::string> overlaps;
     for (const StartOverlap& overlap : report.overlaps) {
@@ -267,7 +318,7 @@ int checkShot(const CheckOptions& options, Console& console)
     if (options.json)
         printJson(shot, world, report);
     else
-        printText(shot, world, report, cache);
+        printText(shot, world, report, cache, options.allShapes);
     // What sim would refuse, check refuses too.
     const bool begins = foretellStartRule(shot, world, report.overlaps, console);
     if (!begins) return exitCodeFor(ErrorKind::badInput);
@@ -287,6 +338,11 @@ Command addCheckCommand(CLI::App& program)
     CLI::Option* resolved = command->add_flag("--resolved", options->resolved,
                                               "Print the shot with all its defaults instead");
     command->add_flag("--json", options->json, "As one JSON object")->excludes(resolved);
+    command
+        ->add_flag("--shapes", options->allShapes,
+                   "Each shape in full also where there are more than " +
+                       std::to_string(kMostShapesPrinted))
+        ->excludes(resolved);
     command
         ->add_option("--estimate", options->estimateFrames,
                      "Frames simulated to estimate the time [3]; 0 for none")

@@ -253,6 +253,29 @@ TEST_F(MishapsTest, AnEmitterInsideWhatIsStaticIsWarnedOf)
     EXPECT_EQ(above.out.find("never come"), std::string::npos) << above.out;
 }
 
+/// Of a building in a thousand shards the check was seven thousand lines long.
+TEST_F(MishapsTest, OfManyShapesCheckTellsWhichToLookAtFirst)
+{
+    std::string many;
+    for (int i = 1; i <= 24; ++i) {
+        const std::string number = std::to_string(i);
+        many += "[shape.s" + number + "]\nbox = { size = [1, 1, 0." +
+                std::to_string(100 + (i == 7 ? 0 : i)) + "] }\n" +
+                test::bodyText("b" + number, "position = [0, 0.6, " + std::to_string(3 * i) + "]",
+                               "s" + number);
+    }
+    const std::string path = shot("many", "1001-1002", many);
+    const Outcome together = runScree({"check", path, "--estimate", "0"});
+    EXPECT_EQ(together.code, 0) << together.err;
+    EXPECT_NE(together.out.find("25 shapes of "), std::string::npos) << together.out;
+    EXPECT_NE(together.out.find("thinnest  a wall of 0.1 m: \"s7\""), std::string::npos)
+        << together.out;
+    EXPECT_EQ(together.out.find("s8: 1 body"), std::string::npos) << together.out;
+    const Outcome each = runScree({"check", path, "--estimate", "0", "--shapes"});
+    EXPECT_EQ(each.out.find("25 shapes"), std::string::npos) << each.out;
+    EXPECT_NE(each.out.find("s8: 1 body"), std::string::npos) << each.out;
+}
+
 TEST_F(MishapsTest, WhatNoCacheCanHoldIsNamedAndNothingIsWritten)
 {
     // Far away and unmoved, so that no step is broken by it.
