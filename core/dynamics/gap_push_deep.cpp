@@ -9,7 +9,7 @@
 // In a row of fallen dominoes each had handed on a little more than it was given, by its lever, and
 // a quarter of a millimetre at one end was metres at the other.
 //
-// A pass that would leave something deeper than it has found ends where it was best. As a chimney
+// A pass that would leave something deeper than it has found leaves all where it was. As a chimney
 // fell a whole side of it was squeezed, a millimetre and a half in every joint, and in six steps
 // pushes made 3 mm of that, 6, 13 and 34, until bricks lay in each other's place.
 #include "core/dynamics/gap_push_deep.h"
@@ -39,6 +39,9 @@ constexpr double kGive = 0.05;
 /// and was thrown into what nobody had looked at.
 constexpr double kFarthest = 0.5;
 constexpr int kMostRounds = 16;
+/// Further rounds must leave less than this share of what was deepest: what a script squeezes
+/// stays.
+constexpr double kGainsOn = 0.98;
 
 }  // namespace
 
@@ -53,27 +56,31 @@ PushOutTally DeepPass::run()
     if (reach_ == 0.0) return {};
     isPushed_.assign(scratch_.bodies.size(), 0);
     const std::vector<std::vector<std::size_t>> levels = pairsByLevel();
-    std::vector<BodyMotion> best = world_.motion;
+    const std::vector<BodyMotion> before = world_.motion;
     const double first = lookAgain();
-    double least = first, last = first;
+    const int rounds = settings_.pushOutLevelIterations;
     bool isHeldBack = false;
-    for (int n = 1; n <= settings_.pushOutLevelIterations || (isHeldBack && n <= kMostRounds);
-         ++n) {
-        const double fraction =
-            std::min(static_cast<double>(n) / settings_.pushOutLevelIterations, 1.0);
-        bodies_.assign(scratch_.bodies.size(), {});
-        for (const std::vector<std::size_t>& level : levels) pushLevel(level, fraction);
-        isHeldBack = displaceAll();
+    for (int n = 1; n <= rounds; ++n)
+        isHeldBack = pushRound(levels, static_cast<double>(n) / rounds);
+    double last = lookAgain(), lastButOne = first;
+    for (int n = rounds; isHeldBack && n < kMostRounds && last < kGainsOn * lastButOne; ++n) {
+        isHeldBack = pushRound(levels, 1.0);
+        lastButOne = last;
         last = lookAgain();
-        if (last >= least) continue;
-        least = last;
-        best = world_.motion;
     }
     if (last > first) {
-        world_.motion = best;
+        world_.motion = before;
         lookAgain();
     }
     return tally_;
+}
+
+/// Draws apart so much of what is left. Answers whether anything was held back.
+bool DeepPass::pushRound(const std::vector<std::vector<std::size_t>>& levels, double fraction)
+{
+    bodies_.assign(scratch_.bodies.size(), {});
+    for (const std::vector<std::size_t>& level : levels) pushLevel(level, fraction);
+    return displaceAll();
 }
 
 std::vector<std::vector<std::size_t>> DeepPass::pairsByLevel() const

@@ -35,6 +35,7 @@ private:
     std::vector<std::vector<std::size_t>> pairsByLevel() const;
     bool isDeep(BodyPair pair, double depth) const;
     void findDeepPairs();
+    bool pushRound(const std::vector<std::vector<std::size_t>>& levels, double fraction);
     void pushLevel(const std::vector<std::size_t>& level, double fraction);
     void addRows(std::size_t i);
     bool isFrozen(BodyId body, int level) const;
