@@ -8,6 +8,11 @@
 // with 200 sweeps; with conjugate directions it drifts 9 mm with 100; begun from the weights handed
 // down level by level, 0.4 mm with 370. A block that lies on one ten thousand times lighter needs
 // shock besides.
+//
+// On walls and heaps of rings: impulses that begin with what they changed by in the last step too,
+// as far as that takes energy away, saved a wall that sways a quarter of its time, and of a
+// thousand rings 434 instead of 272 were awake after 10 s. Sweeps until nothing closes by more than
+// a thousandth of a body in the step take a blow through the whole wall, and a part of it falls.
 #include "core/dynamics/gap_contact.h"
 
 #include <algorithm>
@@ -51,7 +56,7 @@ constexpr int kSweepsToRest = 100;
 /// rocks by a finger's breadth is left with two thirds, and step after step that becomes motion:
 /// one of 840 with a hole in it rocked wider and wider, and half of it fell after four seconds.
 /// Where more than a tenth is wrong sweeps go on until half of that is, and the wall sleeps within
-/// seven seconds. When little moves that would take forever: what is wrong may be so small a share
+/// eight seconds. When little moves that would take forever: what is wrong may be so small a share
 /// of what gravity has set about. With three times that one of three such walls falls.
 constexpr double kMuchIsWrong = 0.1, kLittleIsWrong = 0.05, kWrongInVain = 0.005;
 constexpr int kSweepsBetweenLooks = 10;
@@ -59,8 +64,8 @@ constexpr int kSweepsBetweenLooks = 10;
 /// So many sweeps in a unit of time (stillness.h) at most, for what is wrong: what takes many is
 /// how a whole wall sways, and that takes its time, in however many steps, each of which goes on
 /// with what the one before has found. With four hundred in each a wall that is being shot through,
-/// seventeen steps a frame, takes more than twice the time, and stands no better; with two thirds
-/// of these one of a dozen falls.
+/// seventeen steps a frame, takes twice the time, and stands no better; with two thirds of these
+/// one of a dozen falls.
 constexpr double kSweepsPerUnit = 2400.0;
 
 /// What a sweep may still change, as a share of what gravity does in a step, or, where rows are

@@ -39,6 +39,9 @@ constexpr double kGive = 0.05;
 /// and was thrown into what nobody had looked at.
 constexpr double kFarthest = 0.5;
 constexpr int kMostRounds = 16;
+/// All that is for what is less deep than this share of the smaller body: what is deeper may have
+/// to go through where it is deeper still, as a copy does that nobody has moved away.
+constexpr double kSlight = 0.1;
 /// Further rounds must leave less than this share of what was deepest: what a script squeezes
 /// stays.
 constexpr double kGainsOn = 0.98;
@@ -68,7 +71,7 @@ PushOutTally DeepPass::run()
         lastButOne = last;
         last = lookAgain();
     }
-    if (last > first) {
+    if (last > first && first < kSlight) {
         world_.motion = before;
         lookAgain();
     }
@@ -181,6 +184,12 @@ bool DeepPass::isFrozen(BodyId body, int level) const
     return scratch_.levels.isSupported[body] && scratch_.levels.level[body] < level;
 }
 
+/// Of the smaller body.
+double DeepPass::depthShare(const NearPair& pair) const
+{
+    return pair.depth / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
+}
+
 /// Fills contacts_ where the bodies are now; answers the depth of the deepest.
 double DeepPass::look(NearPair& pair, double reach)
 {
@@ -190,10 +199,13 @@ double DeepPass::look(NearPair& pair, double reach)
 }
 
 /// Of bodies that hang together. Answers whether they wanted to go farther.
-bool DeepPass::holdBack(std::span<const BodyId> bodies)
+bool DeepPass::holdBack(const GapIsland& island)
 {
     double share = 1.0;
-    for (const BodyId body : bodies) {
+    for (const std::size_t i : island.pairs) {
+        if (depthShare(scratch_.nearPairs[scratch_.pairs[i].near]) >= kSlight) return false;
+    }
+    for (const BodyId body : island.movers) {
         const PushedBody& pushed = bodies_[body];
         const double radius = world_.shapeOf(body).boundingRadius;
         const double way = std::max(pushed.shift.norm(), pushed.turn.norm() * radius);
@@ -201,7 +213,7 @@ bool DeepPass::holdBack(std::span<const BodyId> bodies)
         if (way > farthest) share = std::min(share, farthest / way);
     }
     if (share == 1.0) return false;
-    for (const BodyId body : bodies) {
+    for (const BodyId body : island.movers) {
         bodies_[body].shift *= share;
         bodies_[body].turn *= share;
     }
@@ -211,8 +223,7 @@ bool DeepPass::holdBack(std::span<const BodyId> bodies)
 bool DeepPass::displaceAll()
 {
     bool isHeldBack = false;
-    for (const GapIsland& island : scratch_.islands)
-        isHeldBack = holdBack(island.movers) || isHeldBack;
+    for (const GapIsland& island : scratch_.islands) isHeldBack = holdBack(island) || isHeldBack;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_[i].isPushed) tally_.cut += displace(world_, static_cast<BodyId>(i), bodies_[i]);
     }
@@ -228,7 +239,7 @@ double DeepPass::lookAgain()
         const auto [a, b] = pair.bodies;
         if (!isLookedAt_[i] && !isPushed_[a] && !isPushed_[b]) continue;
         pair.depth = look(pair, 0.0);
-        deepest = std::max(deepest, pair.depth / smallerRadius(world_, a, b));
+        deepest = std::max(deepest, depthShare(pair));
     }
     return deepest;
 }

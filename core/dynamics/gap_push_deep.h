@@ -6,7 +6,6 @@
 // script: a fifth a step would show it coming apart for a second.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/dynamics/gap_pushes.h"
@@ -40,7 +39,8 @@ private:
     void addRows(std::size_t i);
     bool isFrozen(BodyId body, int level) const;
     double look(NearPair& pair, double reach);
-    bool holdBack(std::span<const BodyId> bodies);
+    double depthShare(const NearPair& pair) const;
+    bool holdBack(const GapIsland& island);
     bool displaceAll();
     double lookAgain();
 
