@@ -41,7 +41,7 @@ constexpr double kFarthest = 0.5;
 constexpr int kMostRounds = 16;
 /// All that is for what is less deep than this share of the smaller body: what is deeper may have
 /// to go through where it is deeper still, as a copy does that nobody has moved away.
-constexpr double kSlight = 0.1;
+constexpr double kSlight = 0.2;
 /// Further rounds must leave less than this share of what was deepest: what a script squeezes
 /// stays.
 constexpr double kGainsOn = 0.98;
