@@ -15,6 +15,16 @@
 namespace scree::test {
 namespace {
 
+void simulateFrames(benchmark::State& state, int steps, World& world)
+{
+    StepSettings settings = screeSettings();
+    settings.substeps.min = settings.substeps.max = steps;
+    Stepper stepper(settings);
+    FrameTally tally;
+    for (auto _ : state) tally.add(stepper.advanceFrame(world, 1.0 / 24.0));
+    tally.tell(state);
+}
+
 void simulateStack(benchmark::State& state)
 {
     const auto cubes = static_cast<int>(state.range(0));
@@ -23,12 +33,7 @@ void simulateStack(benchmark::State& state)
     World world = stackOfCubes(cubes, topMass);
     const BodyId top = static_cast<BodyId>(world.bodyCount()) - 1;
     const Vec3 start = world.motion[top].position;
-    StepSettings settings = screeSettings();
-    settings.substeps.min = settings.substeps.max = static_cast<int>(state.range(2));
-    Stepper stepper(settings);
-    FrameTally tally;
-    for (auto _ : state) tally.add(stepper.advanceFrame(world, 1.0 / 24.0));
-    tally.tell(state);
+    simulateFrames(state, static_cast<int>(state.range(2)), world);
     const Vec3 way = world.motion[top].position - start;
     state.counters["sinks_mm"] = -1e3 * way.y();
     state.counters["drifts_mm"] = 1e3 * std::hypot(way.x(), way.z());
@@ -46,12 +51,7 @@ void simulateWall(benchmark::State& state)
 {
     setThreadCount(1);
     World world = leaningWall(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-    StepSettings settings = screeSettings();
-    settings.substeps.min = settings.substeps.max = static_cast<int>(state.range(2));
-    Stepper stepper(settings);
-    FrameTally tally;
-    for (auto _ : state) tally.add(stepper.advanceFrame(world, 1.0 / 24.0));
-    tally.tell(state);
+    simulateFrames(state, static_cast<int>(state.range(2)), world);
 }
 
 BENCHMARK(simulateWall)
