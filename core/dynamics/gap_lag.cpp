@@ -34,7 +34,7 @@ void followBodies(const World& world, GapScratch& scratch)
     const std::size_t known = scratch.seenAt.size();
     scratch.seenAt.resize(world.bodyCount());
     scratch.moves.resize(world.bodyCount());
-    scratch.odometer.resize(world.bodyCount(), 0.0);
+    scratch.turned.resize(world.bodyCount(), 0.0);
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const Pose pose = world.motion[i].worldFromBody();
         Pose& then = scratch.seenAt[i];
@@ -51,17 +51,27 @@ void followBodies(const World& world, GapScratch& scratch)
                 shape.isPlane ? std::numeric_limits<double>::infinity() : shape.boundingRadius;
             move.turn = turn.toRotationMatrix();
             move.shift = pose.position - then.position;
-            move.way = move.shift.norm();
-            if (turned > 0.0) move.way += turned * farthest;
-            scratch.odometer[i] += move.way;
+            const double byTurn = turned > 0.0 ? turned * farthest : 0.0;
+            move.way = move.shift.norm() + byTurn;
+            scratch.turned[i] += byTurn;
         }
         then = pose;
     });
 }
 
-double odometerOf(const GapScratch& scratch, BodyPair bodies)
+void seeApart(const World& world, const GapScratch& scratch, double distance, NearPair& pair)
 {
-    return scratch.odometer[bodies.a] + scratch.odometer[bodies.b];
+    const auto [a, b] = pair.bodies;
+    pair.seen = {distance, world.motion[a].position - world.motion[b].position,
+                 scratch.turned[a] + scratch.turned[b]};
+}
+
+double apartAtLeast(const World& world, const GapScratch& scratch, const NearPair& pair)
+{
+    const auto [a, b] = pair.bodies;
+    const Vec3 between = world.motion[a].position - world.motion[b].position;
+    const double turned = scratch.turned[a] + scratch.turned[b] - pair.seen.turned;
+    return pair.seen.distance - (between - pair.seen.between).norm() - turned;
 }
 
 bool isSoughtAnewAt(const Clock& clock)

@@ -14,8 +14,12 @@ namespace scree {
 /// Notes how every body has moved since the last step.
 void followBodies(const World& world, GapScratch& scratch);
 
-/// How far the points of both bodies have moved in all, added up, at most [m].
-double odometerOf(const GapScratch& scratch, BodyPair bodies);
+/// Notes that the bodies of a pair are at least so far apart where they are now [m].
+void seeApart(const World& world, const GapScratch& scratch, double distance, NearPair& pair);
+
+/// How far they are apart now at least, by what was seen then [m]: what falls side by side stays
+/// as far apart as it was, however far it falls.
+double apartAtLeast(const World& world, const GapScratch& scratch, const NearPair& pair);
 
 /// Whether the step at this time seeks all contacts anew: a run may be cut before it.
 bool isSoughtAnewAt(const Clock& clock);

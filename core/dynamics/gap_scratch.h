@@ -18,6 +18,13 @@
 
 namespace scree {
 
+/// How far apart a pair was found to be, and how it stood then.
+struct SeenApart {
+    double distance = 0.0;        ///< at least [m]
+    Vec3 between = Vec3::Zero();  ///< from B to A [m]
+    double turned = 0.0;          ///< sum of both their GapScratch::turned [m]
+};
+
 /// Two bodies that may meet in a step, and what they remember. Small: every step lays them out
 /// anew.
 struct NearPair {
@@ -25,7 +32,7 @@ struct NearPair {
     NearFeatures near;
     std::vector<GapContact> contacts;
     double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
-    double farUntil = 0.0;      ///< sum of both odometers until which there are none within 0 [m]
+    SeenApart seen;             ///< when contacts were last sought
     double depth = 0.0;         ///< of its deepest overlap, as last seen [m]
     bool isLagged = false;      ///< the contacts have gone along with the bodies since
     int soughtIn = 0;           ///< the last attempt at a step for which contacts were sought
@@ -127,11 +134,11 @@ struct GapScratch {
     std::vector<AppliedForce> forces;
     std::vector<NearPair> nearPairs;        ///< sorted by bodies
     std::vector<NearPair> formerNearPairs;  ///< of the last step, without those that are left
-    /// Per body: where it is, how it has come there in the last step, and how far its points have
-    /// moved in all at most [m].
+    /// Per body: where it is, how it has come there in the last step, and how far turns have moved
+    /// its points about its centre in all at most [m].
     std::vector<Pose> seenAt;
     std::vector<BodyMove> moves;
-    std::vector<double> odometer;
+    std::vector<double> turned;
     /// Per body: the pace with which this step looks for gaps, what an earlier attempt has shown it
     /// to gain besides [m/s], and whether it looks for all the speed it has in common with others.
     std::vector<GapPace> paces;

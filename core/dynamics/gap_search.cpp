@@ -184,6 +184,19 @@ struct Question {
     double reach;
 };
 
+/// Whether the pair is known to have no contacts within the step, be it by what has been remembered
+/// of it longer than a checkpoint remembers: that tells nothing else, and nothing else may depend
+/// on it. Most pairs are so far apart that nobody needs to know how they approach.
+bool isFar(const World& world, const GapScratch& scratch, double besides, double ahead, double dt,
+           NearPair& pair)
+{
+    if (!pair.contacts.empty()) return false;
+    const double reach = besides + approachAnywhere(scratch, pair.bodies, dt) + ahead;
+    if (reach >= apartAtLeast(world, scratch, pair)) return false;
+    pair.foundWithin = reach;
+    return true;
+}
+
 /// Notes the pairs whose contacts are not known, of those to ask.
 void askPairs(const World& world, double dt, bool isAgain, std::span<const std::size_t> toAsk,
               GapScratch& scratch, std::vector<Question>& questions)
@@ -196,13 +209,12 @@ void askPairs(const World& world, double dt, bool isAgain, std::span<const std::
         const auto [a, b] = pair.bodies;
         const double besides = reachBesides(world, scratch, pair.bodies, dt);
         const double ahead = lookAheadToLag(world, scratch, pair.bodies, dt);
-        const double apart = pair.farUntil - odometerOf(scratch, pair.bodies);
-        // Most pairs are so far apart that nobody needs to know how they approach.
-        double least = besides + approachAnywhere(scratch, pair.bodies, dt);
-        if (least + ahead >= apart) least = besides + approachOf(world, scratch, pair.bodies, dt);
+        if (isFar(world, scratch, besides, ahead, dt, pair)) continue;
+        const double least = besides + approachOf(world, scratch, pair.bodies, dt);
         const double reach = least + ahead;
         const bool hasMoved = !isAgain && (scratch.moves[a].hasMoved || scratch.moves[b].hasMoved);
-        const bool isKnown = isAnew     ? !hasMoved && !pair.isLagged && reach == pair.foundWithin
+        const bool isKnown = pair.contacts.empty() ? !hasMoved && reach <= pair.foundWithin
+                             : isAnew   ? !hasMoved && !pair.isLagged && reach == pair.foundWithin
                              : hasMoved ? takeContactsAlong(world, scratch, least, pair)
                                         : least <= pair.foundWithin;
         if (isKnown) continue;
@@ -211,7 +223,7 @@ void askPairs(const World& world, double dt, bool isAgain, std::span<const std::
         pair.foundWithin = reach;
         pair.isLagged = false;
         pair.depth = 0.0;
-        if (reach >= apart) questions.push_back({&pair, reach});
+        if (reach >= apartAtLeast(world, scratch, pair)) questions.push_back({&pair, reach});
     }
 }
 
@@ -225,8 +237,8 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
         if (i + 1 < questions.size()) questions[i + 1].pair->near.prefetchLists();
         auto& [pair, reach] = questions[i];
         found.clear();
-        pair->farUntil = odometerOf(scratch, pair->bodies) +
-                         pair->near.findContacts(placePair(world, pair->bodies), reach, found);
+        const double apart = pair->near.findContacts(placePair(world, pair->bodies), reach, found);
+        seeApart(world, scratch, apart, *pair);
         pair->contacts.assign(found.begin(), found.end());
         if (found.empty()) pair->contacts.shrink_to_fit();
         pair->depth = deepestOf(pair->contacts);

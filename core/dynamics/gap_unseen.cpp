@@ -120,7 +120,7 @@ void findUnseenAmongNear(const World& world, double dt, GapScratch& scratch)
         NearPair& pair = near[i];
         if (!unseen.isStruck[pair.bodies.a] && !unseen.isStruck[pair.bodies.b]) return;
         if (!isSolvedAnew(scratch, pair.bodies)) return;
-        const double least = pair.farUntil - odometerOf(scratch, pair.bodies);
+        const double least = apartAtLeast(world, scratch, pair);
         unseen.isMet[i] =
             runsIntoUnseen(world, scratch, pair.bodies, dt, pair.foundWithin, least, pair.near);
     });

@@ -89,6 +89,27 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
     EXPECT_GT(skipped, 500u);
 }
 
+/// Where a course is followed to the moment of touching, what is within some reach is asked about
+/// first, and then what touches. A corner inside was known to be at no distance, and passed over.
+TEST(NearFeatures, WhatLiesInsideIsToldAgainWhenAskedForNoReach)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    std::size_t contacts = 0;
+    for (std::uint64_t run = 0; run < 200; ++run) {
+        const Pose tilted{Vec3(2.4, 0.0, 0.0) + 0.05 * signedUnits(run, 0),
+                          exponentialMap(0.5 * signedUnits(run, 3))};
+        const PlacedPair placed{ring.get(), ring.get(), tilted, {Vec3::Zero(), Quat::Identity()}};
+        NearFeatures remembering, fresh;
+        std::vector<GapContact> before, remembered, anew;
+        remembering.findContacts(placed, 0.05, before);
+        remembering.findContacts(placed, 0.0, remembered);
+        fresh.findContacts(placed, 0.0, anew);
+        ASSERT_TRUE(sameContacts(remembered, anew)) << run;
+        contacts += anew.size();
+    }
+    EXPECT_GT(contacts, 50u);
+}
+
 /// Far from a surface the field only knows about how far it is, now too much and now too little:
 /// what is told of it must not depend on whether it was near enough a while ago.
 TEST(NearFeatures, WhatIsFarFromACoarseFieldIsRememberedAsItWouldBeSeen)

@@ -81,6 +81,28 @@ struct Error {
     }
 };
 
+TEST(GapLag, WhatFallsSideBySideStaysAsFarApartAsItWas)
+{
+    const auto cube = boxShape(Vec3::Ones(), 1);
+    const Pose a{Vec3(1.5, 0.0, 0.0), Quat::Identity()}, b{Vec3::Zero(), Quat::Identity()};
+    Followed followed(cube, a, cube, b, 0.1);
+    seeApart(followed.world, followed.scratch, 0.5, followed.pair);
+    const auto apart = [&] {
+        return apartAtLeast(followed.world, followed.scratch, followed.pair);
+    };
+    for (int step = 0; step < 100; ++step) {
+        for (BodyMotion& motion : followed.world.motion) motion.position.y() -= 0.1;
+        followBodies(followed.world, followed.scratch);
+    }
+    EXPECT_NEAR(apart(), 0.5, 1e-12);
+    followed.world.motion[0].position.x() -= 0.125;
+    followBodies(followed.world, followed.scratch);
+    EXPECT_NEAR(apart(), 0.375, 1e-12);
+    followed.world.motion[1].orientation = exponentialMap(Vec3(0.0, 0.1, 0.0));
+    followBodies(followed.world, followed.scratch);
+    EXPECT_NEAR(apart(), 0.375 - 0.1 * cube->boundingRadius, 1e-4);
+}
+
 TEST(GapLag, CornersOverFacesGoToWhereTheyWouldBeFound)
 {
     const auto cube = boxShape(Vec3::Ones(), 1), slab = boxShape({4.0, 1.0, 4.0}, 1);
