@@ -47,8 +47,8 @@ const std::vector<ShotKey> kShotKeys = {
      .min = 0,
      .max = 10000,
      .isOpen = true,
-     .help = "Frames per second. It does not decide how finely time is simulated (see "
-             "solver.substeps), only when a picture is taken."},
+     .help = "Frames per second: when a picture is taken. How finely time is simulated follows "
+             "from the motion (see solver.substeps)."},
     {.path = "shot.units",
      .type = word,
      .byDefault = "\"m\"",
@@ -203,7 +203,8 @@ const std::vector<ShotKey> kSolverKeys = {
      .type = table,
      .byDefault = "{}",
      .help = "How many time steps a frame is divided into. The program chooses a number between "
-             "min and max from speeds and thicknesses."},
+             "min and max from speeds and thicknesses. What would take method \"scree\" more than "
+             "40 / safety is a blur between two frames; it takes more only where it is thin."},
     {.path = "solver.substeps.min",
      .type = integer,
      .unit = "steps/frame",

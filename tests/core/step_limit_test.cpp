@@ -64,6 +64,35 @@ TEST(StepLimit, WhatSpinsBesideAnotherTurnsLittleInAStep)
     EXPECT_LE(stepsOfSpinning(60.0, 22.0), 4);  // where it meets nothing
 }
 
+/// Steps of the first frame of two boxes of which one comes at the other with this speed.
+int stepsOfMeeting(Method method, const Vec3& size, double speed)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const auto box = exactBox(size, 1);
+    addBody(world, box, material, {Vec3::Zero(), Quat::Identity()});
+    addBody(world, box, material, {Vec3(0.0, speed / 24.0, 0.0), Quat::Identity()}, 1.0,
+            {0.0, -speed, 0.0});
+    StepSettings settings = experimentSettings();
+    settings.method = method;
+    return Stepper(settings).advanceFrame(world, 1.0 / 24.0).steps;
+}
+
+TEST(StepLimit, WhatIsABlurTakesNoMoreStepsThanAreSeenUnlessItIsThin)
+{
+    EXPECT_EQ(stepsOfSpinning(0.1, 100.0), 54);  // 0.08 rad in each
+    EXPECT_EQ(stepsOfSpinning(0.1, 400.0), 80);
+    const int steps = stepsOfSpinning(0.1, 2000.0);  // 0.64 rad in each
+    EXPECT_GE(steps, 130);
+    EXPECT_LE(steps, 134);
+
+    EXPECT_EQ(stepsOfMeeting(Method::scree, Vec3::Ones(), 600.0), 50);
+    EXPECT_EQ(stepsOfMeeting(Method::scree, Vec3::Ones(), 2000.0), 80);
+    EXPECT_GE(stepsOfMeeting(Method::paper, Vec3::Ones(), 2000.0), 160);
+    // Two thicknesses in each, as they do in sight.
+    EXPECT_GE(stepsOfMeeting(Method::scree, {1.0, 0.02, 1.0}, 100.0), 104);
+}
+
 TEST(StepLimit, WhatIsThinOnlyAtItsEdgeMayPassMoreThanThatInAStep)
 {
     const auto shapeOf = [](TriMesh mesh, const auto& changeHeight) {
