@@ -220,12 +220,16 @@ void printText(const Shot& shot, const World& world, const ShotReport& report,
     std::printf("\nestimate\n  disk %.1f MB, memory %.0f MB", 1e-6 * estimate.diskBytes,
                 1e-6 * estimate.memoryBytes);
     if (estimate.framesTried > 0) {
+        const std::string toCome =
+            estimate.bodiesToCome > 0
+                ? ", with " + std::to_string(estimate.bodiesToCome) + " bodies that come later"
+                : "";
         std::printf(
             "\n  time %s wall, %s of processors, if the shot goes on as its first %d frames "
-            "(%d steps); a heap that forms later costs more",
+            "(%d steps)%s; a heap that forms later costs more",
             describeDuration(estimate.wallSeconds).c_str(),
             describeDuration(estimate.cpuSeconds).c_str(), estimate.framesTried,
-            estimate.stepsTried);
+            estimate.stepsTried, toCome.c_str());
     }
     std::printf("\n");
     printCache(cache);
@@ -294,6 +298,7 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
           {"steps_tried", report.estimate.stepsTried},
           {"wall_s", report.estimate.wallSeconds},
           {"cpu_s", report.estimate.cpuSeconds},
+          {"bodies_to_come", report.estimate.bodiesToCome},
           {"disk_bytes", report.estimate.diskBytes},
           {"memory_bytes", report.estimate.memoryBytes}}},
     };

@@ -63,6 +63,18 @@ std::uint64_t takeBytes(const Shot& shot, const World& world, const FrameReport&
 
 }  // namespace
 
+double bodyFrames(const World& world, double frames)
+{
+    std::size_t always = 0;
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body)
+        always += world.massWhenFree(body) > 0.0;
+    always -= world.births.size();
+    double sum = frames * static_cast<double>(always);
+    for (const PlannedBirth& birth : world.births)
+        sum += std::max(0.0, frames - static_cast<double>(birth.frame));
+    return sum;
+}
+
 RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double mostSeconds,
                         const std::function<bool()>& stopRequested)
 {
@@ -89,9 +101,17 @@ RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double
         if (!report.finished || !estimate.complaint.empty()) break;
     }
     const int total = shot.lastFrame - shot.firstFrame;
-    const double scale = framesDone > 0.0 ? total / framesDone : 0.0;
+    const double tried = bodyFrames(world, framesDone);
+    const double scale = tried > 0.0        ? bodyFrames(world, total) / tried
+                         : framesDone > 0.0 ? total / framesDone
+                                            : 0.0;
     estimate.wallSeconds = scale * elapsed();
     estimate.cpuSeconds = scale * (cpuSeconds() - cpuBefore);
+
+    estimate.bodiesToCome =
+        static_cast<int>(std::ranges::count_if(copy.births, [&](const PlannedBirth& birth) {
+            return copy.bornAt[birth.body] == kUnborn;
+        }));
 
     estimate.diskBytes = takeBytes(shot, copy, lastReport);
     rusage usage = {};
