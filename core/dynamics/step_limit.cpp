@@ -42,11 +42,10 @@ constexpr double kTurnPerStep = 0.16;
 
 /// Of method `scree`: what would take more steps a frame than this, at safety 1, is a blur: pebbles
 /// that turn three times around between two pictures. It may go farther in a step, but pass no more
-/// thicknesses than what is thin may at any speed, and turn so many times as far. While
-/// 3500 pebbles pour onto each other at 5 m/s within four seconds a frame took 3.9 instead of 7.2 s,
-/// in 76 instead of 222 steps, with overlaps of up to 1.2 instead of 0.6 % of a pebble. At 20 they
-/// are hardly faster, since each step looks farther, and coins that pour overlap by 2.9 % instead
-/// of 2.4.
+/// thicknesses than what is thin may at any speed, and turn so many times as far. While 3500
+/// pebbles pour onto each other at 5 m/s a frame took 3.9 instead of 7.2 s, in 76 instead of 222
+/// steps, with overlaps of up to 1.2 instead of 0.6 % of a pebble. At 20 they are hardly faster,
+/// since each step looks farther, and coins that pour overlap by 2.9 % instead of 2.4.
 constexpr double kStepsSeen = 40.0, kBlurred = 8.0;
 
 /// What a limit is for: that all touch as they should, or only that nothing goes through another.
