@@ -39,15 +39,22 @@ TEST(RunEstimate, TimeIsScaledToTheWholeShot)
     EXPECT_EQ(estimate.complaint, "");
 }
 
-TEST(RunEstimate, BodiesThatAreStillToComeCountFromTheirBirth)
+/// A block that is always there, and four hundred that come within a hundred frames of two hundred.
+Shot rainOfBlocks()
 {
     const std::string emitter =
         "[[emitter]]\nname = \"rain\"\nshape = \"block\"\nmaterial = \"wood\"\ncount = 400\n"
         "frames = \"1001-1100\"\n"
         "layout = { position = [0, 5, 0], grid = { count = [20, 1, 20], spacing = [2, 2, 2] } }\n";
-    const std::string text = test::shotTextOf(
-        {.frames = "1001-1201"}, test::bodyText("block", "position = [0, 2, 0]") + emitter);
-    const World world = buildWorld(parseShotText(text, "s.toml", {}));
+    return parseShotText(
+        test::shotTextOf({.frames = "1001-1201"},
+                         test::bodyText("block", "position = [0, 2, 0]") + emitter),
+        "s.toml", {});
+}
+
+TEST(RunEstimate, BodiesThatAreStillToComeCountFromTheirBirth)
+{
+    const World world = buildWorld(rainOfBlocks());
     EXPECT_LE(bodyFrames(world, 1.0), 1.0 + 4.0 + 4.0);
     // One for all of the time, and those that come for three quarters of it, if evenly.
     EXPECT_NEAR(bodyFrames(world, 200.0), 200.0 + 400.0 * 150.0, 400.0);
@@ -55,6 +62,10 @@ TEST(RunEstimate, BodiesThatAreStillToComeCountFromTheirBirth)
 
 TEST(RunEstimate, WhoIsToComeIsCounted)
 {
+    const Shot shot = rainOfBlocks();
+    const RunEstimate estimate = estimateRun(shot, buildWorld(shot), 1, 10.0, [] { return false; });
+    EXPECT_GE(estimate.bodiesToCome, 390);
+    EXPECT_LT(estimate.bodiesToCome, 400);
     EXPECT_EQ(estimateOf({}).bodiesToCome, 0);
 }
 
