@@ -9,9 +9,6 @@
 // In a row of fallen dominoes each had handed on a little more than it was given, by its lever, and
 // a quarter of a millimetre at one end was metres at the other.
 //
-// A pass that would leave something deeper than it has found leaves all where it was. As a chimney
-// fell a whole side of it was squeezed, a millimetre and a half in every joint, and in six steps
-// pushes made 3 mm of that, 6, 13 and 34, until bricks lay in each other's place.
 #include "core/dynamics/gap_push_deep.h"
 
 #include <algorithm>
@@ -59,7 +56,6 @@ PushOutTally DeepPass::run()
     if (reach_ == 0.0) return {};
     isPushed_.assign(scratch_.bodies.size(), 0);
     const std::vector<std::vector<std::size_t>> levels = pairsByLevel();
-    const std::vector<BodyMotion> before = world_.motion;
     const double first = lookAgain();
     const int rounds = settings_.pushOutLevelIterations;
     bool isHeldBack = false;
@@ -70,10 +66,6 @@ PushOutTally DeepPass::run()
         isHeldBack = pushRound(levels, 1.0);
         lastButOne = last;
         last = lookAgain();
-    }
-    if (last > first && first < kSlight) {
-        world_.motion = before;
-        lookAgain();
     }
     return tally_;
 }
