@@ -9,7 +9,8 @@ using enum KeyType;
 const std::vector<ShotKey> kLookKeys = {
     {.path = "camera",
      .type = tableList,
-     .help = "Points of view. Without any, previews frame the action by themselves."},
+     .help = "Points of view. Without any, previews frame the action by themselves, "
+             "without the few bodies of many that go far from all others."},
     {.path = "camera.name",
      .type = text,
      .byDefault = "\"main\"",

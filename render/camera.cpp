@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -12,6 +13,10 @@ namespace scree {
 namespace {
 
 constexpr double kFrameMargin = 1.08;  // free border around a framed box
+
+/// On each side of the picture this share of many may be out of it, if what is left is seen so many
+/// times as large.
+constexpr double kFew = 0.02, kMuchLarger = 2.0;
 
 double tanHalfFov(const Camera& camera)
 {
@@ -73,6 +78,36 @@ void Framing::include(const Aabb& box)
                      (corner & 2) ? box.max.y() : box.min.y(),
                      (corner & 4) ? box.max.z() : box.min.z()));
     }
+}
+
+void Framing::include(const Framing& other)
+{
+    right_ = std::max(right_, other.right_);
+    left_ = std::max(left_, other.left_);
+    top_ = std::max(top_, other.top_);
+    bottom_ = std::max(bottom_, other.bottom_);
+    nearest_ = std::max(nearest_, other.nearest_);
+    farthest_ = std::min(farthest_, other.farthest_);
+}
+
+void Framing::includeMost(const std::vector<Framing>& each)
+{
+    const auto few = static_cast<std::size_t>(kFew * static_cast<double>(each.size()));
+    std::vector<char> isOut(each.size(), 0);
+    for (const auto side : {&Framing::right_, &Framing::left_, &Framing::top_, &Framing::bottom_}) {
+        std::vector<double> sides;
+        for (const Framing& one : each) sides.push_back(one.*side);
+        std::ranges::sort(sides, std::greater());
+        for (std::size_t i = 0; i < each.size(); ++i) isOut[i] |= each[i].*side > sides[few];
+    }
+    Framing all = *this, most = *this;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+        all.include(each[i]);
+        if (!isOut[i]) most.include(each[i]);
+    }
+    const auto distance = [](const Camera& view) { return (view.eye - view.target).norm(); };
+    const bool isMuchLarger = distance(all.camera()) > kMuchLarger * distance(most.camera());
+    *this = isMuchLarger && !most.isEmpty() ? most : all;
 }
 
 // A point at (x, y, z) is inside the right side of the picture of an eye at (a, b, c) when

@@ -1,6 +1,8 @@
 // Where the picture is taken from. Lengths are in the unit of the scene, axes are the scene's.
 #pragma once
 
+#include <vector>
+
 #include "core/math/aabb.h"
 #include "core/math/types.h"
 
@@ -42,7 +44,12 @@ public:
 
     void include(const Vec3& point);
     void include(const Aabb& box);
+    void include(const Framing& other);  ///< with the same direction, aspect and angle of view
     bool isEmpty() const { return nearest_ < farthest_; }
+
+    /// All of them, or all but the few of many that go so far from the others that hardly anything
+    /// would be seen of these: a ball that has gone through a pane of glass rolls on and on.
+    void includeMost(const std::vector<Framing>& each);
 
     /// Looks at the middle of the depth of what is seen.
     Camera camera() const;

@@ -40,29 +40,36 @@ SceneFrame sampleAt(const std::vector<SceneFrame>& samples, double offset, doubl
     return result;
 }
 
-/// Everything that movable bodies do, or all bodies when none moves; planes not at all.
+/// What movable bodies do, or all bodies when none moves; planes not at all.
 Camera frameAction(const TakeReader& take, const SceneDescription& scene, double aspect)
 {
     std::vector<Aabb> meshBoxes;
     for (const SceneMesh& mesh : scene.meshes) meshBoxes.push_back(boxOf(mesh.points));
 
     const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
-    Framing moving(threeQuarterView(scene.zUp), up, aspect), all = moving;
+    Framing view(threeQuarterView(scene.zUp), up, aspect);
+    std::vector<Framing> seen(scene.bodies.size(), view);
     for (const int number : take.frames()) {
         const SceneFrame frame = take.readFrame(number);
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
             if (take.info().bodies[body].isPlane) continue;
             if (!isThere(scene.bodies[body], number)) continue;
             const Pose& pose = frame.worldFromAsset[body];
-            const Aabb box = transformed(meshBoxes[scene.bodies[body].mesh],
-                                         pose.orientation.toRotationMatrix(), pose.position);
-            all.include(box);
-            if (scene.bodies[body].moves) moving.include(box);
+            seen[body].include(transformed(meshBoxes[scene.bodies[body].mesh],
+                                           pose.orientation.toRotationMatrix(), pose.position));
         }
     }
-    if (!moving.isEmpty()) return moving.camera();
-    if (all.isEmpty()) all.include(Aabb{-Vec3::Ones(), Vec3::Ones()});
-    return all.camera();
+    std::vector<Framing> moving, all;
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+        if (seen[body].isEmpty()) continue;
+        all.push_back(seen[body]);
+        if (scene.bodies[body].moves) moving.push_back(seen[body]);
+    }
+    if (!all.empty())
+        view.includeMost(moving.empty() ? all : moving);
+    else
+        view.include(Aabb{-Vec3::Ones(), Vec3::Ones()});
+    return view.camera();
 }
 
 SceneCamera chooseCamera(const TakeReader& take, const SceneDescription& scene,

@@ -120,6 +120,29 @@ TEST(Framing, APointAndALineAlongTheSightAreInFrontOfTheEye)
     }
 }
 
+/// How far the eye is from a row of things, one metre apart, and one more at `last`.
+double distanceTo(int count, const Vec3& last)
+{
+    Framing view(threeQuarterView(false), Vec3::UnitY(), kAspect);
+    std::vector<Framing> each;
+    for (int i = 0; i < count; ++i) {
+        each.push_back(view);
+        each.back().include(i + 1 < count ? Vec3(i, 0, 0) : last);
+    }
+    view.includeMost(each);
+    return (view.camera().eye - view.camera().target).norm();
+}
+
+// Four hundred shards of a pane were two dozen pixels wide: the ball that had been thrown through
+// it rolled on for as long as the shot went on.
+TEST(Framing, OneOfManyThatGoesFarAwayIsLeftOut)
+{
+    const double row = distanceTo(100, {99, 0, 0});
+    EXPECT_LT(distanceTo(100, {0, 0, -1000}), 1.01 * row);
+    EXPECT_GT(distanceTo(100, {180, 0, 0}), 1.7 * row);  // not so far
+    EXPECT_GT(distanceTo(10, {0, 0, -1000}), 10.0 * distanceTo(10, {9, 0, 0}));  // of few
+}
+
 TEST(Framing, OfNothingIsStillACamera)
 {
     const Camera camera = Framing(threeQuarterView(false), Vec3::UnitY(), kAspect).camera();
