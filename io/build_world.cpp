@@ -82,8 +82,8 @@ constexpr std::size_t kEnoughNodesOfAll = 50'000'000;
 /// Shapes and materials of a shot by name, each added to the world when the first body needs it.
 class WorldBuilder {
 public:
-    WorldBuilder(const Shot& shot, FieldStore* fields)
-        : shot_(shot), fields_(fields), problems_(fileOf(shot))
+    WorldBuilder(const Shot& shot, ShapeStore* store)
+        : shot_(shot), store_(store), problems_(fileOf(shot))
     {
         for (const ShotShape& shape : shot.shapes) shapeNamed_.emplace(shape.name, &shape);
         std::set<std::string> used;
@@ -229,18 +229,18 @@ private:
         }
         if (shape.collision) {
             const TriMesh colliding = transformed(maker(*shape.collision), Pose(), shape.scale);
-            return buildMeshShape(shape.name, mesh, colliding, settings, fields_);
+            return buildMeshShape(shape.name, mesh, colliding, settings, store_);
         }
         if (shape.isExact) {
             if (const auto solid = std::visit(SolidMaker{shape.scale}, shape.source)) {
                 return buildExactShape(shape.name, *solid, mesh, settings);
             }
         }
-        return buildMeshShape(shape.name, mesh, settings, fields_);
+        return buildMeshShape(shape.name, mesh, settings, store_);
     }
 
     const Shot& shot_;
-    FieldStore* fields_;
+    ShapeStore* store_;
     std::size_t enoughNodes_;  // of a field, by method `scree`
     ProblemList problems_;
     World world_;
@@ -278,9 +278,9 @@ std::string roughnessOf(const TriMesh& mesh, double share)
     return text;
 }
 
-World buildWorld(const Shot& shot, FieldStore* fields)
+World buildWorld(const Shot& shot, ShapeStore* store)
 {
-    return WorldBuilder(shot, fields).build();
+    return WorldBuilder(shot, store).build();
 }
 
 SceneDescription describeScene(const Shot& shot, const World& world, double planeHalfWidth)

@@ -15,9 +15,9 @@ std::string roughnessOf(const TriMesh& mesh, double share);
 
 /// The shot at time zero; bodies that are born at its first frame have been. Throws Error, located
 /// in the shot file, when an asset cannot be read or is not a solid, or when a body that may not
-/// wait finds its place taken. Distance fields come from `fields` where it has them and go there
-/// where it has not; the world is the same with and without.
-World buildWorld(const Shot& shot, FieldStore* fields = nullptr);
+/// wait finds its place taken. What takes time to make comes from `store` where that has it and
+/// goes there where it has not; the world is the same with and without.
+World buildWorld(const Shot& shot, ShapeStore* store = nullptr);
 
 /// Names, meshes and masses of everything that is exported, in the shot's units. Planes become
 /// quads of half width `planeHalfWidth` [shot units].

@@ -11,7 +11,7 @@
 #include "core/geometry/shape_report.h"
 #include "core/math/rotation.h"
 #include "io/build_world.h"
-#include "io/distance_cache.h"
+#include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
@@ -19,7 +19,7 @@
 #include "tools/run_estimate.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/stoppable_fields.h"
+#include "tools/stoppable_store.h"
 
 namespace scree {
 namespace {
@@ -184,17 +184,19 @@ void printList(const char* title, const std::vector<std::string>& lines)
     for (const std::string& line : lines) std::printf("  %s\n", line.c_str());
 }
 
-void printCache(const DistanceCache& cache)
+void printCache(const ShapeCache& cache)
 {
     if (cache.folder().empty()) return;
-    const DistanceCache::Size size = cache.size();
-    std::printf("\ndistance fields: %d from the cache, %d built; \"%s\" holds %d, %.1f MB\n",
-                cache.foundCount(), cache.keptCount(), cache.folder().string().c_str(), size.files,
-                1e-6 * static_cast<double>(size.bytes));
+    const ShapeCache::Size size = cache.size();
+    std::printf(
+        "\ndistance fields and repaired solids: %d from the cache, %d made; \"%s\" holds %d, %.1f "
+        "MB\n",
+        cache.foundCount(), cache.keptCount(), cache.folder().string().c_str(), size.files,
+        1e-6 * static_cast<double>(size.bytes));
 }
 
 void printText(const Shot& shot, const World& world, const ShotReport& report,
-               const DistanceCache& cache, bool allShapes)
+               const ShapeCache& cache, bool allShapes)
 {
     std::printf("%s: frames %d-%d at %g a second, %zu bodies, %zu of them movable\n\n",
                 shot.name.c_str(), shot.firstFrame, shot.lastFrame, shot.framesPerSecond,
@@ -313,13 +315,13 @@ int checkShot(const CheckOptions& options, Console& console)
         return kExitDone;
     }
     setThreadCount(threadsToUse(options.threads));
-    DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-    StoppableFields fields(cache, console);
-    const World world = buildWorld(shot, &fields);
-    if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
-    fields.heedSignals();
+    ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
+    StoppableStore store(cache, console);
+    const World world = buildWorld(shot, &store);
+    if (!cache.problem().empty()) console.warning("cache of shapes: " + cache.problem());
+    store.heedSignals();
     const ShotReport report = examine(shot, world, options.estimateFrames);
-    fields.heedSignals();
+    store.heedSignals();
     if (options.json)
         printJson(shot, world, report);
     else
@@ -355,7 +357,7 @@ Command addCheckCommand(CLI::App& program)
     addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->add_flag("--no-cache", options->noCache,
-                      "Build every distance field anew and keep none");
+                      "Make every distance field and repaired solid anew and keep none");
     addOverrides(*command, options->overrides);
     command->footer(
         "Ends with 65 when sim would refuse the shot.\n"

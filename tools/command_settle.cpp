@@ -13,10 +13,10 @@
 #include "core/scene/motion_script.h"
 #include "io/atomic_file.h"
 #include "io/build_world.h"
-#include "io/distance_cache.h"
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
 #include "io/pose_json.h"
+#include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "io/take.h"
 #include "tools/broken_frame.h"
@@ -26,7 +26,7 @@
 #include "tools/settled_poses.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/stoppable_fields.h"
+#include "tools/stoppable_store.h"
 #include "tools/take_export.h"
 
 namespace scree {
@@ -103,10 +103,11 @@ public:
         createFolderOf(options.output, console);
         AtomicFile{options.output};  // says now that nothing can be created there
         setThreadCount(threadsToUse(options.threads));
-        DistanceCache none({});
-        StoppableFields fields(none, console);
-        world_ = buildWorld(shot_, &fields);
-        fields.heedSignals();
+        ShapeCache cache(defaultCacheFolder());
+        StoppableStore store(cache, console);
+        world_ = buildWorld(shot_, &store);
+        if (!cache.problem().empty()) console.warning("cache of shapes: " + cache.problem());
+        store.heedSignals();
         endOfEvents_ = endOfEvents(world_);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);

@@ -13,7 +13,7 @@
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
-#include "io/distance_cache.h"
+#include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "io/subframes.h"
 #include "io/take.h"
@@ -28,7 +28,7 @@
 #include "tools/simulation.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/stoppable_fields.h"
+#include "tools/stoppable_store.h"
 #include "tools/take_export.h"
 #include "tools/version.h"
 
@@ -81,10 +81,10 @@ public:
         shot_ = parseShot(options.shot, options.overrides, options.importLimits);
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
-        DistanceCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-        StoppableFields fields(cache, console);
-        world_ = buildWorld(shot_, &fields);
-        if (!cache.problem().empty()) console.warning("distance field cache: " + cache.problem());
+        ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
+        StoppableStore store(cache, console);
+        world_ = buildWorld(shot_, &store);
+        if (!cache.problem().empty()) console.warning("cache of shapes: " + cache.problem());
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
         for (const std::string& warning : warningsBeforeStart(shot_, world_)) {
@@ -94,7 +94,7 @@ public:
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
                                                         : ExistingTake::refuse;
-        fields.heedSignals();
+        store.heedSignals();
         take_.emplace(folder, shot_, world_, programVersion(), existing, branch);
         for (const std::string& notice : take_->notices()) console.warning(notice);
         std::vector<ShotBody>().swap(shot_.bodies);  // the world has them; a kilobyte each
@@ -434,7 +434,7 @@ Command addSimCommand(CLI::App& program)
                         "its last frame, the same take with another camera. With --resume: begin "
                         "so when there is nothing to resume");
     command->add_flag("--no-cache", options->noCache,
-                      "Build every distance field anew and keep none");
+                      "Make every distance field and repaired solid anew and keep none");
     addOverrides(*command, options->overrides);
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
     command->footer(

@@ -32,6 +32,11 @@ constexpr double kBandVoxels = 3.0;  // distances beyond are not needed
 /// their 34 000 triangles, and take 51 with 1600.
 constexpr double kLostVoxels = 0.1;
 
+/// Far from the mesh w is asked for at one node of so many along each axis, and where all those
+/// around agree by so much that a node is outside, or inside, so are the nodes between them.
+constexpr int kCellNodes = 4;
+constexpr double kSurely = 0.4;  // from one half
+
 using openvdb::FloatGrid;
 
 /// Unsigned distance in voxels, up to `reach` voxels; index (0, 0, 0) lies at `origin`.
@@ -55,36 +60,122 @@ FloatGrid::Ptr unsignedDistance(const TriMesh& mesh, const Vec3& origin, double 
                                                    openvdb::tools::UNSIGNED_DISTANCE_FIELD);
 }
 
-/// The field whose zero is the wrapped surface. Where the mesh is, w jumps past one half and the
-/// value is ±d; where a hole is, w passes one half smoothly and takes over, so that the hole is
-/// closed by a membrane between nodes and not along their stairs.
+/// Over a lattice of nodes, the first at `origin`.
+class WrapField {
+public:
+    using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
+
+    WrapField(const TriMesh& mesh, const Vec3& origin, double h, const openvdb::Coord& last)
+        : winding_(mesh),
+          distance_(unsignedDistance(mesh, origin, h, kBandVoxels)),
+          origin_(origin),
+          h_(h),
+          values_(openvdb::CoordBBox(openvdb::Coord(0), last))
+    {
+        for (int k = 0; k < 3; ++k) cells_[k] = last[k] / kCellNodes + 1;
+    }
+
+    FloatGrid::Ptr build()
+    {
+        askCorners();
+        parallelFor(cells_.z(), 1, [&](std::size_t begin, std::size_t end) {
+            auto distance = distance_->getConstAccessor();
+            for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
+                for (int j = 0; j < cells_.y(); ++j) {
+                    for (int i = 0; i < cells_.x(); ++i) fillCell({i, j, k}, distance);
+                }
+            }
+        });
+        auto field = FloatGrid::create(static_cast<float>(kBandVoxels));
+        openvdb::tools::copyFromDense(values_, *field, 0.0f);
+        return field;
+    }
+
+private:
+    using Coord = openvdb::Coord;
+
+    double windingAt(const Coord& node) const
+    {
+        return winding_.at(origin_ + h_ * Vec3(node.x(), node.y(), node.z()));
+    }
+
+    double& atCorner(const Coord& cell)
+    {
+        const int across = cells_.x() + 1, high = cells_.y() + 1;
+        return atCorners_[(static_cast<std::size_t>(cell.z()) * high + cell.y()) * across +
+                          cell.x()];
+    }
+
+    void askCorners()
+    {
+        atCorners_.resize(static_cast<std::size_t>(cells_.x() + 1) * (cells_.y() + 1) *
+                          (cells_.z() + 1));
+        parallelFor(cells_.z() + 1, 1, [&](std::size_t begin, std::size_t end) {
+            for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
+                for (int j = 0; j <= cells_.y(); ++j) {
+                    for (int i = 0; i <= cells_.x(); ++i) {
+                        const Coord cell(i, j, k);
+                        atCorner(cell) =
+                            windingAt({kCellNodes * i, kCellNodes * j, kCellNodes * k});
+                    }
+                }
+            }
+        });
+    }
+
+    /// Whether all its nodes lie far from the mesh, on the same side of it.
+    bool isPlain(const Coord& cell, const openvdb::CoordBBox& nodes,
+                 FloatGrid::ConstAccessor& distance)
+    {
+        const double side = atCorner(cell) - 0.5;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Coord at = cell.offsetBy(corner & 1, corner >> 1 & 1, corner >> 2);
+            if ((atCorner(at) - 0.5) * (side > 0.0 ? 1.0 : -1.0) < kSurely) return false;
+        }
+        for (const Coord& node : nodes) {
+            if (distance.getValue(node) < static_cast<float>(kBandVoxels)) return false;
+        }
+        return true;
+    }
+
+    void fillCell(const Coord& cell, FloatGrid::ConstAccessor& distance)
+    {
+        const Coord first(kCellNodes * cell.x(), kCellNodes * cell.y(), kCellNodes * cell.z());
+        openvdb::CoordBBox nodes = openvdb::CoordBBox::createCube(first, kCellNodes);
+        nodes.intersect(values_.bbox());
+        if (isPlain(cell, nodes, distance)) {
+            const double side = atCorner(cell) > 0.5 ? -kBandVoxels : kBandVoxels;
+            for (const Coord& node : nodes) values_.setValue(node, static_cast<float>(side));
+            return;
+        }
+        // Where the mesh is, w jumps past one half and the value is ±d; where a hole is, w passes
+        // one half smoothly and takes over, so that the hole is closed by a membrane between nodes
+        // and not along their stairs.
+        for (const Coord& node : nodes) {
+            const double w = windingAt(node);
+            const double most = std::min(kBandVoxels, 8.0 * std::abs(w - 0.5));
+            const double d = std::min<double>(distance.getValue(node), most);
+            values_.setValue(node, static_cast<float>(w > 0.5 ? -d : d));
+        }
+    }
+
+    WindingNumber winding_;
+    FloatGrid::Ptr distance_;
+    Vec3 origin_;
+    double h_;
+    Dense values_;
+    Coord cells_;
+    std::vector<double> atCorners_;  // of the cells, x running fastest
+};
+
+/// The field whose zero is the wrapped surface.
 FloatGrid::Ptr wrapField(const TriMesh& mesh, const Aabb& box, const Vec3& origin, double h)
 {
-    const FloatGrid::Ptr distance = unsignedDistance(mesh, origin, h, kBandVoxels);
-    const WindingNumber winding(mesh);
     openvdb::Coord last;
     for (int k = 0; k < 3; ++k) {
         last[k] = static_cast<int>(std::ceil((box.max[k] - origin[k]) / h)) + kMarginVoxels;
     }
-    openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
-        openvdb::CoordBBox(openvdb::Coord(0), last));
-    parallelFor(last.z() + 1, 1, [&](std::size_t begin, std::size_t end) {
-        auto accessor = distance->getConstAccessor();
-        for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k) {
-            for (int j = 0; j <= last.y(); ++j) {
-                for (int i = 0; i <= last.x(); ++i) {
-                    const openvdb::Coord node(i, j, k);
-                    const double w = winding.at(origin + h * Vec3(i, j, k));
-                    const double most = std::min(kBandVoxels, 8.0 * std::abs(w - 0.5));
-                    const double d = std::min<double>(accessor.getValue(node), most);
-                    dense.setValue(node, static_cast<float>(w > 0.5 ? -d : d));
-                }
-            }
-        }
-    });
-    auto field = FloatGrid::create(static_cast<float>(kBandVoxels));
-    openvdb::tools::copyFromDense(dense, *field, 0.0f);
-    return field;
+    return WrapField(mesh, origin, h, last).build();
 }
 
 TriMesh surfaceOf(const FloatGrid& field, double level, const Vec3& origin, double h)

@@ -12,6 +12,7 @@
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/revolution.h"
+#include "core/geometry/shape_store.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -136,9 +137,22 @@ double repairVoxel(const TriMesh& mesh, const ShapeSettings& settings)
     return std::min(voxel, settings.repairThickness / kRepairVoxelsPerShell);
 }
 
+/// What a repair makes of a mesh, from the store if it is there.
+TriMesh remeshed(const std::string& name, const TriMesh& mesh, const RemeshSettings& settings,
+                 ShapeStore* store)
+{
+    const std::uint64_t key = solidKey(mesh, settings);
+    if (store) {
+        if (std::optional<TriMesh> kept = store->findSolid(key)) return std::move(*kept);
+    }
+    TriMesh solid = remeshSolid(mesh, settings, name);
+    if (store) store->keepSolid(key, solid);
+    return solid;
+}
+
 /// The solid that collides, in the artist's frame.
 TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const ShapeSettings& settings,
-                  ShapeRepairs& repairs)
+                  ShapeStore* store, ShapeRepairs& repairs)
 {
     TriMesh solid = repairHarmlessly(assetMesh, repairs.harmless);
     if (settings.repair == MeshRepair::none) {
@@ -154,10 +168,10 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
         return std::move(ground.mesh);
     }
     repairs.voxel = repairVoxel(solid, settings);
-    const TriMesh remeshed =
-        remeshSolid(solid, {settings.repair, settings.repairThickness, repairs.voxel}, name);
-    repairs.drawnToColliding = farthestApartInSight(solid, remeshed);
-    return remeshed;
+    const RemeshSettings how{settings.repair, settings.repairThickness, repairs.voxel};
+    TriMesh repaired = remeshed(name, solid, how, store);
+    repairs.drawnToColliding = farthestApartInSight(solid, repaired);
+    return repaired;
 }
 
 /// Whether a field that was kept can be one of this mesh on this lattice: nobody asks again before
@@ -173,23 +187,23 @@ bool fits(const DistanceField& kept, const TriMesh& mesh, const NodeLayout& layo
 
 /// The field of the shape's mesh, from the store if it is there.
 DistanceField fieldOf(const Shape& shape, const NodeLayout& layout, const ShapeSettings& settings,
-                      FieldStore* store)
+                      ShapeStore* store)
 {
     const std::uint64_t key = fieldKey(shape.mesh, layout, settings.storage);
     if (store) {
-        std::optional<DistanceField> kept = store->find(key);
+        std::optional<DistanceField> kept = store->findField(key);
         if (kept && fits(*kept, shape.mesh, layout)) return std::move(*kept);
     }
     DistanceField field;
     field.nodes = buildDistanceNodes(shape.mesh, shape.rays, layout, settings.storage);
     field.nearest = findNearestFaces(shape.mesh, field.nodes);
-    if (store) store->keep(key, field);
+    if (store) store->keepField(key, field);
     return field;
 }
 
 /// All that follows from the solid: mass, field, samples, rays, features.
 void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSettings& settings,
-                   FieldStore* store, Shape& shape)
+                   ShapeStore* store, Shape& shape)
 {
     try {
         shape.unitMass = massProperties(solid);
@@ -234,25 +248,25 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
 }  // namespace
 
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
-                                            const ShapeSettings& settings, FieldStore* store)
+                                            const ShapeSettings& settings, ShapeStore* store)
 {
     auto shape = std::make_shared<Shape>();
     shape->name = name;
     shape->assetMesh = assetMesh;
-    const TriMesh solid = makeSolid(name, assetMesh, settings, shape->repairs);
+    const TriMesh solid = makeSolid(name, assetMesh, settings, store, shape->repairs);
     describeSolid(name, solid, settings, store, *shape);
     return shape;
 }
 
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& drawn,
                                             const TriMesh& colliding, const ShapeSettings& settings,
-                                            FieldStore* store)
+                                            ShapeStore* store)
 {
     requireSurface(drawn, name);
     auto shape = std::make_shared<Shape>();
     shape->name = name;
     shape->assetMesh = drawn;
-    const TriMesh solid = makeSolid(name, colliding, settings, shape->repairs);
+    const TriMesh solid = makeSolid(name, colliding, settings, store, shape->repairs);
     shape->repairs.hasCollisionMesh = true;
     // Triangles without area are drawn for what they are worth, but have no closest point.
     const TriMesh drawnSurface = mergeEqualPoints(drawn);

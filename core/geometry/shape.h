@@ -30,6 +30,8 @@
 
 namespace scree {
 
+class ShapeStore;
+
 /// Where contact normals come from.  [A5, A6]
 enum class NormalMode {
     automatic,    ///< true when any edge is sharper than 40°, else smooth
@@ -134,13 +136,13 @@ Aabb boxAt(const Shape& shape, const Pose& pose);
 /// built again, and one that is built is kept there.
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& assetMesh,
                                             const ShapeSettings& settings = {},
-                                            FieldStore* store = nullptr);
+                                            ShapeStore* store = nullptr);
 
 /// The same from a mesh that is only drawn and one that collides in its stead, both in the artist's
 /// frame. What is drawn need be no solid, but a surface.
 std::shared_ptr<const Shape> buildMeshShape(const std::string& name, const TriMesh& drawn,
                                             const TriMesh& colliding, const ShapeSettings& settings,
-                                            FieldStore* store);
+                                            ShapeStore* store);
 
 /// A sphere, box or cylinder that collides as the formula says, not as a mesh: field, normals and
 /// mass are exact. `mesh`, in the solid's own frame, is what is drawn; of a box it also supplies

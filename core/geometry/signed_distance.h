@@ -20,8 +20,8 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/distance_field.h"
 #include "core/geometry/exact_solid.h"
-#include "core/geometry/field_store.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/math/aabb.h"
 

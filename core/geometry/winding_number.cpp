@@ -12,17 +12,37 @@ namespace {
 constexpr int kMostInLeaf = 8;
 constexpr double kFarRadii = 3.0;  // a cluster farther off than this counts as one flux
 
-/// The angle of (x, y) from +x, with bits that are ours.
-double angleOf(double y, double x)
-{
-    if (y == 0.0) return x >= 0.0 ? 0.0 : kPi;
-    double angle = 0.5 * kPi;
-    if (x > 0.0) angle = arcTangent(std::abs(y) / x);
-    if (x < 0.0) angle = kPi - arcTangent(std::abs(y) / -x);
-    return y < 0.0 ? -angle : angle;
-}
-
 }  // namespace
+
+/// Many angles, each that of a vector, taken together: directions multiply like complex numbers,
+/// and how often they have gone around is counted. With an arc tangent for each triangle a lattice
+/// of a million nodes took 8 s.
+class WindingNumber::AngleSum {
+public:
+    /// The angle of (x, y) from +x; y is not 0.
+    void add(double x, double y)
+    {
+        const double nextX = x_ * x - y_ * y, nextY = x_ * y + y_ * x;
+        if (y_ >= 0.0 && y > 0.0 && nextY < 0.0) ++turns_;
+        if (y_ < 0.0 && y < 0.0 && nextY >= 0.0) --turns_;
+        const double size = std::abs(nextX) + std::abs(nextY);
+        if (!(size > 0.0)) return;
+        x_ = nextX / size;
+        y_ = nextY / size;
+    }
+
+    double total() const
+    {
+        double angle = 0.5 * kPi;
+        if (x_ > 0.0) angle = arcTangent(std::abs(y_) / x_);
+        if (x_ < 0.0) angle = kPi - arcTangent(std::abs(y_) / -x_);
+        return 2.0 * kPi * turns_ + (y_ < 0.0 ? -angle : angle);
+    }
+
+private:
+    double x_ = 1.0, y_ = 0.0;
+    int turns_ = 0;
+};
 
 WindingNumber::WindingNumber(const TriMesh& mesh)
     : mesh_(mesh), centroids_(3, mesh.triangles.cols()), order_(mesh.triangles.cols())
@@ -77,36 +97,38 @@ int WindingNumber::build(int begin, int end)
     return index;
 }
 
-// [OS83]
-double WindingNumber::solidAngle(int triangle, const Vec3& point) const
+// Half of it. [OS83]
+void WindingNumber::addSolidAngle(int triangle, const Vec3& point, AngleSum& sum) const
 {
     const auto [a, b, c] = cornersOf(mesh_, triangle).seenFrom(point);
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     const double volume = a.dot(b.cross(c));
     const double rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    return volume == 0.0 ? 0.0 : 2.0 * angleOf(volume, rest);
+    if (volume != 0.0) sum.add(rest, volume);
 }
 
 double WindingNumber::at(const Vec3& point) const
 {
     if (nodes_.empty()) return 0.0;
-    double sum = 0.0;
-    std::vector<int> open = {0};
+    double far = 0.0;
+    AngleSum near;
+    thread_local std::vector<int> open;
+    open.assign(1, 0);
     while (!open.empty()) {
         const Node& node = nodes_[open.back()];
         open.pop_back();
         const Vec3 way = node.centre - point;
         const double distance = way.norm();
         if (distance > kFarRadii * node.radius) {
-            sum += way.dot(node.flux) / (distance * distance * distance);
+            far += way.dot(node.flux) / (distance * distance * distance);
         } else if (node.left < 0) {
-            for (int i = node.begin; i < node.end; ++i) sum += solidAngle(order_[i], point);
+            for (int i = node.begin; i < node.end; ++i) addSolidAngle(order_[i], point, near);
         } else {
             open.push_back(node.right);
             open.push_back(node.left);
         }
     }
-    return sum / (4.0 * kPi);
+    return (far + 2.0 * near.total()) / (4.0 * kPi);
 }
 
 }  // namespace scree

@@ -6,7 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "io/build_world.h"
-#include "io/distance_cache.h"
+#include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "tests/support/support.h"
 
@@ -39,7 +39,7 @@ void start(benchmark::State& state, Shot (*readShot)(), bool isCached)
 {
     setThreadCount(2);
     const TemporaryFolder folder;
-    DistanceCache cache(isCached ? folder / "fields" : std::filesystem::path());
+    ShapeCache cache(isCached ? folder / "fields" : std::filesystem::path());
     buildWorld(readShot(), &cache);
     for (auto _ : state) benchmark::DoNotOptimize(buildWorld(readShot(), &cache));
 }

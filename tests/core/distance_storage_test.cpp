@@ -7,10 +7,10 @@
 
 #include "core/base/parallel.h"
 #include "core/base/random.h"
-#include "core/geometry/field_store.h"
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
+#include "core/geometry/shape_store.h"
 #include "tests/support/draw.h"
 
 namespace scree::test {
@@ -88,14 +88,16 @@ TEST(E21FieldStorage, AutomaticTakesBricksWhereTheySaveMuchOfALargeField)
 }
 
 /// Keeps one field in memory, and can spoil it.
-class OneField : public FieldStore {
+class OneField : public ShapeStore {
 public:
-    std::optional<DistanceField> find(std::uint64_t) override { return field; }
-    void keep(std::uint64_t, const DistanceField& built) override
+    std::optional<DistanceField> findField(std::uint64_t) override { return field; }
+    void keepField(std::uint64_t, const DistanceField& built) override
     {
         field = built;
         ++timesKept;
     }
+    std::optional<TriMesh> findSolid(std::uint64_t) override { return {}; }
+    void keepSolid(std::uint64_t, const TriMesh&) override {}
     std::optional<DistanceField> field;
     int timesKept = 0;
 };
