@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <new>
 #include <optional>
-#include <set>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/births.h"
 #include "core/dynamics/sleep.h"
 #include "core/geometry/primitives.h"
@@ -79,18 +82,48 @@ constexpr std::size_t kEnoughNodes = 1'000'000;
 /// have, took a minute and a half and 3 GB to start.
 constexpr std::size_t kEnoughNodesOfAll = 50'000'000;
 
-/// Shapes and materials of a shot by name, each added to the world when the first body needs it.
+/// A shape in the making.
+struct ShapeWork {
+    const ShotShape* shape;
+    TriMesh mesh = {}, colliding = {};
+    std::shared_ptr<const Shape> made = nullptr;
+    std::exception_ptr problem = nullptr;  // instead
+    std::optional<ShapeId> id = {};        // in the world
+    bool isAsked = false;
+
+    /// Does a part of it; what is wrong with the shape ends it.
+    template <class Work>
+    void attempt(const Work& work)
+    {
+        if (problem) return;
+        try {
+            work();
+        } catch (const std::bad_alloc&) {
+            problem = std::current_exception();
+        } catch (const Error&) {
+            problem = std::current_exception();
+        }
+    }
+};
+
+/// Shapes with no more triangles than this share of what there is for each thread are made side by
+/// side, each by one thread: of a small one there is little to share out.
+constexpr double kSmallShare = 0.25;
+
+/// Bodies, materials and the shapes that bodies need, in the order of the shot.
 class WorldBuilder {
 public:
     WorldBuilder(const Shot& shot, ShapeStore* store)
         : shot_(shot), store_(store), problems_(fileOf(shot))
     {
-        for (const ShotShape& shape : shot.shapes) shapeNamed_.emplace(shape.name, &shape);
-        std::set<std::string> used;
-        for (const ShotBody& body : shot.bodies)
-            if (body.shape) used.insert(*body.shape);
+        std::unordered_map<std::string, const ShotShape*> shapeNamed;
+        for (const ShotShape& shape : shot.shapes) shapeNamed.emplace(shape.name, &shape);
+        for (const ShotBody& body : shot.bodies) {
+            if (body.shape && workOfName_.try_emplace(*body.shape, works_.size()).second)
+                works_.push_back({shapeNamed.at(*body.shape)});
+        }
         enoughNodes_ =
-            std::min(kEnoughNodes, kEnoughNodesOfAll / std::max<std::size_t>(used.size(), 1));
+            std::min(kEnoughNodes, kEnoughNodesOfAll / std::max<std::size_t>(works_.size(), 1));
     }
 
     World build()
@@ -104,6 +137,7 @@ public:
         }
         world_.fields = shot_.fields;
         world_.frameDuration = 1.0 / shot_.framesPerSecond;
+        makeShapes();
         for (const ShotBody& body : shot_.bodies) add(body);
         problems_.throwIfAny();
         bearTheFirst();
@@ -120,7 +154,8 @@ private:
 
     void add(const ShotBody& body)
     {
-        const std::optional<ShapeId> shape = body.plane ? planeShape() : meshShape(*body.shape);
+        const std::optional<ShapeId> shape =
+            body.plane ? planeShape() : meshShape(works_[workOfName_.at(*body.shape)]);
         if (!shape) return;
         BodyDefinition definition;
         definition.name = body.name;
@@ -176,27 +211,67 @@ private:
     std::string planeName() const
     {
         std::string name = "plane";
-        while (shapeNamed_.count(name)) name += "_";
+        const auto isTaken = [&](const ShotShape& shape) { return shape.name == name; };
+        while (std::ranges::any_of(shot_.shapes, isTaken)) name += "_";
         return name;
     }
 
-    /// Nothing when the shape cannot be built; that is reported once, not for every body.
-    std::optional<ShapeId> meshShape(const std::string& name)
+    /// Nothing when the shape could not be made; that is told once, not for every body.
+    std::optional<ShapeId> meshShape(ShapeWork& work)
     {
-        const auto [known, isNew] = shapeOfName_.try_emplace(name);
-        if (isNew) {
-            const ShotShape& shape = *shapeNamed_.at(name);
-            try {
-                known->second = world_.addShape(buildShape(shape));
-            } catch (const std::bad_alloc&) {
-                throw Error(ErrorKind::internal,
-                            "memory ran out while the shape '" + name + "' was built");
-            } catch (const Error& error) {
-                problems_.add(shape.location, error.what() + adviceFor(shape, error.what()),
-                              error.kind());
-            }
+        if (std::exchange(work.isAsked, true)) return work.id;
+        const ShotShape& shape = *work.shape;
+        try {
+            if (work.problem) std::rethrow_exception(work.problem);
+            work.id = world_.addShape(work.made);
+        } catch (const std::bad_alloc&) {
+            throw Error(ErrorKind::internal,
+                        "memory ran out while the shape '" + shape.name + "' was built");
+        } catch (const Error& error) {
+            problems_.add(shape.location, error.what() + adviceFor(shape, error.what()),
+                          error.kind());
         }
-        return known->second;
+        return work.id;
+    }
+
+    void makeMeshes(ShapeWork& work) const
+    {
+        const ShotShape& shape = *work.shape;
+        const MeshMaker maker{shot_.metresPerUnit, shot_.importLimits};
+        work.mesh = transformed(std::visit(maker, shape.source), Pose(), shape.scale);
+        // Points that fell together would be told as holes and faces without area, which nobody
+        // finds in the file.
+        constexpr double kMostRounding = 0.01;
+        if (const std::string rough = roughnessOf(work.mesh, kMostRounding); !rough.empty()) {
+            throw Error(ErrorKind::badInput, "shape '" + shape.name + "' " + rough);
+        }
+        if (shape.collision)
+            work.colliding = transformed(maker(*shape.collision), Pose(), shape.scale);
+    }
+
+    void makeShapes()
+    {
+        for (ShapeWork& work : works_) work.attempt([&] { makeMeshes(work); });
+        const auto trianglesOf = [](const ShapeWork& work) {
+            return work.mesh.triangles.cols() + work.colliding.triangles.cols();
+        };
+        Eigen::Index all = 0;
+        for (const ShapeWork& work : works_) all += trianglesOf(work);
+        const double most = kSmallShare * static_cast<double>(all) / threadCount();
+        std::vector<ShapeWork*> small;
+        for (ShapeWork& work : works_) {
+            if (static_cast<double>(trianglesOf(work)) <= most)
+                small.push_back(&work);
+            else
+                makeShape(work);
+        }
+        forEach(small.size(), 1, [&](std::size_t i) { makeShape(*small[i]); });
+    }
+
+    void makeShape(ShapeWork& work) const
+    {
+        work.attempt([&] { work.made = shapeOf(*work.shape, work.mesh, work.colliding); });
+        work.mesh = work.colliding = {};
     }
 
     /// What is wrong with a mesh is told with keys that may help: in an import, they help all.
@@ -216,21 +291,11 @@ private:
         return settings;
     }
 
-    std::shared_ptr<const Shape> buildShape(const ShotShape& shape) const
+    std::shared_ptr<const Shape> shapeOf(const ShotShape& shape, const TriMesh& mesh,
+                                         const TriMesh& colliding) const
     {
         const ShapeSettings settings = settingsOf(shape);
-        const MeshMaker maker{shot_.metresPerUnit, shot_.importLimits};
-        const TriMesh mesh = transformed(std::visit(maker, shape.source), Pose(), shape.scale);
-        // Points that fell together would be told as holes and faces without area, which nobody
-        // finds in the file.
-        constexpr double kMostRounding = 0.01;
-        if (const std::string rough = roughnessOf(mesh, kMostRounding); !rough.empty()) {
-            throw Error(ErrorKind::badInput, "shape '" + shape.name + "' " + rough);
-        }
-        if (shape.collision) {
-            const TriMesh colliding = transformed(maker(*shape.collision), Pose(), shape.scale);
-            return buildMeshShape(shape.name, mesh, colliding, settings, store_);
-        }
+        if (shape.collision) return buildMeshShape(shape.name, mesh, colliding, settings, store_);
         if (shape.isExact) {
             if (const auto solid = std::visit(SolidMaker{shape.scale}, shape.source)) {
                 return buildExactShape(shape.name, *solid, mesh, settings);
@@ -245,9 +310,9 @@ private:
     ProblemList problems_;
     World world_;
     std::vector<BodyId> sleepers_;
+    std::vector<ShapeWork> works_;  // in the order in which bodies need their shapes
     // Asked by name, never walked.
-    std::unordered_map<std::string, const ShotShape*> shapeNamed_;
-    std::unordered_map<std::string, std::optional<ShapeId>> shapeOfName_;
+    std::unordered_map<std::string, std::size_t> workOfName_;
     std::unordered_map<std::string, MaterialId> materialOfName_;
     std::optional<ShapeId> plane_;
 };

@@ -98,16 +98,19 @@ std::optional<What> ShapeCache::find(const fs::path& file, std::uint64_t key,
 {
     std::error_code ignored;
     if (folder_.empty() || !fs::exists(file, ignored)) return std::nullopt;
+    std::string problem = "\"" + file.string() + "\" is damaged and is made anew";
     try {
         if (std::optional<What> what = read(key, readFileBytes(file))) {
             fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+            const std::lock_guard guard(lock_);
             ++found_;
             return what;
         }
-        problem_ = "\"" + file.string() + "\" is damaged and is made anew";
     } catch (const Error& error) {
-        problem_ = error.what();
+        problem = error.what();
     }
+    const std::lock_guard guard(lock_);
+    problem_ = problem;
     return std::nullopt;
 }
 
@@ -115,17 +118,24 @@ void ShapeCache::keep(const fs::path& file, const std::string& bytes)
 {
     if (folder_.empty()) return;
     try {
-        std::error_code failure;
-        fs::create_directories(folder_, failure);
-        if (kept_ == 0) {
-            removeAbandonedIn(folder_, [](const std::string& name) { return isOurs(name); });
-            removeLongUnused(folder_);
-        }
+        tidyOnce();
         writeFileBytes(file, bytes);
+        const std::lock_guard guard(lock_);
         ++kept_;
     } catch (const Error& error) {
+        const std::lock_guard guard(lock_);
         problem_ = error.what();
     }
+}
+
+void ShapeCache::tidyOnce()
+{
+    const std::lock_guard guard(lock_);
+    if (std::exchange(isTidy_, true)) return;
+    std::error_code failure;
+    fs::create_directories(folder_, failure);
+    removeAbandonedIn(folder_, [](const std::string& name) { return isOurs(name); });
+    removeLongUnused(folder_);
 }
 
 ShapeCache::Size ShapeCache::size() const

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,7 @@
 
 namespace scree {
 
+/// Finds and keeps for several threads at a time; the rest is asked when they are done.
 class ShapeCache : public ShapeStore {
 public:
     /// The folder is made when something is first kept. An empty name: nothing is ever there.
@@ -43,8 +45,11 @@ private:
     std::optional<What> find(const std::filesystem::path& file, std::uint64_t key,
                              std::optional<What> (*read)(std::uint64_t, std::string_view));
     void keep(const std::filesystem::path& file, const std::string& bytes);
+    void tidyOnce();
 
     std::filesystem::path folder_;
+    std::mutex lock_;  // of what follows
+    bool isTidy_ = false;
     int found_ = 0, kept_ = 0;
     std::string problem_;
 };

@@ -30,6 +30,7 @@ void StoppableStore::keepSolid(std::uint64_t key, const TriMesh& solid)
 
 void StoppableStore::heedSignals()
 {
+    const std::lock_guard guard(lock_);
     heedStop();
     if (takeSaveRequest())
         console_.answer("scree: still making the shapes; there is nothing to save yet");

@@ -1,6 +1,8 @@
 // Signals while the shapes of a shot are made, which can take minutes.
 #pragma once
 
+#include <mutex>
+
 #include "core/geometry/shape_store.h"
 #include "tools/console.h"
 
@@ -23,6 +25,7 @@ public:
 private:
     ShapeStore& store_;
     Console& console_;
+    std::mutex lock_;  // several threads make shapes
 };
 
 }  // namespace scree

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/stepper.h"
+#include "io/shape_bytes.h"
+#include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "tests/support/refusal.h"
 #include "tests/support/support.h"
@@ -186,6 +190,49 @@ TEST(BuildWorld, AssetErrorsAreLocatedAtTheShapeAndSaidOnce)
     EXPECT_NE(message.find("open"), std::string::npos) << message;
     EXPECT_EQ(message.find("unused"), std::string::npos) << message;
     EXPECT_EQ(refusal.kind, ErrorKind::badInput);
+}
+
+// Of four hundred shards each is too small to be shared out among many threads.
+TEST(BuildWorld, ShapesMadeSideBySideAreThoseMadeOneAfterAnother)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n";
+    const auto shotOf = [&](int count, const std::string& every) {
+        std::string text = kHead + "[[body]]\nname = \"floor\"\nplane = { normal = [0, 1, 0] }\n" +
+                           "motion = \"static\"\nmaterial = \"wood\"\n";
+        for (int n = 0; n < count; ++n) {
+            const std::string name = "s" + std::to_string(n);
+            const bool isFine = n == 7;  // more triangles than all others together
+            text += "[shape." + name + "]\n" +
+                    (n % 9 == 3 && !every.empty() ? every
+                     : isFine
+                         ? "sphere = { radius = 3, subdivisions = 4 }"
+                         : "torus = { major = " + std::to_string(2 + 0.1 * n) + ", minor = 0.5 }") +
+                    "\nsdf = { resolution = 24 }\n[[body]]\nname = \"" + name + "\"\nshape = \"" +
+                    name + "\"\nmaterial = \"wood\"\nposition = [" + std::to_string(20 * n) +
+                    ", 9, 0]\n";
+        }
+        return parseShotText(text, (folder / "s.toml").string());
+    };
+    const Shot good = shotOf(30, ""), bad = shotOf(30, "file = \"open.obj\"");
+    const int before = threadCount();
+    std::vector<std::string> fields, messages;
+    for (const int threads : {1, 4}) {
+        setThreadCount(threads);
+        ShapeCache cache(folder / std::to_string(threads));
+        const World world = buildWorld(good, &cache);
+        EXPECT_EQ(cache.keptCount(), 30);
+        std::string& all = fields.emplace_back();
+        for (std::size_t body = 1; body < world.bodyCount(); ++body) {
+            const Shape& shape = world.shapeOf(static_cast<BodyId>(body));
+            all += shape.name + bytesOfField(0, shape.distance.field());
+        }
+        messages.push_back(test::refusalBy([&] { buildWorld(bad); }).message);
+    }
+    setThreadCount(before);
+    EXPECT_EQ(fields[0], fields[1]);
+    EXPECT_EQ(messages[0], messages[1]);
+    EXPECT_EQ(std::ranges::count(messages[0], '\n'), 2) << messages[0];  // three of them
 }
 
 TEST(BuildWorld, AMeshThatIsRoughForItLiesFarFromItsOriginIsToldAsSuch)
