@@ -29,7 +29,8 @@ constexpr double kCreeps = 4e-3;
 /// What rocks wider, a bowl on its round bottom or a plank on a ball, is let do so for this time,
 /// and then loses 1/e of its motion in that on its ways back: of two hundred odds and ends three
 /// bowls rocked on for as long as anybody looked. What falls over does not come back, and what
-/// hangs may swing.
+/// hangs may swing. What circles on its rim turns about its own axis as well, and may go on to:
+/// a screw on its head kept a heap of four hundred awake for eight seconds.
 constexpr double kLongWait = 18.0, kLongTime = 4.0;
 
 /// How a body moves against the way it has come since, both as far as a point of it may.
@@ -58,6 +59,17 @@ bool goesOn(const World& world, BodyId body, double time, const Stay& since)
            course.along >= kGoesOn * time * course.square;
 }
 
+/// Whether a body, as one sees it, moves back to where it was.
+bool comesBack(const World& world, BodyId body, const Stay& since)
+{
+    const BodyMotion& motion = world.motion[body];
+    const Shape& shape = world.shapeOf(body);
+    const Vec3 way = motion.position - since.position;
+    const Vec3 turn = shape.boundingRadius * shownTurn(world, body, since.orientation);
+    const Vec3 spin = shape.shownOf(angularVelocity(motion, world.mass[body]), motion.orientation);
+    return way.dot(motion.velocity) + shape.boundingRadius * turn.dot(spin) < 0.0;
+}
+
 void calm(World& world, BodyId body, double acceleration, bool hangs)
 {
     if (acceleration == 0.0) return;
@@ -66,17 +78,17 @@ void calm(World& world, BodyId body, double acceleration, bool hangs)
     const auto hasStayed = [&](const Stay& stay, double wait) {
         return stay.frames * world.frameDuration >= wait * unit;
     };
-    double time = 0.0;
+    BodyMotion& motion = world.motion[body];
+    const auto take = [&](double time, const Vec3& angularMomentum) {
+        const double lost = 1.0 - 1.0 / (1.0 + world.frameDuration / time);
+        motion.velocity -= lost * motion.velocity;
+        motion.angularMomentum -= lost * angularMomentum;
+    };
     if (hasStayed(rest.nearby, kCalmWait) && !goesOn(world, body, kCalmWait * unit, rest.nearby))
-        time = kCalmTime * unit;
-    else if (!hangs && hasStayed(rest.around, kLongWait) &&
-             courseOf(world, body, rest.around).along < 0.0)
-        time = kLongTime * unit;
-    else
-        return;
-    const double kept = 1.0 / (1.0 + world.frameDuration / time);
-    world.motion[body].velocity *= kept;
-    world.motion[body].angularMomentum *= kept;
+        take(kCalmTime * unit, motion.angularMomentum);
+    else if (!hangs && hasStayed(rest.around, kLongWait) && comesBack(world, body, rest.around))
+        take(kLongTime * unit,
+             world.shapeOf(body).shownOf(motion.angularMomentum, motion.orientation));
 }
 
 /// How a body is held up by others.

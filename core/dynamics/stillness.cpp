@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/dynamics/impulse.h"
+#include "core/math/rotation.h"
 
 namespace scree {
 namespace {
@@ -17,7 +18,8 @@ constexpr double kStillTime = 1.4;
 
 /// What has stayed within this share of its size of one place may rock, but goes nowhere.
 constexpr double kNearby = 0.05;
-/// The same of what rocks as wide as a bowl does on its round bottom.
+/// The same of what rocks as wide as a bowl does on its round bottom, or as a can does around the
+/// rim of its own.
 constexpr double kAround = 0.4;
 
 /// So many times as long as it takes to fall asleep this share of an island must have stayed nearby
@@ -36,6 +38,14 @@ double travelled(const World& world, BodyId body, const Stay& since)
     return (motion.position - since.position).norm() + turned * world.shapeOf(body).boundingRadius;
 }
 
+/// The same of what one sees of it.
+double travelledInSight(const World& world, BodyId body, const Stay& since)
+{
+    const double turned = shownTurn(world, body, since.orientation).norm();
+    return (world.motion[body].position - since.position).norm() +
+           turned * world.shapeOf(body).boundingRadius;
+}
+
 bool goesFarInAFrame(const World& world, BodyId body)
 {
     const BodyMotion& motion = world.motion[body];
@@ -46,11 +56,12 @@ bool goesFarInAFrame(const World& world, BodyId body)
     return speed * world.frameDuration > kFarInAFrame * radius;
 }
 
-/// One more frame within `share` of its size of the place, or a new place.
-void noteStay(const World& world, BodyId body, double share, Stay& stay)
+/// One more frame within `share` of its size of the place, of which it is `way` away, or a new
+/// place.
+void noteStay(const World& world, BodyId body, double share, double way, Stay& stay)
 {
     const double allowed = share * world.shapeOf(body).boundingRadius;
-    if (travelled(world, body, stay) <= allowed && !goesFarInAFrame(world, body)) {
+    if (way <= allowed && !goesFarInAFrame(world, body)) {
         ++stay.frames;
     } else {
         stay = {world.motion[body].position, world.motion[body].orientation, 0};
@@ -58,6 +69,16 @@ void noteStay(const World& world, BodyId body, double share, Stay& stay)
 }
 
 }  // namespace
+
+Vec3 shownTurn(const World& world, BodyId body, const Quat& since)
+{
+    const Shape& shape = world.shapeOf(body);
+    const Quat& now = world.motion[body].orientation;
+    if (shape.turnsThatShow.isZero(0.0)) return Vec3::Zero();
+    if (shape.turnsThatShow.sum() != 2.0) return rotationVector(now * since.conjugate());
+    const Vec3 axis = Vec3::Ones() - shape.turnsThatShow;
+    return rotationVector(Quat::FromTwoVectors(since * axis, now * axis));
+}
 
 double unitOfTime(const World& world, BodyId body, double acceleration)
 {
@@ -98,9 +119,9 @@ void noteStays(World& world)
         const auto body = static_cast<BodyId>(i);
         if (!world.isStepped(body)) continue;
         BodyRest& rest = world.contactMemory.rest[i];
-        noteStay(world, body, kStill, rest.still);
-        noteStay(world, body, kNearby, rest.nearby);
-        noteStay(world, body, kAround, rest.around);
+        noteStay(world, body, kStill, travelled(world, body, rest.still), rest.still);
+        noteStay(world, body, kNearby, travelled(world, body, rest.nearby), rest.nearby);
+        noteStay(world, body, kAround, travelledInSight(world, body, rest.around), rest.around);
     }
 }
 

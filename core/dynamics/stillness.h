@@ -16,6 +16,10 @@ double unitOfTime(const World& world, BodyId body, double acceleration);
 /// How long a body must lie still to fall asleep, in frames.
 double framesToSleep(const World& world, BodyId body, double acceleration);
 
+/// The turn of a body since it stood as `since` [rad], about the world's axes; of a solid of
+/// revolution that of its axis, for turns about that do not show.
+Vec3 shownTurn(const World& world, BodyId body, const Quat& since);
+
 /// For how long a body has gone nowhere, though it may rock widely, in units of time; infinite for
 /// what stands where it is, 0 for what a script moves and where nobody sleeps.
 double unitsAround(const World& world, const GapScratch& scratch, BodyId body);

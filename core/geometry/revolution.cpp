@@ -1,5 +1,6 @@
 #include "core/geometry/revolution.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/round_place.h"
@@ -10,6 +11,9 @@ Vec3 turnsThatShow(const TriMesh& mesh)
 {
     // A prism of the coarsest facets that are round turns its normals so far from its corners.
     const double most = std::sqrt(0.5 * (1.0 - kFineTurn)) + 1e-6;
+    // What stands nearer to an axis than files tell, as the tip of a screw, is on it.
+    constexpr double kRounded = 1e-5;
+    const double least = kRounded * std::sqrt(mesh.points.colwise().squaredNorm().maxCoeff());
     Vec3 show = Vec3::Zero();
     for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
         const TriangleCorners corners = cornersOf(mesh, f);
@@ -20,7 +24,7 @@ Vec3 turnsThatShow(const TriMesh& mesh)
             const Vec3 leaving = corners[k].cross(normal);
             for (int axis = 0; axis < 3; ++axis) {
                 const double moving = Vec3::Unit(axis).cross(corners[k]).norm();
-                if (std::abs(leaving[axis]) > most * moving) show[axis] = 1.0;
+                if (std::abs(leaving[axis]) > std::max(most * moving, least)) show[axis] = 1.0;
             }
         }
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
@@ -48,6 +49,41 @@ TEST(Calming, WhatRocksInItsPlaceComesToRestTheWiderTheLaterAndWhatGoesFartherDo
     EXPECT_GE(rockingOfAPlank(false, 1.0), 0.9);
     EXPECT_LE(rockingOfAPlank(true, 1.0), 0.6);
     EXPECT_GE(rockingOfAPlank(true, 3.0), 2.5);
+}
+
+/// Of a disc that rocks on a fixed ball and spins about its own axis, in the last two seconds of
+/// ten: the largest angular speed across the axis and the smallest about it [rad/s].
+std::pair<double, double> rockingOfADisc(bool mayRest)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.9, 0.0);
+    addBody(world, exactSphere(0.5), material, {Vec3::Zero(), Quat::Identity()}, 0.0);
+    const auto shape = buildMeshShape("disc", makeCylinder(0.5, 0.1, 48, 1));
+    const BodyId disc = addBody(world, shape, material, {Vec3(0.0, 0.55, 0.0), Quat::Identity()},
+                                1.0, Vec3::Zero(), Vec3(0.0, 2.0, 1.0));
+    StepSettings settings = screeSettings();
+    settings.sleep = mayRest;
+    Stepper stepper(settings);
+    double across = 0.0, about = 9.0;
+    for (int f = 0; f < 240; ++f) {
+        stepper.advanceFrame(world, kFrame);
+        if (f < 192) continue;
+        const Vec3 spin = angularVelocityOf(world, disc);
+        const Vec3 shown = shape->shownOf(spin, world.motion[disc].orientation);
+        across = std::max(across, shown.norm());
+        about = std::min(about, (spin - shown).norm());
+    }
+    return {across, about};
+}
+
+TEST(Calming, WhatIsRoundRocksLessAndLessButSpinsOn)
+{
+    const auto [free, spinOfFree] = rockingOfADisc(false);
+    const auto [calmed, spinOfCalmed] = rockingOfADisc(true);
+    EXPECT_GE(free, 0.8);
+    EXPECT_LE(calmed, 0.6 * free);
+    EXPECT_GE(spinOfFree, 1.7);
+    EXPECT_GE(spinOfCalmed, 1.7);
 }
 
 /// A ring of 2.5 m hangs over a fixed pole and swings.

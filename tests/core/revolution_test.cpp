@@ -23,6 +23,20 @@ TEST(Revolution, WhatIsMadeRoundAboutAnAxisIsWhereItsFacetsAreFine)
     EXPECT_EQ(turnsThatShow(makeSphere(0.5, 1)), none);
 }
 
+// Of the tip of a screw, 1e-19 m from its axis, it was said that turns about that move it.
+TEST(Revolution, ATipIsOnTheAxisAsFarAsFilesTell)
+{
+    TriMesh pencil = makeCylinder(0.1, 1.0, 24, 1);
+    Eigen::Index tip = 0;
+    const double nearest = pencil.points.topRows(1).cwiseAbs2().row(0).minCoeff(&tip);
+    ASSERT_EQ(nearest, 0.0);
+    pencil.points.col(tip) *= 1.4;
+    pencil.points.col(tip).x() = 1e-9;
+    EXPECT_EQ(turnsThatShow(pencil), Vec3(1.0, 0.0, 1.0));
+    pencil.points.col(tip).x() = 1e-3;
+    EXPECT_EQ(turnsThatShow(pencil), Vec3(Vec3::Ones()));
+}
+
 TEST(Revolution, AHandleShows)
 {
     TriMesh mug = makeCylinder(0.5, 1.0, 48, 4);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
@@ -46,6 +47,33 @@ TEST(Stillness, AHeapSettlesWhenNineInTenHaveStayedNearbyForAWhileOrAroundForLon
     EXPECT_TRUE(settles(1, 0, longAround));
     EXPECT_FALSE(settles(2, 0, longAround));
     EXPECT_FALSE(settles(0, 0, longAround - 1));
+}
+
+/// How long a body of this shape that circles on its rim is seen to have stayed around, after 48
+/// frames in which it has turned almost twice around its own axis [frames].
+int framesAround(const std::shared_ptr<const Shape>& shape, double tilt)
+{
+    World world;
+    world.frameDuration = 1.0 / 24.0;
+    addBody(world, shape, addMaterial(world, 0.5, 0.0), {});
+    world.contactMemory.rest.resize(1);
+    for (int f = 0; f <= 48; ++f) {
+        const Quat leaning = fromEulerXyz({0.0, 2.3 * f, 0.0}) * fromEulerXyz({tilt, 0.0, 0.0});
+        const Quat worldFromAsset = leaning * fromEulerXyz({0.0, -2.06 * f, 0.0});
+        world.motion[0].orientation = worldFromAsset * shape->bodyFromAsset.orientation.conjugate();
+        noteStays(world);
+    }
+    return world.contactMemory.rest[0].around.frames;
+}
+
+// A screw that circled on its head turned about its own axis as well, never stayed anywhere for
+// more than five frames, and kept a heap of four hundred awake for eight seconds.
+TEST(Stillness, WhatCirclesOnItsRimStaysAroundThoughItTurns)
+{
+    const auto can = buildMeshShape("can", makeCylinder(0.03, 0.12, 24, 1));
+    EXPECT_EQ(framesAround(can, 0.06), 48);
+    EXPECT_LT(framesAround(can, 0.5), 5);
+    EXPECT_LT(framesAround(boxShape({0.06, 0.12, 0.06}, 1), 0.06), 5);
 }
 
 }  // namespace
