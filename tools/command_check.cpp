@@ -356,8 +356,7 @@ Command addCheckCommand(CLI::App& program)
         ->check(CLI::Range(0, 1000));
     addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");
-    command->add_flag("--no-cache", options->noCache,
-                      "Make every distance field and repaired solid anew and keep none");
+    addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
     command->footer(
         "Ends with 65 when sim would refuse the shot.\n"

@@ -230,6 +230,13 @@ void addOverrides(CLI::App& command, std::vector<std::string>& overrides)
         ->take_all();
 }
 
+void addNoCache(CLI::App& command, bool& noCache)
+{
+    command.add_flag("--no-cache", noCache,
+                     "Make every distance field and repaired solid anew and keep none: else they "
+                     "stay in ~/.cache/scree, up to 4 GiB of what was used last");
+}
+
 void addImportLimits(CLI::App& command, ImportLimits& limits)
 {
     for (const LimitFlag& limit : kLimitFlags) {

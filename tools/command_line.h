@@ -47,6 +47,9 @@ std::optional<int> processorQuota(const std::filesystem::path& cgroupRoot,
 /// Adds --set, which may stand many times. `overrides` must outlive the command.
 void addOverrides(CLI::App& command, std::vector<std::string>& overrides);
 
+/// Adds --no-cache. `noCache` must outlive the command.
+void addNoCache(CLI::App& command, bool& noCache);
+
 /// Adds the flags that change what an asset may hold: --import-points and the like. `limits` must
 /// outlive the command.
 void addImportLimits(CLI::App& command, ImportLimits& limits);

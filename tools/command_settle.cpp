@@ -38,6 +38,7 @@ struct SettleOptions {
     // The literal method keeps two blocks on each other creeping by 0.0016 for ever.
     double tolerance = 5e-3;
     std::optional<int> threads;
+    bool noCache = false;
     std::vector<std::string> overrides;
     ImportLimits importLimits;
 };
@@ -103,7 +104,7 @@ public:
         createFolderOf(options.output, console);
         AtomicFile{options.output};  // says now that nothing can be created there
         setThreadCount(threadsToUse(options.threads));
-        ShapeCache cache(defaultCacheFolder());
+        ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
         StoppableStore store(cache, console);
         world_ = buildWorld(shot_, &store);
         if (!cache.problem().empty()) console.warning("cache of shapes: " + cache.problem());
@@ -247,6 +248,7 @@ Command addSettleCommand(CLI::App& program)
         ->check(CLI::Range(1e-12, 1.0));
     addImportLimits(*command, options->importLimits);
     command->add_option("--threads", options->threads, "Number of threads [all]");
+    addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
     command->footer(
         "Ends with 79 when something still moves at the end; the pose is written all the same.\n"

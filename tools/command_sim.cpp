@@ -433,8 +433,7 @@ Command addSimCommand(CLI::App& program)
                         "differ from the take's in length, settings and looks, not in bodies: of "
                         "its last frame, the same take with another camera. With --resume: begin "
                         "so when there is nothing to resume");
-    command->add_flag("--no-cache", options->noCache,
-                      "Make every distance field and repaired solid anew and keep none");
+    addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
     command->footer(
