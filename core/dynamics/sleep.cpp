@@ -131,7 +131,7 @@ void fallAsleep(World& world, const StepSettings& settings, const GapScratch& sc
 {
     std::vector<BodyRest>& rest = world.contactMemory.rest;
     rest.resize(world.bodyCount());
-    noteStays(world);
+    noteStays(world, scratch.forces);
     const std::vector<char> maySleep = whoMaySleep(world, scratch);
     calmWhatRocks(world, scratch);
     if (std::ranges::find(maySleep, 1) == maySleep.end()) return;

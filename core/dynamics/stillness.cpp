@@ -13,7 +13,9 @@ namespace {
 /// A body that stays within this share of its size of one place is still: an eighth of a millimetre
 /// on a ring of 2.5 m. A domino at the point of falling passes it within a few frames.
 constexpr double kStill = 1e-4;
-/// For so long, in units of time: half a second for that ring.
+/// For so long, in units of time: half a second for that ring. Small things, which must lie still
+/// for as many frames, may come so many times as far: a cone of 8 cm whose centre of mass lay a
+/// third of a micrometre beside its axis rolled on at 13 µm/s, and never slept.
 constexpr double kStillTime = 1.4;
 
 /// What has stayed within this share of its size of one place may rock, but goes nowhere.
@@ -54,6 +56,12 @@ bool goesFarInAFrame(const World& world, BodyId body)
     const Vec3 spin = inertia.inverseInertia * motion.angularMomentum;
     const double speed = motion.velocity.norm() + spin.norm() * radius;
     return speed * world.frameDuration > kFarInAFrame * radius;
+}
+
+double stillShare(const World& world, BodyId body, const AppliedForce& force)
+{
+    const double unit = unitOfTime(world, body, force.acceleration.norm());
+    return kStill * std::max(kStillFrames * world.frameDuration / (kStillTime * unit), 1.0);
 }
 
 /// One more frame within `share` of its size of the place, of which it is `way` away, or a new
@@ -113,13 +121,14 @@ bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& 
            kSettlingShare * static_cast<double>(island.movers.size());
 }
 
-void noteStays(World& world)
+void noteStays(World& world, const std::vector<AppliedForce>& forces)
 {
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (!world.isStepped(body)) continue;
         BodyRest& rest = world.contactMemory.rest[i];
-        noteStay(world, body, kStill, travelled(world, body, rest.still), rest.still);
+        noteStay(world, body, stillShare(world, body, forces[i]),
+                 travelled(world, body, rest.still), rest.still);
         noteStay(world, body, kNearby, travelled(world, body, rest.nearby), rest.nearby);
         noteStay(world, body, kAround, travelledInSight(world, body, rest.around), rest.around);
     }

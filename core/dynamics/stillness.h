@@ -33,7 +33,7 @@ inline constexpr double kLongAround = 16.0;
 bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& island);
 
 /// At the end of a frame: notes of every body whether it has stayed where it was, or where it is
-/// now. `rest` of the memory must have room for all.
-void noteStays(World& world);
+/// now. `forces`: on all bodies, in the frame; `rest` of the memory must have room for all.
+void noteStays(World& world, const std::vector<AppliedForce>& forces);
 
 }  // namespace scree

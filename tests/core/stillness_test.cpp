@@ -49,6 +49,33 @@ TEST(Stillness, AHeapSettlesWhenNineInTenHaveStayedNearbyForAWhileOrAroundForLon
     EXPECT_FALSE(settles(0, 0, longAround - 1));
 }
 
+/// Whether a cube that creeps is still after half a second; `speed` as a share of √(size · g).
+bool isStill(double edge, double speed)
+{
+    World world;
+    world.frameDuration = 1.0 / 24.0;
+    const auto cube = boxShape({edge, edge, edge}, 1);
+    addBody(world, cube, addMaterial(world, 0.5, 0.0), {});
+    world.contactMemory.rest.resize(1);
+    for (int f = 0; f <= kStillFrames; ++f) {
+        world.motion[0].position.x() =
+            f * world.frameDuration * speed * std::sqrt(cube->boundingRadius * 9.8);
+        noteStays(world, {{Vec3(0.0, -9.8, 0.0)}});
+    }
+    return world.contactMemory.rest[0].still.frames >= kStillFrames;
+}
+
+// A cone of 8 cm whose centre of mass lay a third of a micrometre beside its axis rolled on at
+// 13 µm/s, and never slept.
+TEST(Stillness, SmallThingsMayCreepAsFastForTheirSizeAsLargeOnes)
+{
+    for (const double edge : {0.03, 0.1, 1.4}) {
+        EXPECT_TRUE(isStill(edge, 6e-5)) << edge;
+        EXPECT_FALSE(isStill(edge, 9e-5)) << edge;
+    }
+    EXPECT_TRUE(isStill(14.0, 1.5e-4));  // and half a second is short for what is larger
+}
+
 /// How long a body of this shape that circles on its rim is seen to have stayed around, after 48
 /// frames in which it has turned almost twice around its own axis [frames].
 int framesAround(const std::shared_ptr<const Shape>& shape, double tilt)
@@ -61,7 +88,7 @@ int framesAround(const std::shared_ptr<const Shape>& shape, double tilt)
         const Quat leaning = fromEulerXyz({0.0, 2.3 * f, 0.0}) * fromEulerXyz({tilt, 0.0, 0.0});
         const Quat worldFromAsset = leaning * fromEulerXyz({0.0, -2.06 * f, 0.0});
         world.motion[0].orientation = worldFromAsset * shape->bodyFromAsset.orientation.conjugate();
-        noteStays(world);
+        noteStays(world, {{Vec3(0.0, -9.8, 0.0)}});
     }
     return world.contactMemory.rest[0].around.frames;
 }
