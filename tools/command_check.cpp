@@ -19,7 +19,7 @@
 #include "tools/run_estimate.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/stoppable_store.h"
+#include "tools/stoppable_build.h"
 
 namespace scree {
 namespace {
@@ -316,12 +316,9 @@ int checkShot(const CheckOptions& options, Console& console)
     }
     setThreadCount(threadsToUse(options.threads));
     ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-    StoppableStore store(cache, console);
-    const World world = buildWorld(shot, &store);
-    if (!cache.problem().empty()) console.warning("cache of shapes: " + cache.problem());
-    store.heedSignals();
+    const World world = buildStoppably(shot, cache, console);
     const ShotReport report = examine(shot, world, options.estimateFrames);
-    store.heedSignals();
+    heedEarlySignals(console);
     if (options.json)
         printJson(shot, world, report);
     else

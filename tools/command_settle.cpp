@@ -26,7 +26,7 @@
 #include "tools/settled_poses.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/stoppable_store.h"
+#include "tools/stoppable_build.h"
 #include "tools/take_export.h"
 
 namespace scree {
@@ -105,10 +105,7 @@ public:
         AtomicFile{options.output};  // says now that nothing can be created there
         setThreadCount(threadsToUse(options.threads));
         ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-        StoppableStore store(cache, console);
-        world_ = buildWorld(shot_, &store);
-        if (!cache.problem().empty()) console.warning("cache of shapes: " + cache.problem());
-        store.heedSignals();
+        world_ = buildStoppably(shot_, cache, console);
         endOfEvents_ = endOfEvents(world_);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);

@@ -28,7 +28,7 @@
 #include "tools/simulation.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/stoppable_store.h"
+#include "tools/stoppable_build.h"
 #include "tools/take_export.h"
 #include "tools/version.h"
 
@@ -82,9 +82,7 @@ public:
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
         ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-        StoppableStore store(cache, console);
-        world_ = buildWorld(shot_, &store);
-        if (!cache.problem().empty()) console.warning("cache of shapes: " + cache.problem());
+        world_ = buildStoppably(shot_, cache, console);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
         for (const std::string& warning : warningsBeforeStart(shot_, world_)) {
@@ -94,7 +92,6 @@ public:
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
                                                         : ExistingTake::refuse;
-        store.heedSignals();
         take_.emplace(folder, shot_, world_, programVersion(), existing, branch);
         for (const std::string& notice : take_->notices()) console.warning(notice);
         std::vector<ShotBody>().swap(shot_.bodies);  // the world has them; a kilobyte each

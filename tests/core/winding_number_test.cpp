@@ -4,19 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/primitives.h"
+#include "tests/support/both_meshes.h"
 
 namespace scree {
 namespace {
-
-TriMesh joined(const TriMesh& a, const TriMesh& b)
-{
-    TriMesh both{Points(3, a.points.cols() + b.points.cols()),
-                 Triangles(3, a.triangles.cols() + b.triangles.cols())};
-    both.points << a.points, b.points;
-    both.triangles << a.triangles,
-        (b.triangles.array() + static_cast<int>(a.points.cols())).matrix();
-    return both;
-}
 
 TEST(WindingNumber, IsOneInsideAndNoneOutsideRightUpToTheSurface)
 {
@@ -33,11 +24,11 @@ TEST(WindingNumber, CountsSurfacesAroundEachOtherAndThoseThatFaceInward)
     TriMesh turned = small;
     turned.triangles.row(1).swap(turned.triangles.row(2));
     const Vec3 inBoth(0.3, 0.2, -0.1), inOne(1.5, 0.1, 0.2);
-    EXPECT_NEAR(WindingNumber(joined(small, large)).at(inBoth), 2.0, 0.03);
-    EXPECT_NEAR(WindingNumber(joined(small, large)).at(inOne), 1.0, 0.03);
-    EXPECT_NEAR(WindingNumber(joined(turned, large)).at(inBoth), 0.0, 0.03);
+    EXPECT_NEAR(WindingNumber(test::both(small, large)).at(inBoth), 2.0, 0.03);
+    EXPECT_NEAR(WindingNumber(test::both(small, large)).at(inOne), 1.0, 0.03);
+    EXPECT_NEAR(WindingNumber(test::both(turned, large)).at(inBoth), 0.0, 0.03);
     EXPECT_NEAR(WindingNumber(turned).at(inBoth), -1.0, 0.03);
-    const TriMesh four = joined(joined(small, small), joined(small, small));
+    const TriMesh four = test::both(test::both(small, small), test::both(small, small));
     EXPECT_NEAR(WindingNumber(four).at(inBoth), 4.0, 0.03);
 }
 

@@ -1,0 +1,17 @@
+// Signals while the shapes of a shot are made, which can take minutes.
+#pragma once
+
+#include "io/build_world.h"
+#include "io/shape_cache.h"
+#include "tools/console.h"
+
+namespace scree {
+
+/// For when there is nothing to save yet: says so to who asks for it, and throws Stopped.
+void heedEarlySignals(Console& console);
+
+/// The world of a shot, with shapes from `cache`; what keeps that from its work is warned of.
+/// Signals are heeded before and after each solid and distance field, and at the end.
+World buildStoppably(const Shot& shot, ShapeCache& cache, Console& console);
+
+}  // namespace scree
