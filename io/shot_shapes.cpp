@@ -32,16 +32,19 @@ void readRepair(const ShotNode& mesh, double metresPerUnit, ShapeSettings& setti
     const ShotNode* repair = mesh.find("repair");
     const ShotNode* thickness = mesh.find("thickness");
     const std::string asked = wordOf(mesh, "repair");
-    const bool isShell = asked == "shell", isGround = asked == "ground";
+    const bool isShell = asked == "shell", isGround = asked == "ground", isRoom = asked == "room";
     settings.repair = isShell           ? MeshRepair::shell
                       : isGround        ? MeshRepair::ground
+                      : isRoom          ? MeshRepair::room
                       : asked == "wrap" ? MeshRepair::wrap
                                         : MeshRepair::none;
     if (isShell && !mesh.mentions("thickness")) {
         problems.add(repair->where, "a \"shell\" needs a 'thickness'");
     }
-    if (!isShell && !isGround && thickness && !mesh.isUnclear("repair"))
-        problems.add(thickness->where, "only a \"shell\" and a \"ground\" have a 'thickness'");
+    if (!isShell && !isGround && !isRoom && thickness && !mesh.isUnclear("repair")) {
+        problems.add(thickness->where,
+                     "only a \"shell\", a \"ground\" and a \"room\" have a 'thickness'");
+    }
     if (thickness) settings.repairThickness = thickness->number * metresPerUnit;
 }
 

@@ -268,6 +268,7 @@ nlohmann::ordered_json toJson(const ShapeUse& use)
             {"turned", shape.repairs.harmless.isTurned},
             {"remeshed", shape.repairs.voxel > 0.0},
             {"ground_depth_m", shape.repairs.groundDepth},
+            {"room_wall_m", shape.repairs.roomWall},
             {"collision_mesh", shape.repairs.hasCollisionMesh},
             {"drawn_to_colliding_m", apart.distance},
             {"drawn_to_colliding_at", {apart.place[0], apart.place[1], apart.place[2]}},

@@ -53,7 +53,21 @@ std::string sentenceOf(const std::vector<StartOverlap>& overlaps, const World& w
            " before anything moves:" + listOf(overlaps, world);
 }
 
-constexpr const char* kAdvice = "\nMove them, or write [start] overlap = \"separate\" or \"warn\"";
+/// What to do about them. A mesh that looks inward has been turned, and may have been a room.
+std::string adviceOn(const std::vector<StartOverlap>& overlaps, const World& world)
+{
+    std::string text = "\nMove them, or write [start] overlap = \"separate\" or \"warn\"";
+    for (const StartOverlap& overlap : overlaps) {
+        for (const BodyId body : {overlap.a, overlap.b}) {
+            const Shape& shape = world.shapeOf(body);
+            if (!shape.repairs.harmless.isTurned) continue;
+            return text + "\nThe mesh of shape '" + shape.name +
+                   "' was inside-out and has been turned, so that it is full; if it is a room seen "
+                   "from inside, write mesh = { repair = \"room\" }";
+        }
+    }
+    return text;
+}
 
 std::string namesOf(const std::vector<BodyId>& bodies, const World& world)
 {
@@ -181,6 +195,8 @@ std::string describeAsked(const ShapeRepairs& done)
             return formatted("wrapped with voxels of %.3g m", done.voxel);
         case MeshRepair::shell:
             return formatted("made a shell with voxels of %.3g m", done.voxel);
+        case MeshRepair::room:
+            return formatted("put walls of %.3g m around it", done.roomWall);
         case MeshRepair::ground:
             break;
     }
@@ -208,7 +224,7 @@ void applyStartRule(const Shot& shot, World& world, Console& console)
     const std::string what = sentenceOf(overlaps, world);
     switch (shot.startOverlap) {
         case StartOverlapRule::error:
-            throw Error(ErrorKind::badInput, what + kAdvice);
+            throw Error(ErrorKind::badInput, what + adviceOn(overlaps, world));
         case StartOverlapRule::warn:
             console.warning(what);
             return;
@@ -231,7 +247,7 @@ bool foretellStartRule(const Shot& shot, const World& world,
     const std::string what = sentenceOf(overlaps, world);
     switch (shot.startOverlap) {
         case StartOverlapRule::error:
-            console.error(what + kAdvice);
+            console.error(what + adviceOn(overlaps, world));
             return false;
         case StartOverlapRule::warn:
             console.warning(what);
@@ -296,8 +312,10 @@ std::vector<std::string> repairsOf(const World& world)
         if (done.hasCollisionMesh) text += "collides as a mesh of its own";
         if (done.hasCollisionMesh && done.asked != MeshRepair::none) text += ", ";
         text += describeAsked(done);
-        // The walls and the floor of a ground are nowhere near what is drawn, nor need they be.
-        const bool isComparable = done.asked != MeshRepair::ground || done.hasCollisionMesh;
+        // The walls and the floor of a ground, and the outside of a room, are nowhere near what is
+        // drawn, nor need they be.
+        const bool isExact = done.asked == MeshRepair::ground || done.asked == MeshRepair::room;
+        const bool isComparable = !isExact || done.hasCollisionMesh;
         repairs.push_back(isComparable ? text + "; " + describe(done.drawnToColliding) : text);
     }
     return repairs;

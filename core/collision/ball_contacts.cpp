@@ -113,12 +113,12 @@ void findByField(const SignedDistance& field, const Vec3& c, double radius, doub
 
 }  // namespace
 
-void findBallContacts(const RelativePair& pair, double reach, std::vector<BallContact>& found)
+void findBallContacts(const Ball& ball, const Shape& surface, double reach,
+                      std::vector<BallContact>& found)
 {
     found.clear();
-    const SignedDistance& field = pair.second.distance;
-    const double radius = pair.first.capsule.radius;
-    const Vec3& c = pair.translation;
+    const SignedDistance& field = surface.distance;
+    const auto& [c, radius] = ball;
     if (field.lowerBound(c) - radius >= reach) return;
     if (field.solid() || field.value(c) <= kSharpness * radius) {
         return findByField(field, c, radius, reach, found);
@@ -126,7 +126,7 @@ void findBallContacts(const RelativePair& pair, double reach, std::vector<BallCo
 
     thread_local std::vector<Place> places;
     thread_local std::vector<Neighbour> neighbours;
-    lookAround(pair.second, c, radius + reach, places, neighbours);
+    lookAround(surface, c, radius + reach, places, neighbours);
     double nearest = std::numeric_limits<double>::infinity();
     for (const Place& place : places) nearest = std::min(nearest, place.distance);
     const double slack = kEquallyNear * radius;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/collision/relative_pair.h"
+#include "core/math/ball.h"
 
 namespace scree {
 
@@ -24,7 +25,8 @@ struct BallContact {
     FeatureContact contact;
 };
 
-/// Of the first shape, a ball, all contacts with gaps below `reach` [m], ordered by place.
-void findBallContacts(const RelativePair& pair, double reach, std::vector<BallContact>& found);
+/// Of a ball in the frame of a shape all contacts with gaps below `reach` [m], ordered by place.
+void findBallContacts(const Ball& ball, const Shape& surface, double reach,
+                      std::vector<BallContact>& found);
 
 }  // namespace scree

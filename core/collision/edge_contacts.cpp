@@ -55,13 +55,18 @@ bool isNear(const Shape& shape, const Vec3& place, double reach)
 }
 
 /// Whether the lines of two edges that overlap are nearest where these are, or not far past an end
-/// of them. Of an edge that goes on straight the next piece speaks there. The edges themselves must
-/// be where edges that touch are looked for: near the other body, and not outside each other.
+/// of them. Of an edge that goes on straight the next piece speaks there, and on a fine surface
+/// those around its end do: of pebbles in a heap four in five pairs of edges that were asked were
+/// such. The edges themselves must be where edges that touch are looked for: near the other body,
+/// and not outside each other.
 bool overlapNearEnds(const RelativePair& pair, const ConvexEdge& a, const ConvexEdge& b,
                      const Crossing& at, double gap, double reach)
 {
-    if (at.beyondFirst > 0.0 && a.goesOn[at.endOfFirst]) return false;
-    if (at.beyondSecond > 0.0 && b.goesOn[at.endOfSecond]) return false;
+    const auto isSpokenFor = [](const ConvexEdge& edge, double past, int end) {
+        return past > 0.0 && (edge.goesOn[end] || edge.endsFine[end]);
+    };
+    if (isSpokenFor(a, at.beyondFirst, at.endOfFirst)) return false;
+    if (isSpokenFor(b, at.beyondSecond, at.endOfSecond)) return false;
     const double beyond = std::max(at.beyondFirst, 0.0) + std::max(at.beyondSecond, 0.0);
     const double deepest = deepestEdges(pair);
     if (beyond > -kPastEnds * gap || beyond * beyond + gap * gap > deepest * deepest) return false;

@@ -8,6 +8,7 @@
 #include "core/base/fetch.h"
 #include "core/collision/ball_contacts.h"
 #include "core/collision/capsule_contacts.h"
+#include "core/collision/capsule_places.h"
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
 #include "core/collision/corner_contacts.h"
@@ -75,25 +76,63 @@ double addCapsuleContacts(const BothWays& ways, double reach, std::vector<GapCon
     return apart;
 }
 
+/// Adds where a ball, or one that ends a capsule, touches.
+void addBallContact(const RelativePair& way, const ToWorld& toWorld, std::int32_t part,
+                    std::uint64_t feature, const BallContact& ball, ContactList& list)
+{
+    const auto [one, other] = ball.place;
+    const auto add = [&](ContactPart ofSecond) {
+        return list.add(way, {Part::ball, part}, ofSecond, toWorld, feature, ball.contact);
+    };
+    // Where one round part goes over into another, as at the end of the side of a capsule, the
+    // triangle may be of the wrong one.
+    const bool isFace = other == 0;
+    if (add({Part::face}) || isFace) return;
+    if (!add({Part::corner, one - 1}) && other != one) add({Part::corner, other - 1});
+}
+
 /// Of a pair of which one is a ball.
 void addBallContacts(const BothWays& ways, double reach, ContactList& list)
 {
     const bool isA = ways.pair.first.isBall();
     const RelativePair& way = isA ? ways.pair : ways.back;
+    const Ball ball{way.translation, way.first.capsule.radius};
     thread_local std::vector<BallContact> found;
-    findBallContacts(way, reach, found);
-    for (const BallContact& ball : found) {
-        const auto [one, other] = ball.place;
-        const auto add = [&](ContactPart ofSecond) {
-            return list.add(way, {Part::ball}, ofSecond, isA ? ways.ofA : ways.ofB,
-                            featureId(FeatureKind::ball, one, other), ball.contact);
-        };
-        // Where one round part goes over into another, as at the end of the side of a capsule, the
-        // triangle may be of the wrong one.
-        const bool isFace = other == 0;
-        if (add({Part::face}) || isFace) continue;
-        if (!add({Part::corner, one - 1}) && other != one) add({Part::corner, other - 1});
+    findBallContacts(ball, way.second, reach, found);
+    for (const BallContact& one : found) {
+        const auto [place, other] = one.place;
+        addBallContact(way, isA ? ways.ofA : ways.ofB, 0,
+                       featureId(FeatureKind::ball, place, other), one, list);
     }
+}
+
+/// Whether the one is a capsule and the other a mesh.
+bool isCapsuleOnMesh(const RelativePair& pair)
+{
+    const Shape& mesh = pair.first.isCapsule() ? pair.second : pair.first;
+    return (pair.first.isCapsule() || pair.second.isCapsule()) && !mesh.distance.solid();
+}
+
+/// Of such a pair, the ones of the facets aside; answers how far the two are apart, or nothing
+/// where those must tell [m].
+std::optional<double> addCapsulePlaces(const BothWays& ways, double reach, ContactList& list)
+{
+    const bool isA = ways.pair.first.isCapsule();
+    const RelativePair& way = isA ? ways.pair : ways.back;
+    const ToWorld& toWorld = isA ? ways.ofA : ways.ofB;
+    thread_local CapsulePlaces found;
+    const std::optional<double> apart = findCapsulePlaces(way, reach, found);
+    if (!apart) return {};
+    const auto featureAt = [](int part, const std::array<std::int32_t, 2>& place) {
+        return featureId(FeatureKind::ball, 3 * place[0] + part, place[1]);
+    };
+    for (const int part : {1, 2}) {
+        for (const BallContact& one : found.ofEnd[part - 1])
+            addBallContact(way, toWorld, part, featureAt(part, one.place), one, list);
+    }
+    for (const CapsulePlace& one : found.between)
+        list.add(way, {Part::ball, 0}, one.ofMesh, toWorld, featureAt(0, one.place), one.contact);
+    return apart;
 }
 
 GapContact inWorld(const BothWays& ways, const DeepContact& deep)
@@ -225,6 +264,12 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
         addBallContacts(ways, reach, list);
         list.finish();
         return 0.0;
+    }
+    if (isCapsuleOnMesh(pair)) {
+        if (const auto apart = addCapsulePlaces(ways, reach, list)) {
+            list.finish();
+            return *apart - bulge;
+        }
     }
 
     const std::optional<DeepContact> deep = findDeepContact(pair, back);

@@ -52,6 +52,12 @@ std::int32_t nearestVertex(const Shape& shape, std::int32_t triangle, const Vec3
 const Mat3 kUnturned = Mat3::Identity();
 const Vec3 kUnmoved = Vec3::Zero();
 
+/// Of the ball at an end of a capsule; of what is between the ends, the middle.
+Vec3 centreOf(const Capsule& capsule, std::int32_t part)
+{
+    return part == 0 ? Vec3(Vec3::Zero()) : part == 1 ? Vec3(-capsule.half) : capsule.half;
+}
+
 /// One body of a contact, seen from the second.
 class Side {
 public:
@@ -63,8 +69,13 @@ public:
     {
         if (part.kind == Kind::ball) {
             isRound_ = true;
-            place_ = {translation, 0.0, shape.capsule.radius * Mat3::Identity()};
-        } else if (!shape.isBall() && !shape.roundFacets.isEmpty()) {
+            isSide_ = part.index == 0 && !shape.isBall();
+            if (isSide_) axis_ = (rotation * shape.capsule.half).normalized();
+            centre_ = rotation * centreOf(shape.capsule, part.index) + translation;
+            place_ = {centre_, 0.0, shape.capsule.radius * Mat3::Identity()};
+            return;
+        }
+        if (!shape.roundFacets.isEmpty()) {
             findFacet(rotation.transpose() * (near - translation), rotation.transpose() * outward);
         }
         if (facet_ < 0 && part.kind == Kind::corner) rim_ = shape.rims.atCorner(part.index);
@@ -89,7 +100,7 @@ public:
     {
         if (!isRound_) return Search::found;
         if (part_.kind == Kind::ball) {
-            place_.point = translation_ + shape_.capsule.radius * outward;
+            place_.point = centre_ + shape_.capsule.radius * outward;
             return Search::found;
         }
         const Vec3 own = rotation_.transpose() * outward;
@@ -105,6 +116,10 @@ public:
     bool isNearest(const Vec3& outward, const Vec3& other) const
     {
         const Vec3 inward = -(rotation_.transpose() * outward);
+        if (part_.kind == Kind::ball) {
+            return !isSide_ ||
+                   std::abs(axis_->dot(other - translation_)) <= shape_.capsule.half.norm();
+        }
         if (isSide_) {
             const Vec3 opposite = other - outward.dot(other - place_.point) * outward;
             const Vec3 here = rotation_.transpose() * (opposite - translation_);
@@ -135,8 +150,9 @@ public:
         return {};
     }
 
-    std::int32_t sharpPart() const
+    std::int32_t partWithin() const
     {
+        if (part_.kind == Kind::ball) return part_.index;
         if (isRound_ || part_.kind == Kind::face) return 0;
         return 2 * part_.index + (part_.kind == Kind::corner ? 1 : 2);
     }
@@ -165,6 +181,7 @@ private:
     ContactPart part_;
     const Mat3& rotation_;
     const Vec3& translation_;
+    Vec3 centre_;                         // of a ball
     std::int32_t facet_ = -1, rim_ = -1;  // the one or the other where a mesh is round
     bool isRound_ = false, isSide_ = false;
     RoundPlace place_;
@@ -318,8 +335,8 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
         }
         return {Result::rounded,
                 {onX - x.bulge * n, n, apart - x.bulge - y.bulge},
-                first.sharpPart(),
-                second.sharpPart()};
+                first.partWithin(),
+                second.partWithin()};
     }
     return {};
 }

@@ -18,7 +18,9 @@ namespace scree {
 struct ContactPart {
     enum class Kind { face, corner, edge, ball };
     Kind kind;
-    std::int32_t index = 0;  ///< of the corner in the mesh or of the edge among the convex ones
+    /// Of the corner in the mesh or of the edge among the convex ones; of a capsule, which is of
+    /// kind ball, 0 between its ends, else 1 or 2 for an end.
+    std::int32_t index = 0;
 };
 
 struct Rounding {
@@ -29,7 +31,8 @@ struct Rounding {
     };
     Result result = Result::none;
     FeatureContact contact = {};
-    /// Which parts it is of: 0 where a body is round or flat, else its sharp corner or edge.
+    /// Which parts it is of: 0 where a body is round or flat, else its sharp corner or edge, or the
+    /// end of a capsule.
     std::int32_t first = 0, second = 0;
 };
 

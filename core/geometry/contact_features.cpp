@@ -10,6 +10,10 @@ namespace {
 /// Sine of the bend below which an edge lies inside a flat region.
 constexpr double kFlat = 1e-3;
 
+/// Cosine of the bend up to which an edge is one of a fine surface, and sine of that inward which
+/// makes a notch.
+constexpr double kFine = 0.7, kNotch = 0.05;
+
 void addDirection(std::vector<Vec3>& directions, const Vec3& direction)
 {
     for (const Vec3& known : directions) {
@@ -39,6 +43,7 @@ EdgeLine lineOf(const ConvexEdge& edge)
 ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
 {
     std::vector<std::vector<Vec3>> around(points_.cols()), normals(points_.cols());
+    std::vector<char> isFine(points_.cols(), 1);
     std::vector<Sphere> edgeSpheres, creaseSpheres;
     MeshEdges(mesh).forEach([&](std::span<const TriangleSide> sides) {
         const std::array<int, 2> ends = {sides[0].low, sides[0].high};
@@ -48,7 +53,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         around[ends[0]].push_back(direction);
         around[ends[1]].push_back(-direction);
 
-        ConvexEdge edge{ends, start, direction, length, {}, {}, {}, {}};
+        ConvexEdge edge{ends, start, direction, length, {}, {}, {}, {}, {}};
         for (int side = 0; side < 2; ++side) {
             edge.faceNormal[side] = cornersOf(mesh, sides[side].triangle).normal();
             const Vec3 across = oppositeCorner(mesh, sides[side]) - start;
@@ -61,6 +66,8 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
             creases_.push_back({start, direction, length, edge.faceNormal, edge.intoFace});
             creaseSpheres.push_back({0.5 * (start + end), 0.5 * length});
         }
+        if (rises > kNotch || edge.faceNormal[0].dot(edge.faceNormal[1]) < kFine)
+            for (const int point : ends) isFine[point] = 0;
         if (rises > -kFlat) return;
         edge.outward = (edge.faceNormal[0] + edge.faceNormal[1]).normalized();
         hasBlades_ = hasBlades_ || edge.faceNormal[0].dot(edge.faceNormal[1]) < kBlade;
@@ -77,7 +84,10 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
     // A point with faces in one or two directions lies inside a flat region or a straight edge:
     // edges go on there, and whatever touches it also touches the region's true corners or edges.
     for (ConvexEdge& edge : edges_) {
-        for (int end : {0, 1}) edge.goesOn[end] = normals[edge.ends[end]].size() < 3;
+        for (const int end : {0, 1}) {
+            edge.goesOn[end] = normals[edge.ends[end]].size() < 3;
+            edge.endsFine[end] = isFine[edge.ends[end]];
+        }
     }
     std::vector<Sphere> cornerSpheres;
     for (std::size_t v = 0; v < normals.size(); ++v) {

@@ -27,6 +27,7 @@ struct ConvexEdge {
     std::array<Vec3, 2> intoFace;    ///< unit, in each face, away from the edge
     Vec3 outward;                    ///< unit, halfway between the normals of its faces
     std::array<bool, 2> goesOn;      ///< past either end, straight, as another edge
+    std::array<bool, 2> endsFine;    ///< there the surface bends outward all around, by a little
 };
 
 /// An edge where the surface bends inward, by enough that what slides along one side must be told

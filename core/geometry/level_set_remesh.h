@@ -13,6 +13,7 @@ enum class MeshRepair {
     wrap,    ///< the solid around which the mesh winds more than half: closes holes, joins parts
     shell,   ///< everything within half a thickness of the mesh
     ground,  ///< what lies below an open sheet: ground_solid.h
+    room,    ///< the walls around a closed mesh that is seen from inside: room_solid.h
 };
 
 struct RemeshSettings {

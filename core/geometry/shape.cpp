@@ -12,6 +12,7 @@
 #include "core/geometry/level_set_build.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/revolution.h"
+#include "core/geometry/room_solid.h"
 #include "core/geometry/shape_store.h"
 #include "core/math/rotation.h"
 
@@ -166,6 +167,14 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
         repairs.groundUp = ground.up;
         repairs.groundDepth = ground.depth;
         return std::move(ground.mesh);
+    }
+    if (settings.repair == MeshRepair::room) {
+        // What looks inward has been turned as if it were to be full.
+        if (std::exchange(repairs.harmless.isTurned, false))
+            solid.triangles.row(1).swap(solid.triangles.row(2));
+        RoomSolid room = wallAround(solid, settings.repairThickness, name);
+        repairs.roomWall = room.wall;
+        return std::move(room.mesh);
     }
     repairs.voxel = repairVoxel(solid, settings);
     const RemeshSettings how{settings.repair, settings.repairThickness, repairs.voxel};

@@ -434,6 +434,41 @@ TEST(TortureMesh, WhatMakesNoGroundIsToldWhy)
     }
 }
 
+TEST(TortureMesh, ARoomIsTouchedWhereItIsDrawnAndEmptyWithin)
+{
+    const TriMesh drawn = turned(cube());
+    const auto shape = buildMeshShape("thing", drawn, repairBy(MeshRepair::room, 0.25));
+    EXPECT_EQ(shape->repairs.asked, MeshRepair::room);
+    EXPECT_EQ(shape->repairs.roomWall, 0.25);
+    EXPECT_TRUE(shape->repairs.harmless.isNone());
+    EXPECT_NEAR(shape->unitMass.volume, 1.5 * 1.5 * 1.5 - 1.0, 1e-12);
+    EXPECT_NEAR(shape->distance.value(shape->bodyFromAsset * Vec3(0, 0, 0)), 0.5, 1e-9);
+    EXPECT_NEAR(shape->distance.value(shape->bodyFromAsset * Vec3(0.3, 0.1, 0)), 0.2, 1e-9);
+    EXPECT_NEAR(shape->distance.value(shape->bodyFromAsset * Vec3(0.55, 0, 0)), -0.05, 1e-9);
+    // A tenth of the longest edge where nothing is said; furniture stays full.
+    const TriMesh furnished = both(drawn, scaled(cube(), 0.25));
+    EXPECT_NEAR(buildMeshShape("thing", furnished, repairBy(MeshRepair::room))->unitMass.volume,
+                1.2 * 1.2 * 1.2 - 1.0 + 0.25 * 0.25 * 0.25, 1e-12);
+}
+
+TEST(TortureMesh, WhatMakesNoRoomIsToldWhy)
+{
+    TriMesh open = turned(cube());
+    open.triangles = open.triangles.leftCols(open.triangles.cols() - 1).eval();
+    const std::pair<TriMesh, const char*> cases[] = {
+        {cube(), "its faces look outward"},
+        {open, "open edge"},
+        {both(turned(cube()), moved(scaled(cube(), 0.5), Vec3(0.53, 0.02, 0.01))),
+         "face that pierces another"},
+        {TriMesh(), "no triangles"},
+    };
+    for (const auto& [mesh, why] : cases) {
+        const std::string told = refusalOf(mesh, repairBy(MeshRepair::room));
+        EXPECT_NE(told.find(why), std::string::npos) << told;
+        EXPECT_NE(told.find("'thing'"), std::string::npos);
+    }
+}
+
 TEST(TortureMesh, ASheetCannotBeWrapped)
 {
     EXPECT_NE(refusalOf(sheet(4), repairBy(MeshRepair::wrap)).find("nothing is left"),

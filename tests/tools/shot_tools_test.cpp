@@ -92,6 +92,30 @@ TEST_F(ShotTools, OverlapsAtTheStartAreAnErrorAWarningOrPushedApart)
     EXPECT_TRUE(contains(apart.err, "pushed apart")) << apart.err;
 }
 
+TEST_F(ShotTools, WhatBeginsInsideOfAMeshThatLooksInwardIsToldOfRooms)
+{
+    writeFileBytes(
+        folder / "room.obj",
+        "v -3 0 -3\nv 3 0 -3\nv 3 0 3\nv -3 0 3\nv -3 4 -3\nv 3 4 -3\nv 3 4 3\nv -3 4 3\n"
+        "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+    const auto shotWith = [](const std::string& mesh) {
+        return std::string(kShotText) + "[shape.room]\nfile = \"room.obj\"\n" + mesh +
+               "[[body]]\nname = \"room\"\nshape = \"room\"\nmaterial = \"wood\"\n"
+               "motion = \"static\"\nposition = [0, -0.5, 0]\n";
+    };
+    writeFileBytes(folder / "full.toml", shotWith(""));
+    const Outcome full = run("sim full.toml -o full");
+    EXPECT_EQ(full.code, 65);
+    EXPECT_TRUE(contains(full.err, "shape 'room' was inside-out")) << full.err;
+    EXPECT_TRUE(contains(full.err, "repair = \"room\"")) << full.err;
+
+    writeFileBytes(folder / "empty.toml",
+                   shotWith("mesh = { repair = \"room\", thickness = 0.2 }\n"));
+    const Outcome empty = run("check empty.toml --estimate 1");
+    EXPECT_EQ(empty.code, 0) << empty.err;
+    EXPECT_TRUE(contains(empty.out, "shape 'room': put walls of 0.2 m around it")) << empty.out;
+}
+
 TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
 {
     const Outcome big = run("check drop.toml --estimate 0 --set shape.block.scale=500");
