@@ -1,5 +1,5 @@
-// Pairs of fine meshes: what lies deep in them is told although no edge is asked that another
-// passes beyond its ends.
+// Pairs of fine meshes: what lies deep in them is told by their corners and by edges that cross,
+// without any that are passed beyond their ends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
