@@ -253,7 +253,7 @@ std::vector<BadShot> badShots()
         {"ShellWithoutThickness", kHead + "[shape.a]\nbox = {}\nmesh = { repair = \"shell\" }\n",
          "bad.toml:6:19: a \"shell\" needs a 'thickness'"},
         {"ThicknessWithoutShell", kHead + "[shape.a]\nbox = {}\nmesh = { thickness = 1 }\n",
-         "bad.toml:6:22: only a \"shell\" and a \"ground\" have a 'thickness'"},
+         "bad.toml:6:22: only a \"shell\", a \"ground\" and a \"room\" have a 'thickness'"},
         {"StartOverlap", kHead + "[start]\noverlap = \"wran\"\n",
          "bad.toml:5:11: 'overlap' must be one of \"error\", \"warn\", \"separate\", not \"wran\"; "
          "did you mean 'warn'?"},
