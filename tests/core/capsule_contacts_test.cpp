@@ -11,6 +11,7 @@
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
+#include "tests/support/lying_capsule.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -24,11 +25,9 @@ std::shared_ptr<const Shape> capsule()
     return shape;
 }
 
-/// Of a capsule whose axis lies in that direction.
 Pose lyingAt(const Vec3& position, const Vec3& direction)
 {
-    const Vec3 own = capsule()->capsule.half;
-    return {position, Quat::FromTwoVectors(own, direction)};
+    return lyingAlong(*capsule(), position, direction);
 }
 
 struct Found {

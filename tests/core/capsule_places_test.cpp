@@ -13,6 +13,7 @@
 #include "core/geometry/primitives.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/math/rotation.h"
+#include "tests/support/lying_capsule.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -26,10 +27,9 @@ std::shared_ptr<const Shape> capsule()
     return shape;
 }
 
-/// Of a capsule whose axis lies in that direction.
 Pose lyingAt(const Vec3& position, const Vec3& direction)
 {
-    return {position, Quat::FromTwoVectors(capsule()->capsule.half, direction)};
+    return lyingAlong(*capsule(), position, direction);
 }
 
 /// With a mesh that stands as it was made.
