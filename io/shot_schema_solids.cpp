@@ -275,7 +275,7 @@ const std::vector<ShotKey> kShapeKeys = {
     {.path = "shape.mesh.repair",
      .type = word,
      .byDefault = "\"none\"",
-     .choices = "none|wrap|shell|ground|room",
+     .choices = "none|wrap|shell|ground|room|solidify",
      .help =
          "\"none\" refuses holes, sheets and parts that pierce each other. \"wrap\" collides as "
          "the solid around which the mesh winds: closes holes, joins parts, rounds edges by "
@@ -285,7 +285,9 @@ const std::vector<ShotKey> kShapeKeys = {
          "one side, such as a terrain, by walls down from its rim and a floor: bodies touch "
          "exactly what is drawn, and what its faces look away from is solid. \"room\" puts walls "
          "around a closed mesh that is seen from inside: bodies within touch exactly what is "
-         "drawn. Without it such a mesh is turned, and full."},
+         "drawn. Without it such a mesh is turned, and full. \"solidify\" puts a thickness behind "
+         "the faces of an open sheet that folds, such as the floor and the walls of a stage: "
+         "bodies in front touch exactly what is drawn."},
     {.path = "shape.mesh.thickness",
      .unit = "shot's unit of length",
      .min = 0,
@@ -294,7 +296,7 @@ const std::vector<ShotKey> kShapeKeys = {
          "Of the shell, half of it on either side of the mesh. Thin shells need small time "
          "steps and fine fields. Of the ground, from its lowest point down to its floor, and "
          "of the walls of the room at their thinnest; of these by default a tenth of the longest "
-         "edge."},
+         "edge. Of what is solidified, behind its faces."},
     {.path = "shape.collision",
      .type = table,
      .help = "A mesh of its own for collisions: mass, contacts and all that is said of the solid "

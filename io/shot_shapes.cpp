@@ -32,18 +32,22 @@ void readRepair(const ShotNode& mesh, double metresPerUnit, ShapeSettings& setti
     const ShotNode* repair = mesh.find("repair");
     const ShotNode* thickness = mesh.find("thickness");
     const std::string asked = wordOf(mesh, "repair");
-    const bool isShell = asked == "shell", isGround = asked == "ground", isRoom = asked == "room";
-    settings.repair = isShell           ? MeshRepair::shell
-                      : isGround        ? MeshRepair::ground
-                      : isRoom          ? MeshRepair::room
-                      : asked == "wrap" ? MeshRepair::wrap
-                                        : MeshRepair::none;
-    if (isShell && !mesh.mentions("thickness")) {
-        problems.add(repair->where, "a \"shell\" needs a 'thickness'");
+    settings.repair = asked == "shell"      ? MeshRepair::shell
+                      : asked == "ground"   ? MeshRepair::ground
+                      : asked == "room"     ? MeshRepair::room
+                      : asked == "solidify" ? MeshRepair::solidify
+                      : asked == "wrap"     ? MeshRepair::wrap
+                                            : MeshRepair::none;
+    const bool needsThickness =
+        settings.repair == MeshRepair::shell || settings.repair == MeshRepair::solidify;
+    if (needsThickness && !mesh.mentions("thickness")) {
+        problems.add(repair->where, "\"" + asked + "\" needs a 'thickness'");
     }
-    if (!isShell && !isGround && !isRoom && thickness && !mesh.isUnclear("repair")) {
+    const bool hasThickness =
+        settings.repair != MeshRepair::none && settings.repair != MeshRepair::wrap;
+    if (!hasThickness && thickness && !mesh.isUnclear("repair")) {
         problems.add(thickness->where,
-                     "only a \"shell\", a \"ground\" and a \"room\" have a 'thickness'");
+                     "only \"shell\", \"ground\", \"room\" and \"solidify\" have a 'thickness'");
     }
     if (thickness) settings.repairThickness = thickness->number * metresPerUnit;
 }

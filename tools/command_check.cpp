@@ -237,6 +237,12 @@ void printText(const Shot& shot, const World& world, const ShotReport& report,
     printCache(cache);
 }
 
+/// What a repair put behind the mesh [m]; 0 if it was another.
+double behindBy(MeshRepair repair, const ShapeRepairs& done)
+{
+    return done.asked == repair ? done.behind : 0.0;
+}
+
 nlohmann::ordered_json toJson(const ShapeUse& use)
 {
     const Shape& shape = *use.shape;
@@ -267,8 +273,9 @@ nlohmann::ordered_json toJson(const ShapeUse& use)
             {"flipped_edges", shape.repairs.harmless.flippedEdges},
             {"turned", shape.repairs.harmless.isTurned},
             {"remeshed", shape.repairs.voxel > 0.0},
-            {"ground_depth_m", shape.repairs.groundDepth},
-            {"room_wall_m", shape.repairs.roomWall},
+            {"ground_depth_m", behindBy(MeshRepair::ground, shape.repairs)},
+            {"room_wall_m", behindBy(MeshRepair::room, shape.repairs)},
+            {"solidified_m", behindBy(MeshRepair::solidify, shape.repairs)},
             {"collision_mesh", shape.repairs.hasCollisionMesh},
             {"drawn_to_colliding_m", apart.distance},
             {"drawn_to_colliding_at", {apart.place[0], apart.place[1], apart.place[2]}},

@@ -196,14 +196,15 @@ std::string describeAsked(const ShapeRepairs& done)
         case MeshRepair::shell:
             return formatted("made a shell with voxels of %.3g m", done.voxel);
         case MeshRepair::room:
-            return formatted("put walls of %.3g m around it", done.roomWall);
+            return formatted("put walls of %.3g m around it", done.behind);
+        case MeshRepair::solidify:
+            return formatted("given a back %.3g m behind it", done.behind);
         case MeshRepair::ground:
             break;
     }
     Eigen::Index axis;
     done.groundUp.cwiseAbs().maxCoeff(&axis);
-    return formatted("closed %.3g m below its lowest point; its faces look along ",
-                     done.groundDepth) +
+    return formatted("closed %.3g m below its lowest point; its faces look along ", done.behind) +
            (done.groundUp[axis] > 0.0 ? '+' : '-') + "xyz"[axis];
 }
 
@@ -312,9 +313,8 @@ std::vector<std::string> repairsOf(const World& world)
         if (done.hasCollisionMesh) text += "collides as a mesh of its own";
         if (done.hasCollisionMesh && done.asked != MeshRepair::none) text += ", ";
         text += describeAsked(done);
-        // The walls and the floor of a ground, and the outside of a room, are nowhere near what is
-        // drawn, nor need they be.
-        const bool isExact = done.asked == MeshRepair::ground || done.asked == MeshRepair::room;
+        // What was put behind what is drawn is nowhere near it, nor need it be.
+        const bool isExact = done.behind > 0.0;
         const bool isComparable = !isExact || done.hasCollisionMesh;
         repairs.push_back(isComparable ? text + "; " + describe(done.drawnToColliding) : text);
     }

@@ -6,9 +6,9 @@
 namespace scree {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of lengths
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLeastWay = 0.01;  // along an edge, of its length
+constexpr double kLeastWay = 0.01;   // along an edge, of its length
+constexpr double kFinestWay = 1e-3;  // where that is too coarse to meet what is as near as asked
 
 /// An edge of the first in the frame of the second.
 struct PlacedEdge {
@@ -103,7 +103,9 @@ void visitDeepParts(const PlacedEdge& edge, double depth, const Visit& visit)
 
 bool comesWithin(const RelativePair& pair, const ConvexEdge& edge, double reach)
 {
-    const double least = std::min(kLeastWay * edge.length, std::max(reach, kRounding));
+    // An edge that lies flush on a face is about as near as nothing all along: asked whether it
+    // comes nearer, with no least way, one chair on another took half a second.
+    const double least = std::clamp(reach, kFinestWay * edge.length, kLeastWay * edge.length);
     bool isNear = false;
     lookAlong({pair, edge}, {0.0, edge.length}, least, [&](double, double apart) {
         isNear = isNear || apart < reach;

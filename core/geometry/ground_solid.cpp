@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/geometry/mesh_defects.h"
-#include "core/geometry/mesh_edges.h"
 #include "core/geometry/mesh_repair.h"
+#include "core/geometry/open_sheet.h"
 #include "core/math/aabb.h"
 
 namespace scree {
@@ -42,39 +41,6 @@ Vec3 axisOf(const TriMesh& sheet, const std::vector<Eigen::Index>& open, const s
     Eigen::Index axis;
     sum.cwiseAbs().maxCoeff(&axis);
     return sum[axis] > 0.0 ? Vec3(Vec3::Unit(axis)) : Vec3(-Vec3::Unit(axis));
-}
-
-// The way a triangle walks its side.
-int fromOf(const TriangleSide& side)
-{
-    return side.isUp ? side.low : side.high;
-}
-int toOf(const TriangleSide& side)
-{
-    return side.isUp ? side.high : side.low;
-}
-
-/// The sides of triangles at which nothing goes on.
-std::vector<TriangleSide> rimOf(const TriMesh& sheet)
-{
-    std::vector<TriangleSide> rim;
-    MeshEdges(sheet).forEach([&](std::span<const TriangleSide> sides) {
-        if (sides.size() == 1) rim.push_back(sides[0]);
-    });
-    return rim;
-}
-
-/// The triangles of parts that have a rim.
-std::vector<Eigen::Index> openTriangles(const TriMesh& sheet, const std::vector<TriangleSide>& rim)
-{
-    const std::vector<int> partOf = findParts(sheet);
-    std::vector<char> isOpen(partOf.size(), 0);
-    for (const TriangleSide& side : rim) isOpen[partOf[side.triangle]] = 1;
-    std::vector<Eigen::Index> open;
-    for (Eigen::Index f = 0; f < sheet.triangles.cols(); ++f) {
-        if (isOpen[partOf[f]]) open.push_back(f);
-    }
-    return open;
 }
 
 Aabb boxOf(const TriMesh& sheet, const std::vector<Eigen::Index>& triangles)
@@ -134,33 +100,25 @@ GroundSolid closeBelow(const TriMesh& sheet, double depth, const std::string& na
     const bool isFan = isOutlineAround(middle, sheet, rim, up);
     const auto points = static_cast<int>(sheet.points.cols());
     std::vector<std::array<int, 3>> added;
-    for (const TriangleSide& side : rim) {
-        const int from = fromOf(side), to = toOf(side);
-        added.push_back({to, from, points + from});
-        added.push_back({to, points + from, points + to});
-        if (isFan) added.push_back({2 * points, points + to, points + from});
+    addWalls(rim, points, added);
+    if (isFan) {
+        for (const TriangleSide& side : rim)
+            added.push_back({2 * points, points + toOf(side), points + fromOf(side)});
+    } else {
+        addBack(sheet, open, points, added);
     }
-    if (!isFan) {
-        for (const Eigen::Index f : open) {
-            const auto corners = sheet.triangles.col(f);
-            added.push_back({points + corners[0], points + corners[2], points + corners[1]});
-        }
-    }
-    TriMesh all{Points(3, 2 * points + 1),
-                Triangles(3, sheet.triangles.cols() + static_cast<Eigen::Index>(added.size()))};
-    all.points << sheet.points, onFloor(sheet.points, up, highest, top),
+    Points below(3, points + 1);
+    below << onFloor(sheet.points, up, highest, top),
         onFloor(middle + up * (lowest - up.dot(middle)), up, highest, top);
-    all.triangles << sheet.triangles,
-        Eigen::Map<const Triangles>(added.front().data(), 3,
-                                    static_cast<Eigen::Index>(added.size()));
+    const TriMesh all = extended(sheet, below, added);
     HarmlessRepairs ignored;  // of walls below a rim that goes straight up
     ground.mesh = repairHarmlessly(all, ignored);
 
     const std::vector<MeshDefect> defects = findDefects(ground.mesh);
     if (!defects.empty()) {
         refuse(name, "closed below, it is no solid: " + describe(defects) +
-                         "; mend the sheet there, or write mesh = { repair = \"shell\", thickness "
-                         "= … }");
+                         "; mend the sheet there, or write mesh = { repair = \"solidify\", "
+                         "thickness = … }");
     }
     return ground;
 }

@@ -9,11 +9,12 @@
 namespace scree {
 
 enum class MeshRepair {
-    none,    ///< refuse a mesh that is no solid
-    wrap,    ///< the solid around which the mesh winds more than half: closes holes, joins parts
-    shell,   ///< everything within half a thickness of the mesh
-    ground,  ///< what lies below an open sheet: ground_solid.h
-    room,    ///< the walls around a closed mesh that is seen from inside: room_solid.h
+    none,      ///< refuse a mesh that is no solid
+    wrap,      ///< the solid around which the mesh winds more than half: closes holes, joins parts
+    shell,     ///< everything within half a thickness of the mesh
+    ground,    ///< what lies below an open sheet: ground_solid.h
+    room,      ///< the walls around a closed mesh that is seen from inside: room_solid.h
+    solidify,  ///< an open sheet with a thickness behind it: solidified_sheet.h
 };
 
 struct RemeshSettings {

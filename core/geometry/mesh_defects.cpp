@@ -155,8 +155,9 @@ void requireSolid(const TriMesh& mesh, const std::string& name, DefectSearch sea
                     "' is not a closed, outward-oriented solid: " + describe(defects) +
                     "; mend the mesh, or write mesh = { repair = \"wrap\" } to collide as the "
                     "solid it nearly bounds, mesh = { repair = \"shell\", thickness = … } to give "
-                    "its sheets a thickness, or mesh = { repair = \"ground\" } to close a terrain "
-                    "below");
+                    "its sheets a thickness, mesh = { repair = \"ground\" } to close a terrain "
+                    "below, or mesh = { repair = \"solidify\", thickness = … } to back the floor "
+                    "and walls of a stage");
 }
 
 void requireSurface(const TriMesh& mesh, const std::string& name)

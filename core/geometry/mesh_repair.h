@@ -1,5 +1,5 @@
 // Repairs that change nothing one could see or touch. Everything else a mesh lacks is refused, or
-// mended on demand by level_set_remesh.h, ground_solid.h and room_solid.h.
+// mended on demand by level_set_remesh.h, ground_solid.h, room_solid.h and solidified_sheet.h.
 #pragma once
 
 #include <string>

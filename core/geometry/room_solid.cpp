@@ -47,8 +47,8 @@ RoomSolid wallAround(const TriMesh& room, double wall, const std::string& name)
     const std::vector<MeshDefect> defects = findDefects(solid.mesh);
     if (!defects.empty()) {
         refuse(name, "with walls around it, it is no solid: " + describe(defects) +
-                         "; mend the mesh there, or write mesh = { repair = \"shell\", thickness = "
-                         "… }, or of a room without a ceiling mesh = { repair = \"ground\" }");
+                         "; mend the mesh there, or, of a room that is open, write mesh = { repair "
+                         "= \"solidify\", thickness = … }");
     }
     return solid;
 }

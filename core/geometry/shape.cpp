@@ -14,6 +14,7 @@
 #include "core/geometry/revolution.h"
 #include "core/geometry/room_solid.h"
 #include "core/geometry/shape_store.h"
+#include "core/geometry/solidified_sheet.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -165,7 +166,7 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
     if (settings.repair == MeshRepair::ground) {
         GroundSolid ground = closeBelow(solid, settings.repairThickness, name);
         repairs.groundUp = ground.up;
-        repairs.groundDepth = ground.depth;
+        repairs.behind = ground.depth;
         return std::move(ground.mesh);
     }
     if (settings.repair == MeshRepair::room) {
@@ -173,8 +174,12 @@ TriMesh makeSolid(const std::string& name, const TriMesh& assetMesh, const Shape
         if (std::exchange(repairs.harmless.isTurned, false))
             solid.triangles.row(1).swap(solid.triangles.row(2));
         RoomSolid room = wallAround(solid, settings.repairThickness, name);
-        repairs.roomWall = room.wall;
+        repairs.behind = room.wall;
         return std::move(room.mesh);
+    }
+    if (settings.repair == MeshRepair::solidify) {
+        repairs.behind = settings.repairThickness;
+        return solidify(solid, settings.repairThickness, name);
     }
     repairs.voxel = repairVoxel(solid, settings);
     const RemeshSettings how{settings.repair, settings.repairThickness, repairs.voxel};

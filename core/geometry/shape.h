@@ -57,9 +57,9 @@ struct ShapeSettings {
     std::optional<bool>
         edgeSamples;  ///< [A8]; otherwise on when edges are long against the thickness
     MeshRepair repair = MeshRepair::none;  ///< of a mesh that is no solid  [A1]
-    double repairThickness = 0.0;  ///< of MeshRepair::shell; of MeshRepair::ground below its lowest
-                                   ///< point, of the walls of MeshRepair::room; of these two 0: as
-                                   ///< they choose [m]
+    double repairThickness = 0.0;  ///< of MeshRepair::shell and solidify; of MeshRepair::ground
+                                   ///< below its lowest point, of the walls of MeshRepair::room; of
+                                   ///< these two 0: as they choose [m]
 };
 
 /// What was done to the artist's mesh before it became a solid.
@@ -68,8 +68,8 @@ struct ShapeRepairs {
     MeshRepair asked = MeshRepair::none;  ///< that the shot asked for
     double voxel = 0.0;                   ///< of the remeshing [m]
     Vec3 groundUp = Vec3::Zero();         ///< where the sheet of a ground looks
-    double groundDepth = 0.0;             ///< of its floor below its lowest point [m]
-    double roomWall = 0.0;                ///< of a room, at its thinnest [m]
+    double behind = 0.0;  ///< what was put behind what is drawn: a ground's depth below its lowest
+                          ///< point, the walls of a room at their thinnest, of a sheet all [m]
     bool hasCollisionMesh = false;   ///< what collides was made from another mesh than is drawn
     MeshDeviation drawnToColliding;  ///< of the two, in the artist's frame; 0 where they are one
 };

@@ -55,6 +55,22 @@ TEST(EdgeInside, IsAsDeepAsTheDeepestPlaceAlongTheEdge)
     EXPECT_GT(deep, 1000);
 }
 
+// Asked without a least way along them this takes hours.
+TEST(EdgeInside, EdgesThatLieAllAlongAFaceComeWithinWhatIsAskedOrNot)
+{
+    const auto box = buildMeshShape("box", makeBox({1e3, 1e3, 1e3}, {1, 1, 1}));
+    const double apart = 1e-9;
+    const RelativePair pair{*box, *box, Mat3::Identity(), Vec3(200.0, 1e3 + apart, 100.0)};
+    int near = 0;
+    for (const ConvexEdge& edge : box->features.edges()) {
+        EXPECT_FALSE(comesWithin(pair, edge, 0.0));
+        EXPECT_FALSE(comesWithin(pair, edge, 0.5 * apart));
+        near += comesWithin(pair, edge, 2.0 * apart);
+    }
+    // Two of the four below, and the one that stands where these meet; the others are beside.
+    EXPECT_EQ(near, 3);
+}
+
 // Flush with each other: edges lie in faces, where a ray meets nothing or anything.
 TEST(EdgeInside, EdgesOfBoxesFlushWithEachOtherAreAsDeepAsTheBoxesOverlap)
 {

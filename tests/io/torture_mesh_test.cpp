@@ -379,7 +379,7 @@ TEST(TortureMesh, AGroundIsTouchedWhereItIsDrawn)
     EXPECT_EQ(ofFloor, drawn.triangles.cols());
     EXPECT_EQ(shape->repairs.asked, MeshRepair::ground);
     EXPECT_EQ(shape->repairs.groundUp, Vec3(0, 1, 0));
-    EXPECT_NEAR(shape->repairs.groundDepth, 0.1, 1e-12);
+    EXPECT_NEAR(shape->repairs.behind, 0.1, 1e-12);
     int overhanging = 0;
     for (Eigen::Index f = 0; f < drawn.triangles.cols(); ++f) {
         const TriangleCorners corners = cornersOf(drawn, f);
@@ -439,7 +439,7 @@ TEST(TortureMesh, ARoomIsTouchedWhereItIsDrawnAndEmptyWithin)
     const TriMesh drawn = turned(cube());
     const auto shape = buildMeshShape("thing", drawn, repairBy(MeshRepair::room, 0.25));
     EXPECT_EQ(shape->repairs.asked, MeshRepair::room);
-    EXPECT_EQ(shape->repairs.roomWall, 0.25);
+    EXPECT_EQ(shape->repairs.behind, 0.25);
     EXPECT_TRUE(shape->repairs.harmless.isNone());
     EXPECT_NEAR(shape->unitMass.volume, 1.5 * 1.5 * 1.5 - 1.0, 1e-12);
     EXPECT_NEAR(shape->distance.value(shape->bodyFromAsset * Vec3(0, 0, 0)), 0.5, 1e-9);
@@ -467,6 +467,77 @@ TEST(TortureMesh, WhatMakesNoRoomIsToldWhy)
         EXPECT_NE(told.find(why), std::string::npos) << told;
         EXPECT_NE(told.find("'thing'"), std::string::npos);
     }
+}
+
+/// The floor of a stage of one metre, the wall behind it and one beside it: parts of a cube that
+/// look into it, in squares of a quarter.
+TriMesh stage()
+{
+    const TriMesh inward = turned(makeBox(Vec3(1, 1, 1), {4, 4, 4}));
+    TriMesh open = inward;
+    Eigen::Index kept = 0;
+    for (Eigen::Index f = 0; f < inward.triangles.cols(); ++f) {
+        const Vec3 normal = cornersOf(inward, f).normal();
+        if (normal.minCoeff() > -0.5) open.triangles.col(kept++) = inward.triangles.col(f);
+    }
+    open.triangles.conservativeResize(3, kept);
+    return open;
+}
+
+TEST(TortureMesh, AStageIsTouchedWhereItIsDrawnAndAsThickBehindAllOver)
+{
+    const auto shape = buildMeshShape("thing", stage(), repairBy(MeshRepair::solidify, 0.1));
+    EXPECT_EQ(shape->repairs.asked, MeshRepair::solidify);
+    EXPECT_EQ(shape->repairs.behind, 0.1);
+    // Three slabs that meet in edges and in a corner, all straight on.
+    EXPECT_NEAR(shape->unitMass.volume, 1.1 * 1.1 * 1.1 - 1.0, 1e-12);
+    const auto distance = [&](const Vec3& p) {
+        return shape->distance.value(shape->bodyFromAsset * p);
+    };
+    for (const int axis : {0, 1, 2}) {
+        for (const double at : {-0.45, -0.1, 0.3}) {
+            Vec3 p = Vec3::Constant(at);
+            p[axis] = -0.5;
+            const Vec3 out = Vec3::Unit(axis);
+            EXPECT_NEAR(distance(p + 0.02 * out), 0.02, 1e-9);
+            EXPECT_NEAR(distance(p - 0.02 * out), -0.02, 1e-9);
+            EXPECT_NEAR(distance(p - 0.12 * out), 0.02, 1e-9);
+        }
+    }
+}
+
+TEST(TortureMesh, ASheetThatIsSmoothGetsAThicknessThatIsEvenToo)
+{
+    // The inside of a quarter pipe, of which the back is a larger one.
+    const int sectors = 24;
+    TriMesh pipe = sheet(sectors);
+    for (auto p : pipe.points.colwise()) {
+        const double angle = 1.5707963267948966 * (p.x() + 0.5);
+        p = Vec3(-std::cos(angle), -std::sin(angle), p.z());
+    }
+    if (cornersOf(pipe, 0).normal().dot(cornersOf(pipe, 0).middle()) > 0.0) pipe = turned(pipe);
+    const auto shape = buildMeshShape("thing", pipe, repairBy(MeshRepair::solidify, 0.2));
+    EXPECT_NEAR(shape->unitMass.volume, 0.25 * 3.14159265 * (1.2 * 1.2 - 1.0), 2e-3);
+}
+
+TEST(TortureMesh, WhatCannotBeSolidifiedIsToldWhy)
+{
+    const std::pair<TriMesh, const char*> cases[] = {
+        {cube(), "it has no rim"},
+        {both(stage(), moved(scaled(cube(), 0.5), Vec3(0.03, -0.52, 0.01))),
+         "face that pierces another"},
+        {TriMesh(), "no triangles"},
+    };
+    for (const auto& [mesh, why] : cases) {
+        const std::string told = refusalOf(mesh, repairBy(MeshRepair::solidify, 0.1));
+        EXPECT_NE(told.find(why), std::string::npos) << told;
+        EXPECT_NE(told.find("'thing'"), std::string::npos);
+    }
+    // A narrow ridge has no room for half a metre behind it.
+    TriMesh ridge = sheet(4);
+    for (auto p : ridge.points.colwise()) p.y() = std::abs(p.x()) < 0.1 ? 0.5 : 0.0;
+    EXPECT_NE(refusalOf(ridge, repairBy(MeshRepair::solidify, 0.5)).find("less thickness"),
+              std::string::npos);
 }
 
 TEST(TortureMesh, ASheetCannotBeWrapped)

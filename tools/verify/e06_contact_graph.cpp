@@ -191,8 +191,8 @@ std::string levelsOnTheRide(const Context& context, std::uint64_t seed, bool isR
 {
     std::vector<std::string> overrides = {"shot.seed=" + std::to_string(seed)};
     if (isReversed) {
-        overrides.push_back("body.five.grid.spacing=[0, -1, 0]");
-        overrides.push_back("body.three.grid.spacing=[0, -1, 0]");
+        overrides.emplace_back("body.five.grid.spacing=[0, -1, 0]");
+        overrides.emplace_back("body.three.grid.spacing=[0, -1, 0]");
     }
     ShotRun run(context, "E06_moving_floor", overrides);
     LastStep last;
