@@ -16,7 +16,9 @@ namespace scree {
 namespace {
 
 /// Of method `scree`: what a body may fall in a step, as a share of the inner thickness. Dominoes
-/// that may fall 4 % of theirs are awake for longer after they have fallen, and no faster for it.
+/// that may fall 4 % of theirs are awake for longer after they have fallen, and no faster for it. So
+/// it is when the mean of thickness and size counts: 12 instead of 22 steps a frame, each of which
+/// takes longer, for a pile of coins; a spiral of dominoes took 1.8 times as long.
 constexpr double kFallPerStep = 0.02;
 
 /// Of method `scree`: what ends in an edge is no thinner than this share of the largest ball
