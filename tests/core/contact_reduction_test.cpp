@@ -11,6 +11,7 @@
 #include "core/collision/near_features.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
+#include "tests/support/draw.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -115,6 +116,34 @@ TEST(ContactReduction, FewContactsAndThoseOfOtherNormalsStay)
                                        [](const GapContact& c) { return c.normal.x() > 0.0; });
     EXPECT_EQ(slanted, 8);
     EXPECT_LE(std::ssize(contacts) - slanted, 9);
+}
+
+// As of a bowl in a bowl: no two of these normals are one.
+TEST(ContactReduction, OfManyPlacesAllAroundThoseStayThatHoldTheRest)
+{
+    std::vector<GapContact> all;
+    for (int row = 0; row < 5; ++row) {
+        for (int i = 0; i < 60; ++i) {
+            const double angle = 2.0 * kPi * i / 60, r = 0.6 + 0.1 * row;
+            const Vec3 out(std::cos(angle), 0.0, std::sin(angle));
+            all.push_back({all.size(), r * (out + Vec3::UnitY()),
+                           (Vec3::UnitY() - out).normalized(), 1e-3 * randomUnit(2, row, i)});
+        }
+    }
+    std::vector<GapContact> kept = all;
+    reduceContacts(kept, 0, Mat3::Identity(), 1.0);
+    EXPECT_LE(kept.size(), 150u);
+    for (std::uint64_t run = 0; run < 200; ++run) {
+        const double by = run % 2 == 0 ? 0.003 : 0.03;
+        const Vec3 way = by * signedUnits(run, 0), turn = by * signedUnits(run, 3);
+        const auto leastAfter = [&](const std::vector<GapContact>& contacts) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const GapContact& c : contacts)
+                least = std::min(least, c.gap + c.normal.dot(way + turn.cross(c.rA)));
+            return least;
+        };
+        EXPECT_LE(leastAfter(kept) - leastAfter(all), 0.05 * by) << run;
+    }
 }
 
 TEST(ContactReduction, AFineDiscThatTremblesKeepsItsPlaces)
