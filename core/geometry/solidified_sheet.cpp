@@ -90,7 +90,8 @@ void requireRoomBehind(const TriMesh& sheet, const std::vector<Eigen::Index>& tr
 TriMesh solidify(const TriMesh& sheet, double thickness, const std::string& name)
 {
     const std::vector<TriangleSide> rim = rimOf(sheet);
-    if (rim.empty()) refuse(name, "it has no rim, and is a solid as it is; leave 'repair' out");
+    if (rim.empty())
+        refuse(name, "it has no rim, so there is nothing to put behind it; leave 'repair' out");
     const std::vector<Eigen::Index> open = openTriangles(sheet, rim);
     const auto points = static_cast<int>(sheet.points.cols());
     std::vector<std::array<int, 3>> added;
