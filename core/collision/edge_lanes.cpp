@@ -46,7 +46,8 @@ FacingLanes::FacingLanes(const EightEdges& edges)
 {
     const auto c0 = columns(edges, 0), c4 = columns(edges, 4), c8 = columns(edges, 8),
                c12 = columns(edges, 12);
-    half = 0.5f * c0[3];
+    half = 0.5f * absOf(c0[3]);
+    touchBetweenEnds = c0[3] < 0.0f;
     direction = {c4[0], c4[1], c4[2]};
     middle = fma(half, direction, FloatLanes3{c0[0], c0[1], c0[2]});
     outward = {c4[3], c8[0], c8[1]};
@@ -62,6 +63,7 @@ FacingLanes FacingLanes::all(int lane) const
     one.outward = allOf(outward, lane);
     for (int k : {0, 1}) one.intoFace[k] = allOf(intoFace[k], lane);
     one.half = FloatLanes{} + half[lane];
+    one.touchBetweenEnds = IntLanes{} + touchBetweenEnds[lane];
     return one;
 }
 
@@ -81,15 +83,19 @@ FacingLanes FacingLanes::placed(const Mat3& rotation, const Vec3& translation) c
     there.outward = turned * outward;
     for (int k : {0, 1}) there.intoFace[k] = turned * intoFace[k];
     there.half = half;
+    there.touchBetweenEnds = touchBetweenEnds;
     return there;
 }
 
-unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double farthest,
-                 double turn)
+/// Let w be the way between the points where lines are to be nearest, no longer than δ then. It is
+/// square to both edges then, and now, before its ends have moved by m and an edge has turned by φ,
+/// it goes along one by no more than m, and along the other by m + δ φ. So these points lie from
+/// where the lines are nearest now by at most (m (1 + |cosine|) + δ φ) / sine².
+unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, const FacingReach& reach)
 {
     const FacingLanes &a = ofFirst, &b = ofSecond;
     const FloatLanes3 between = b.middle - a.middle;
-    const FloatLanes far = floatLanesOf(farthest);
+    const FloatLanes far = floatLanesOf(reach.touching + reach.way);
     const FloatLanes farA = a.half + far, farB = b.half + far, farAll = farA + b.half;
     if (!bitsOf(dot(between, between) <= farAll * farAll)) return 0;
     const IntLanes isNear = (squaredDistance(a, between) <= farB * farB) &
@@ -99,21 +105,33 @@ unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double
     const FloatLanes slack = static_cast<float>(kSupportSlack) * sqrtOf(dot(normal, normal));
     const FloatLanes ofB0 = dot(b.intoFace[0], normal), ofB1 = dot(b.intoFace[1], normal);
     const FloatLanes ofA0 = dot(a.intoFace[0], normal), ofA1 = dot(a.intoFace[1], normal);
-    const FloatLanes out = dot(b.outward, normal), mayTurn = floatLanesOf(turn);
-    const FloatLanes slackB = slack + floatLanesOf((1.0 + kSupportSlack) * turn);
-    const FloatLanes slackA = slack + floatLanesOf((2.0 + kSupportSlack) * turn);
+    const FloatLanes out = dot(b.outward, normal), mayTurn = floatLanesOf(reach.turn);
+    const FloatLanes slackB = slack + floatLanesOf((1.0 + kSupportSlack) * reach.turn);
+    const FloatLanes slackA = slack + floatLanesOf((2.0 + kSupportSlack) * reach.turn);
     const IntLanes isOut =
         (out >= -mayTurn) & (maxOf(ofB0, ofB1) <= slackB) & (maxOf(-ofA0, -ofA1) <= slackA);
     const IntLanes isOutReversed =
         (out <= mayTurn) & (maxOf(-ofB0, -ofB1) <= slackB) & (maxOf(ofA0, ofA1) <= slackA);
-    return bitsOf(isNear & (isOut | isOutReversed));
+    const IntLanes mayMeet = isNear & (isOut | isOutReversed);
+    if (!bitsOf(mayMeet)) return 0;
+
+    const FloatLanes sineSquared = dot(normal, normal), cosine = dot(a.direction, b.direction);
+    const FloatLanes alongA = dot(a.direction, between), alongB = dot(b.direction, between);
+    const FloatLanes s = absOf(fnma(cosine, alongB, alongA));  // times sine², from the middle
+    const FloatLanes t = absOf(fnma(cosine, alongA, alongB));
+    const FloatLanes wanders =
+        fma(floatLanesOf(reach.way), 1.0f + absOf(cosine), far * floatLanesOf(reach.turn));
+    const IntLanes isBeside = (a.touchBetweenEnds & (s > fma(a.half, sineSquared, wanders))) |
+                              (b.touchBetweenEnds & (t > fma(b.half, sineSquared, wanders)));
+    return bitsOf(mayMeet & ~isBeside);
 }
 
 LineLanes::LineLanes(const EightEdges& edges)
 {
     const auto c0 = columns(edges, 0), c4 = columns(edges, 4), c8 = columns(edges, 8);
     start = {c0[0], c0[1], c0[2]};
-    length = c0[3];
+    length = absOf(c0[3]);
+    touchBetweenEnds = c0[3] < 0.0f;
     direction = {c4[0], c4[1], c4[2]};
     outward = {c4[3], c8[0], c8[1]};
 }
@@ -168,12 +186,16 @@ EdgeGaps edgeGaps(const LineLanes& ofFirst, const LineLanes& ofSecond, double de
                                          ? -maxOf(apart, -apart)
                                      : out < none ? -apart
                                                   : apart;
-    const FloatLanes beyond =
-        maxOf(maxOf(-lineS, lineS - a.length), none) + maxOf(maxOf(-lineT, lineT - b.length), none);
+    const FloatLanes beyondA = maxOf(maxOf(-lineS, lineS - a.length), none);
+    const FloatLanes beyondB = maxOf(maxOf(-lineT, lineT - b.length), none);
+    const IntLanes isBeside =
+        (a.touchBetweenEnds & (beyondA > lineWrong)) | (b.touchBetweenEnds & (beyondB > lineWrong));
     const FloatLanes slack = 2.0f * lineWrong + 2.0f * wrong / sine;
-    gaps.mayTouch =
-        (sine >= floatLanesOf(0.99 * kParallel)) & (towardsSecond < floatLanesOf(reach) + slack) &
-        (beyond <= static_cast<float>(kPastEnds) * (maxOf(-towardsSecond, none) + slack));
+    const FloatLanes pastEnds =
+        static_cast<float>(kPastEnds) * (maxOf(-towardsSecond, none) + slack);
+    gaps.mayTouch = (sine >= floatLanesOf(0.99 * kParallel)) &
+                    (towardsSecond < floatLanesOf(reach) + slack) &
+                    (beyondA + beyondB <= pastEnds) & ~isBeside;
     return gaps;
 }
 

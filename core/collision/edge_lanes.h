@@ -14,7 +14,8 @@ using EightEdges = std::array<const EdgeLine*, kFloatLanes>;
 /// Eight edges in one frame.
 struct LineLanes {
     FloatLanes3 start, direction, outward;
-    FloatLanes length;  ///< [m]
+    FloatLanes length;          ///< [m]
+    IntLanes touchBetweenEnds;  ///< alone
 
     explicit LineLanes(const EightEdges& edges);
     /// Moves them into the frame of another body, where outward is not asked for.
@@ -25,7 +26,8 @@ struct LineLanes {
 struct FacingLanes {
     FloatLanes3 middle, direction, outward;
     FloatLanes3 intoFace[2];
-    FloatLanes half;  ///< of their lengths [m]
+    FloatLanes half;            ///< of their lengths [m]
+    IntLanes touchBetweenEnds;  ///< alone
 
     FacingLanes() = default;
     explicit FacingLanes(const EightEdges& edges);
@@ -37,12 +39,17 @@ struct FacingLanes {
     FacingLanes placed(const Mat3& rotation, const Vec3& translation) const;
 };
 
-/// Which of eight pairs of edges, in one frame, can come to touch while nothing moves by more than
-/// `farthest` - no point, and no direction by more than `turn` [rad]: those that are near, and
-/// whose common normal either supports (edgeSupports), give or take that turn. Most edges beside
-/// each other never can.
-unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, double farthest,
-                 double turn);
+/// Until when two edges are looked at, and what counts as touching then.
+struct FacingReach {
+    double touching;  ///< how far apart the lines of edges are at most that touch [m]
+    double way;       ///< that any point moves, and what places are wrong by [m]
+    double turn;      ///< of any direction [rad]
+};
+
+/// Which of eight pairs of edges, in one frame, can come to touch: those that are near, whose
+/// common normal either supports (edgeSupports), and whose lines come to be nearest where edges
+/// touch that do so between their ends alone. Most edges beside each other never can.
+unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, const FacingReach& reach);
 
 /// Filters: they err to the side of asking again.
 struct EdgeGaps {

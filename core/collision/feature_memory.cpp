@@ -119,10 +119,11 @@ double countedOfWay(const RelativePair& pair)
     return std::min(1.0, pair.second.boundingRadius / lever);
 }
 
-/// Of places of the first body in the frame of the second, told in single precision [m].
+/// Of places of both bodies in the frame of the second, told in single precision [m].
 double roundingOf(const RelativePair& pair)
 {
-    return kSinglePrecision * (pair.first.boundingRadius + pair.translation.norm());
+    return kSinglePrecision *
+           (pair.first.boundingRadius + pair.translation.norm() + pair.second.boundingRadius);
 }
 
 /// The next free lane of eights that are filled one lane after the other.
@@ -147,16 +148,21 @@ double apartAtLeast(const RelativePair& pair, const RelativePair& back)
     return atLeast;
 }
 
-double lookAhead(const RelativePair& pair, double reach)
+double lookAhead(const RelativePair& pair, double reach, double pace)
 {
-    return std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair.first, pair.second));
+    const double ahead =
+        std::max(kLookAhead * reach, kLeastLookAhead * smallerRadius(pair.first, pair.second));
+    // Who passes that from one step to the next looks anew in any case, and is told no more by it.
+    // Bones that pour take three quarters of the time so.
+    return pace < ahead ? ahead : 0.0;
 }
 
 bool FeatureMemory::isStaleAt(const RelativePair& pair, double reach)
 {
     // The norm of what two rotations differ by is √2 times the chord of a point at unit distance.
     const double chord = (pair.rotation - rotation_).norm() / std::numbers::sqrt2;
-    moved_ += (pair.translation - translation_).norm() + chord * leverOf(pair);
+    pace_ = (pair.translation - translation_).norm() + chord * leverOf(pair);
+    moved_ += pace_;
     rotation_ = pair.rotation;
     translation_ = pair.translation;
     return moved_ > window_ || reach + moved_ > clearance_;
@@ -194,8 +200,8 @@ double FeatureMemory::lookAtEdges(const RelativePair& pair, const RelativePair& 
     inEights(first.lines(), nearA, eightsOfA);
     inEights(second.lines(), nearB, eightsOfB);
 
-    const double farthest = std::max(reach, deepestEdges(pair)) + window_ + roundingOf(pair);
-    const double turn = window_ / leverOf(pair) + kSinglePrecision;
+    const FacingReach facing{std::max(reach, deepestEdges(pair)), window_ + 2.0 * roundingOf(pair),
+                             window_ / leverOf(pair) + kSinglePrecision};
     for (FacingLanes& eight : eightsOfA) eight = eight.placed(pair.rotation, pair.translation);
     thread_local std::vector<SphereLanes> spheresOfB;
     thread_local std::vector<std::size_t> nearEights;
@@ -203,9 +209,9 @@ double FeatureMemory::lookAtEdges(const RelativePair& pair, const RelativePair& 
     std::size_t count = 0;
     for (std::size_t a = 0; a < nearA.size(); ++a) {
         const FacingLanes edge = eightsOfA[a / kFloatLanes].all(static_cast<int>(a % kFloatLanes));
-        findEightsNear(edge, spheresOfB, farthest, nearEights);
+        findEightsNear(edge, spheresOfB, facing.touching + facing.way, nearEights);
         for (const std::size_t eight : nearEights) {
-            unsigned bits = mayFace(edge, eightsOfB[eight], farthest, turn);
+            unsigned bits = mayFace(edge, eightsOfB[eight], facing);
             for (; bits; bits &= bits - 1) {
                 const std::size_t b =
                     kFloatLanes * eight + static_cast<std::size_t>(std::countr_zero(bits));
@@ -226,12 +232,13 @@ std::vector<FeatureMemory::NearEdges>& FeatureMemory::foundEdges()
     return found;
 }
 
-double FeatureMemory::look(const RelativePair& pair, const RelativePair& back, double reach)
+double FeatureMemory::look(const RelativePair& pair, const RelativePair& back, double reach,
+                           double window)
 {
     moved_ = 0.0;
     rotation_ = pair.rotation;
     translation_ = pair.translation;
-    window_ = lookAhead(pair, reach);
+    window_ = window;
     clearance_ = reach + window_;
     return std::min({lookAtCorners(pair, cornersOfA_), lookAtCorners(back, cornersOfB_),
                      lookAtEdges(pair, back, reach, foundEdges())});
@@ -243,7 +250,7 @@ void FeatureMemory::measureEdges(const RelativePair& pair, double reach,
 {
     if (near.empty()) return;
     const double deepest = deepestEdges(pair);
-    const double rounding = roundingOf(pair) + kSinglePrecision * pair.second.boundingRadius;
+    const double rounding = roundingOf(pair);
     const std::vector<EdgeLine>& first = pair.first.features.lines();
     const std::vector<EdgeLine>& second = pair.second.features.lines();
     const RotationLanes rotation(pair.rotation);

@@ -29,8 +29,9 @@ namespace scree {
 /// features [m].
 double apartAtLeast(const RelativePair& pair, const RelativePair& back);
 
-/// How far beyond its reach a look sees, so that it serves for a while [m].
-double lookAhead(const RelativePair& pair, double reach);
+/// How far beyond its reach a look sees, so that it serves for a while [m]. `pace`: how far the
+/// pair goes from one time it is asked about to the next [m].
+double lookAhead(const RelativePair& pair, double reach, double pace);
 
 /// Two edges, as their shapes count them.
 struct EdgePair {
@@ -45,7 +46,10 @@ public:
 
     /// Looks at all features; answers how far apart the bodies are at least [m]. What is nearer
     /// than that is noted.
-    double look(const RelativePair& pair, const RelativePair& back, double reach);
+    double look(const RelativePair& pair, const RelativePair& back, double reach, double window);
+
+    /// How far the pair has gone since it was asked about before [m].
+    double pace() const { return pace_; }
 
     /// Calls distanceOf(corner), which answers how far that is at least [m], for the corners of one
     /// body that may be nearer to the other than `reach`.
@@ -109,6 +113,7 @@ private:
     static std::vector<NearEdges>& foundEdges();
 
     double moved_ = 0.0;                // the way since the last look [m]
+    double pace_ = 0.0;                 // the last part of it [m]
     double window_ = 0.0;               // for which that is good [m]
     double clearance_ = 0.0;            // everything nearer was noted then [m]
     Mat3 rotation_ = Mat3::Identity();  // B from A, when last asked about

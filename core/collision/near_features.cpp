@@ -303,7 +303,9 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
 
 double NearFeatures::look(const RelativePair& pair, const RelativePair& back, double reach)
 {
-    const double far = reach + lookAhead(pair, reach);
+    const double pace = memory_ ? memory_->pace() : std::numeric_limits<double>::infinity();
+    const double window = lookAhead(pair, reach, pace);
+    const double far = reach + window;
     // Most pairs whose boxes meet are far apart: a few spheres say how far.
     if (!memory_) {
         const double apart = apartAtLeast(pair, back);
@@ -311,7 +313,7 @@ double NearFeatures::look(const RelativePair& pair, const RelativePair& back, do
     }
     // So are most of the others that are looked at for the first time.
     thread_local FeatureMemory seen;
-    const double apart = seen.look(pair, back, reach);
+    const double apart = seen.look(pair, back, reach, window);
     if (apart > far)
         memory_.reset();
     else if (memory_)

@@ -31,8 +31,8 @@ Vec3 oppositeCorner(const TriMesh& mesh, const TriangleSide& side)
 EdgeLine lineOf(const ConvexEdge& edge)
 {
     Eigen::Matrix<double, 16, 1> numbers;
-    numbers << edge.start, edge.length, edge.direction, edge.outward, edge.intoFace[0],
-        edge.intoFace[1];
+    const double length = touchesBetweenEndsAlone(edge) ? -edge.length : edge.length;
+    numbers << edge.start, length, edge.direction, edge.outward, edge.intoFace[0], edge.intoFace[1];
     EdgeLine line;
     Eigen::Map<Eigen::Matrix<float, 16, 1>>(line.numbers.data()) = numbers.cast<float>();
     return line;
@@ -72,7 +72,6 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         edge.outward = (edge.faceNormal[0] + edge.faceNormal[1]).normalized();
         hasBlades_ = hasBlades_ || edge.faceNormal[0].dot(edge.faceNormal[1]) < kBlade;
         edges_.push_back(edge);
-        lines_.push_back(lineOf(edge));
         edgeSpheres.push_back({0.5 * (start + end), 0.5 * length});
     });
 
@@ -88,6 +87,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
             edge.goesOn[end] = normals[edge.ends[end]].size() < 3;
             edge.endsFine[end] = isFine[edge.ends[end]];
         }
+        lines_.push_back(lineOf(edge));
     }
     std::vector<Sphere> cornerSpheres;
     for (std::size_t v = 0; v < normals.size(); ++v) {

@@ -48,7 +48,8 @@ inline constexpr double kBlade = -0.45;
 /// What tells how far apart edges are and from where they can be touched, in single precision: one
 /// line of the cache.
 struct alignas(64) EdgeLine {
-    /// As of ConvexEdge: start, length, direction, outward, and into either face.
+    /// As of ConvexEdge: start, length, direction, outward, and into either face. The length is
+    /// below zero of an edge that touches between its ends alone.
     std::array<float, 16> numbers;
 };
 
@@ -95,7 +96,14 @@ private:
     SphereLaneTree cornerTree_, edgeTree_, creaseTree_;
 };
 
-/// The same for an edge; `normal` points into its solid.
+/// Whether what crosses the line of an edge past an end of it does not touch it: what comes next
+/// there speaks.
+inline bool touchesBetweenEndsAlone(const ConvexEdge& edge)
+{
+    return (edge.goesOn[0] || edge.endsFine[0]) && (edge.goesOn[1] || edge.endsFine[1]);
+}
+
+/// ContactFeatures::cornerSupports for an edge; `normal` points into its solid.
 bool edgeSupports(const ConvexEdge& edge, const Vec3& normal, double slack = kSupportSlack);
 
 }  // namespace scree

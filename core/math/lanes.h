@@ -55,7 +55,8 @@ L minOf(L a, L b)
 {
     return a < b ? a : b;
 }
-inline Lanes absOf(Lanes a)
+template <class L>
+L absOf(L a)
 {
     return maxOf(a, -a);
 }

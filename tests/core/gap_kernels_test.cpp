@@ -624,9 +624,10 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
 {
     const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
     const auto hatchet = buildMeshShape("prism", makeCylinder(0.6, 1.0, 3, 1));
+    const auto ball = buildMeshShape("ball", makeSphere(0.6, 2));
     std::size_t touching = 0, spared = 0;
-    for (std::uint64_t run = 0; run < 40; ++run) {
-        const Shape& other = run % 2 == 0 ? *ring : *hatchet;
+    for (std::uint64_t run = 0; run < 60; ++run) {
+        const Shape& other = run % 3 == 0 ? *ring : run % 3 == 1 ? *hatchet : *ball;
         const RelativePair pair{*ring, other,
                                 exponentialMap(3.0 * signedUnits(run, 0)).toRotationMatrix(),
                                 0.9 * signedUnits(run, 3)};
@@ -650,14 +651,15 @@ TEST(EdgeLanes, TellEdgesThatMayTouchAndHowFarTheOthersAreApart)
                 const EdgeGaps gaps =
                     edgeGaps(ofFirst, LineLanes(second), deepest, reach, rounding);
                 const bool mayTouch = bitsOf(gaps.mayTouch) >> lane & 1u;
-                const bool touches = faceEdges(pair, i, j, reach, 1e-3).contact.has_value();
+                const FacedEdges faced = faceEdges(pair, i, j, reach, 1e-3);
+                const bool touches = faced.contact || faced.passing;
                 EXPECT_TRUE(mayTouch || !touches);
                 touching += touches;
                 spared += !mayTouch;
                 if ((i + j) % 17 != 0) continue;
                 const double distance = segmentDistance(placed, edges[j]);
                 EXPECT_LE(gaps.distance[lane], distance);
-                EXPECT_GE(gaps.distance[lane], distance - 2e-3);
+                EXPECT_GE(gaps.distance[lane], distance - 3e-3);
             }
         }
     }
