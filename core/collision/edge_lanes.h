@@ -39,7 +39,7 @@ struct FacingLanes {
     FacingLanes placed(const Mat3& rotation, const Vec3& translation) const;
 };
 
-/// Until when two edges are looked at, and what counts as touching then.
+/// What counts as touching, and how far edges may move before they do.
 struct FacingReach {
     double touching;  ///< how far apart the lines of edges are at most that touch [m]
     double way;       ///< that any point moves, and what places are wrong by [m]

@@ -44,8 +44,8 @@ public:
     /// Follows the pair; answers whether it has to be looked at again.
     bool isStaleAt(const RelativePair& pair, double reach);
 
-    /// Looks at all features; answers how far apart the bodies are at least [m]. What is nearer
-    /// than that is noted.
+    /// Looks at all features, so as to serve while the pair goes no farther than `window` [m];
+    /// answers how far apart the bodies are at least [m]. What is nearer than that is noted.
     double look(const RelativePair& pair, const RelativePair& back, double reach, double window);
 
     /// How far the pair has gone since it was asked about before [m].
