@@ -21,24 +21,23 @@ const double kFartherThanSide = 1.0 / std::sqrt(1.0 - kCrease * kCrease);
 /// A corner beside a crease of the second shape.
 struct Beside {
     Vec3 p;
-    double along;  // from the start of the crease [m]
-    double apart;  // from the crease [m]
-    double depth;  // inside the shape, 0 outside [m]
+    double along;         // from the start of the crease [m]
+    double squaredApart;  // from the crease [m²]
 };
 
-Beside placeBeside(const Crease& crease, const Vec3& p, double depth)
+Beside placeBeside(const Crease& crease, const Vec3& p)
 {
-    const double along = crease.direction.dot(p - crease.start);
+    const Vec3 fromStart = p - crease.start;
+    const double along = crease.direction.dot(fromStart);
     const double nearest = std::clamp(along, 0.0, crease.length);
-    return {p, along, (p - crease.start - nearest * crease.direction).norm(), depth};
+    return {p, along, (fromStart - nearest * crease.direction).squaredNorm()};
 }
 
-/// Whether what goes from p straight to the plane of a side, `height` below it, meets that side.
+/// Whether what goes from p straight to the plane of a side, `height` ≥ 0 below it, meets that
+/// side.
 bool isBefore(const SignedDistance& field, const Crease& crease, int side, const Beside& at,
               double height, double rounding)
 {
-    // Behind the plane it is only if it came through the crease.
-    if (height < 0.0) return at.apart <= at.depth + rounding;
     // A side that leans back begins at the crease, before which its plane lies under the other.
     if (crease.intoFace[side].dot(at.p - crease.start) <= 0.0)
         return at.along >= -rounding && at.along <= crease.length + rounding;
@@ -74,11 +73,12 @@ void findCreaseContacts(const RelativePair& pair, std::int32_t corner, double re
 
     const SignedDistance& field = pair.second.distance;
     const double rounding = kRounding * pair.second.boundingRadius;
-    const double depth = std::max(0.0, -field.value(p));
+    // Behind the plane of a side a corner is only if it came through the crease.
+    const double throughIt = rounding + std::max(0.0, -field.value(p));
     for (const std::uint32_t index : near) {
         const Crease& crease = other.creases()[index];
-        const Beside at = placeBeside(crease, p, depth);
-        if (at.apart > farthest) continue;
+        const Beside at = placeBeside(crease, p);
+        if (at.squaredApart > farthest * farthest) continue;
         for (const int side : {0, 1}) {
             const Vec3& n = crease.faceNormal[side];
             const auto isOne = [&](const FeatureContact& c) { return c.normal.dot(n) > kOneFace; };
@@ -93,8 +93,9 @@ void findCreaseContacts(const RelativePair& pair, std::int32_t corner, double re
             }
             const double height = n.dot(p - crease.start);
             if (height >= reach) continue;
+            if (height < 0.0 && at.squaredApart > throughIt * throughIt) continue;
             if (!features.cornerSupports(corner, pair.rotation.transpose() * n)) continue;
-            if (!isBefore(field, crease, side, at, height, rounding)) continue;
+            if (height >= 0.0 && !isBefore(field, crease, side, at, height, rounding)) continue;
             found.push_back({FeatureContact{p, n, height}, id});
         }
     }

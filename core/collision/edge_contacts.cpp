@@ -241,7 +241,10 @@ FacedEdges faceEdges(const RelativePair& pair, std::int32_t ofFirst, std::int32_
     if (!isWithin && !overlapNearEnds(pair, a, b, *at, gap, reach)) return {};
     const bool isPast = !isWithin && !crossesInNotch(pair, *at);
     if (isPast && gap >= -sharpness) return {};
-    if (!edgeSupports(b, -n) || !edgeSupports(a, pair.rotation.transpose() * n)) return {};
+    const Vec3 nOfFirst = pair.rotation.transpose() * n;
+    // Of a flat edge, directions from behind it would pass for such that it supports too.
+    if (nOfFirst.dot(a.outward) > kSupportSlack) return {};
+    if (!edgeSupports(b, -n) || !edgeSupports(a, nOfFirst)) return {};
     if (gap >= -sharpness) return {FeatureContact{at->onFirst, n, gap}, {}};
 
     // Two edges of solids that overlap elsewhere may pass each other anywhere inside. If these are

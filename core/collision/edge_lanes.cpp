@@ -1,6 +1,8 @@
 // Symbols: s and t places along the edges of the first and of the second.
 #include "core/collision/edge_lanes.h"
 
+#include <cmath>
+
 #include "core/collision/edge_contacts.h"
 
 namespace scree {
@@ -35,6 +37,16 @@ FloatLanes squaredDistance(const FacingLanes& edge, const FloatLanes3& fromMiddl
     return dot(away, away);
 }
 
+/// Whether a direction from which one of a pair can be touched is opposed to one of the other, when
+/// either has turned by `turn` [rad].
+IntLanes mayOppose(const FacingLanes& a, const FacingLanes& b, double turn)
+{
+    const FloatLanes cosine = a.cosine * b.cosine - a.sine * b.sine;
+    const FloatLanes sine = a.sine * b.cosine + a.cosine * b.sine;
+    // Angles of more than half a turn together hold opposed directions whatever they lie around.
+    return (sine <= 0.0f) | (dot(a.outward, b.outward) + cosine <= floatLanesOf(turn + kDirection));
+}
+
 FloatLanes3 allOf(const FloatLanes3& v, int lane)
 {
     return {FloatLanes{} + v.x[lane], FloatLanes{} + v.y[lane], FloatLanes{} + v.z[lane]};
@@ -53,6 +65,14 @@ FacingLanes::FacingLanes(const EightEdges& edges)
     outward = {c4[3], c8[0], c8[1]};
     intoFace[0] = {c8[2], c8[3], c12[0]};
     intoFace[1] = {c12[1], c12[2], c12[3]};
+    // Half the bend, and the slack.
+    constexpr auto slack = static_cast<float>(kSupportSlack);
+    const float rest = std::sqrt(1.0f - slack * slack);
+    const FloatLanes ofBend = 0.5f * dot(intoFace[0], intoFace[1]);
+    const FloatLanes cosineOfHalf = sqrtOf(maxOf(0.5f - ofBend, FloatLanes{}));
+    const FloatLanes sineOfHalf = sqrtOf(maxOf(0.5f + ofBend, FloatLanes{}));
+    cosine = rest * cosineOfHalf - slack * sineOfHalf;
+    sine = rest * sineOfHalf + slack * cosineOfHalf;
 }
 
 FacingLanes FacingLanes::all(int lane) const
@@ -62,6 +82,8 @@ FacingLanes FacingLanes::all(int lane) const
     one.direction = allOf(direction, lane);
     one.outward = allOf(outward, lane);
     for (int k : {0, 1}) one.intoFace[k] = allOf(intoFace[k], lane);
+    one.cosine = FloatLanes{} + cosine[lane];
+    one.sine = FloatLanes{} + sine[lane];
     one.half = FloatLanes{} + half[lane];
     one.touchBetweenEnds = IntLanes{} + touchBetweenEnds[lane];
     return one;
@@ -82,6 +104,8 @@ FacingLanes FacingLanes::placed(const Mat3& rotation, const Vec3& translation) c
     there.direction = turned * direction;
     there.outward = turned * outward;
     for (int k : {0, 1}) there.intoFace[k] = turned * intoFace[k];
+    there.cosine = cosine;
+    there.sine = sine;
     there.half = half;
     there.touchBetweenEnds = touchBetweenEnds;
     return there;
@@ -94,6 +118,8 @@ FacingLanes FacingLanes::placed(const Mat3& rotation, const Vec3& translation) c
 unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, const FacingReach& reach)
 {
     const FacingLanes &a = ofFirst, &b = ofSecond;
+    const IntLanes areOpposed = mayOppose(a, b, reach.turn);
+    if (!bitsOf(areOpposed)) return 0;
     const FloatLanes3 between = b.middle - a.middle;
     const FloatLanes far = floatLanesOf(reach.touching + reach.way);
     const FloatLanes farA = a.half + far, farB = b.half + far, farAll = farA + b.half;
@@ -112,7 +138,7 @@ unsigned mayFace(const FacingLanes& ofFirst, const FacingLanes& ofSecond, const 
         (out >= -mayTurn) & (maxOf(ofB0, ofB1) <= slackB) & (maxOf(-ofA0, -ofA1) <= slackA);
     const IntLanes isOutReversed =
         (out <= mayTurn) & (maxOf(-ofB0, -ofB1) <= slackB) & (maxOf(ofA0, ofA1) <= slackA);
-    const IntLanes mayMeet = isNear & (isOut | isOutReversed);
+    const IntLanes mayMeet = areOpposed & isNear & (isOut | isOutReversed);
     if (!bitsOf(mayMeet)) return 0;
 
     const FloatLanes sineSquared = dot(normal, normal), cosine = dot(a.direction, b.direction);

@@ -26,6 +26,8 @@ struct LineLanes {
 struct FacingLanes {
     FloatLanes3 middle, direction, outward;
     FloatLanes3 intoFace[2];
+    /// Of the angle around outward within which lie all directions from which they can be touched.
+    FloatLanes cosine, sine;
     FloatLanes half;            ///< of their lengths [m]
     IntLanes touchBetweenEnds;  ///< alone
 

@@ -172,7 +172,7 @@ TEST(EdgeLanes, ThatComeToTouchMayFaceEachOtherBeforehand)
     EXPECT_LT(count.passed, count.asked / 20);
 }
 
-TEST(EdgeLanes, OfFineSurfacesDoNotFaceThoseTheyPassBeside)
+TEST(EdgeLanes, OfFineSurfacesFaceOnlyThoseTheyMayMeet)
 {
     const auto hatchet = buildMeshShape("prism", makeCylinder(0.6, 1.0, 3, 1));
     const auto ball = buildMeshShape("ball", makeSphere(0.6, 2));
@@ -182,8 +182,8 @@ TEST(EdgeLanes, OfFineSurfacesDoNotFaceThoseTheyPassBeside)
         askAboutEdges(*hatchet, *ball, run, count);
     }
     for (std::uint64_t run = 0; run < 10; ++run) askAboutEdges(*ball, *ball, run, count);
-    EXPECT_GT(count.touching, 300u);
-    EXPECT_LT(count.passed, count.asked / 200);
+    EXPECT_GT(count.touching, 150u);
+    EXPECT_LT(count.passed, count.asked / 500);
 }
 
 }  // namespace
