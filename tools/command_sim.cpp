@@ -9,7 +9,7 @@
 #include <new>
 
 #include "core/base/parallel.h"
-#include "core/dynamics/start_check.h"
+#include "core/dynamics/start_overlap.h"
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"

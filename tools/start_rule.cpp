@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/collision/interference.h"
 #include "core/dynamics/body_pairs.h"
+#include "core/dynamics/start_separation.h"
 #include "io/build_world.h"
 
 namespace scree {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/dynamics/start_check.h"
+#include "core/dynamics/start_overlap.h"
 #include "io/shot.h"
 #include "tools/console.h"
 

@@ -3,144 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
-#include <map>
 #include <optional>
 #include <unsupported/Eigen/BVH>
 
-#include "core/base/parallel.h"
-#include "core/collision/near_features.h"
-#include "core/dynamics/contact_graph.h"
-#include "core/dynamics/gap_blocks.h"
-#include "core/dynamics/gap_layout.h"
-#include "core/dynamics/gap_levels.h"
-#include "core/dynamics/gap_push_out.h"
-#include "core/dynamics/gap_rows.h"
-#include "core/dynamics/push_out.h"
-#include "core/dynamics/scratch.h"
-#include "core/dynamics/sleep.h"
+#include "core/dynamics/start_overlap.h"
 #include "core/dynamics/step_limit.h"
 
 namespace scree {
 namespace {
-
-/// What is in another by so much of what is thin in either goes through a wall of it. Half would be
-/// as deep as it can be, and samples do not see all of that. Bottles that had been strewn with the
-/// neck of one in the side of another, by 0.6 % of their length, rolled about like that for as long
-/// as anybody looked.
-constexpr double kThroughWall = 0.3;
-
-constexpr int kMostRounds = 100;                 // of pushing apart
-constexpr double kSeparationStep = 1.0 / 240.0;  // whose fall tells who rests on whom [s]
-
-std::vector<Aabb> boxesOf(const World& world)
-{
-    std::vector<Aabb> boxes(world.bodyCount());  // an empty box meets nothing
-    for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
-        if (!world.isBorn(body)) continue;
-        boxes[body] = boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
-    }
-    return boxes;
-}
-
-/// How deep their surfaces are in each other, if that is deeper than `least`; 0 otherwise [m].
-double depthOf(const PlacedPair& pair, double least)
-{
-    const std::optional<Touch> deepest = deepestTouch(pair, -least);
-    return deepest ? -deepest->phi : 0.0;
-}
-
-/// How deep bodies are in each other whose surfaces tell nothing: where a body stands in the place
-/// of its copy, or flush with it, every corner lies on the other's surface. Asks the points inside
-/// of both; a ball about such a point that fits into both is a lower bound.
-class InnerDepth {
-public:
-    explicit InnerDepth(const World& world) : world_(world)
-    {
-        for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
-            const auto [known, isNew] = inside_.try_emplace(&world.shapeOf(body));
-            if (isNew) known->second = Inside(*known->first);
-        }
-    }
-
-    /// Not less than `known`, how deep their surfaces are in each other.
-    double operator()(BodyId a, BodyId b, double known) const
-    {
-        return ofFirst(b, a, ofFirst(a, b, known));
-    }
-
-private:
-    struct Inside {
-        Points points;
-        SphereTree tree;
-
-        Inside() = default;
-        explicit Inside(const Shape& shape) : points(pointsInside(shape.mesh, shape.innerThickness))
-        {
-            std::vector<Sphere> spheres;
-            for (const auto& point : points.colwise()) spheres.push_back({point, 0.0});
-            tree = SphereTree(spheres);
-        }
-    };
-
-    double ofFirst(BodyId first, BodyId second, double deepest) const
-    {
-        const Shape& shape = world_.shapeOf(first);
-        const Shape& other = world_.shapeOf(second);
-        const Inside& inside = inside_.at(&shape);
-        const Pose otherFromFirst =
-            inverse(world_.motion[second].worldFromBody()) * world_.motion[first].worldFromBody();
-        inside.tree.visit(
-            [&](const Vec3& centre, double radius) {
-                return other.distance.isClearOf(otherFromFirst * centre, radius - deepest);
-            },
-            [&](std::uint32_t i) {
-                const Vec3 point = inside.points.col(i);
-                const double depth = -other.distance.value(otherFromFirst * point);
-                if (depth <= deepest) return;
-                deepest = std::max(deepest, std::min(depth, -shape.distance.value(point)));
-            });
-        return deepest;
-    }
-
-    const World& world_;
-    std::map<const Shape*, Inside> inside_;
-};
-
-/// How deep is through a wall of one of the two [m]; what a plane bounds has none.
-double throughWall(const World& world, BodyPair bodies)
-{
-    const Shape &a = world.shapeOf(bodies.a), &b = world.shapeOf(bodies.b);
-    if (a.isPlane || b.isPlane) return std::numeric_limits<double>::infinity();
-    return kThroughWall * std::min(a.commonThickness, b.commonThickness);
-}
-
-/// One sweep of push-out over everything that overlaps, as the methods do it.
-void separateGapsOnce(World& world, const StepSettings& settings)
-{
-    GapScratch scratch;
-    layOutGaps(world, settings, kSeparationStep, SolvedIslands(), scratch);
-    forBlocks(scratch, [&](const GapBlock& block) {
-        buildRows(world, settings, kSeparationStep, block, scratch);
-        findLevels(kSeparationStep, block, scratch);
-    });
-    separateGaps(world, settings, scratch);
-}
-
-void separateOnce(World& world, const StepSettings& settings)
-{
-    if (settings.method == Method::scree) return separateGapsOnce(world, settings);
-    StepScratch scratch;
-    findPairs(world, settings, 0.0, scratch);
-    beginStep(world, settings, kSeparationStep, scratch);
-    for (std::size_t i = 0; i < scratch.pairCount; ++i) {
-        PairRecord& pair = scratch.pairs[i];
-        pair.isTouched = depthOf(placePair(world, pair.bodies), 0.0) > 0.0;
-    }
-    const ContactGraph graph = buildContactGraph(world, settings, kSeparationStep, scratch);
-    separateOverlaps(world, graph, settings, scratch);
-}
 
 /// Who counts as lying under a body.
 enum class Under { heldBodies, anybody };
@@ -149,7 +19,7 @@ enum class Under { heldBodies, anybody };
 class Ground {
 public:
     Ground(const World& world, const Vec3& down, Under who)
-        : world_(world), down_(down), boxes_(boxesOf(world))
+        : world_(world), down_(down), boxes_(startBoxes(world))
     {
         Aabb all;
         std::vector<BodyId> under;
@@ -242,60 +112,6 @@ private:
 };
 
 }  // namespace
-
-std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRatio)
-{
-    BroadPhase broadPhase;
-    const std::vector<BodyPair>& pairs = broadPhase.findPairs(
-        boxesOf(world), world.mass, [&](BodyPair pair) { return mayCollide(world, pair); });
-    const InnerDepth innerDepth(world);
-    std::vector<StartOverlap> found(pairs.size());
-    parallelFor(pairs.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto [a, b] = pairs[i];
-            const PlacedPair pair = placePair(world, pairs[i]);
-            const double through = throughWall(world, pairs[i]);
-            const double least = std::min(leastRatio * smallerEdge(world, a, b), through);
-            if (apartAtLeast(pair) > -least) continue;
-            const double depth = innerDepth(a, b, std::max(depthOf(pair, least), least));
-            if (depth <= least) continue;
-            found[i] = {a, b, depth, overlapRatio(world, pairs[i], depth), depth > through};
-        }
-    });
-    std::vector<StartOverlap> overlaps;
-    std::copy_if(found.begin(), found.end(), std::back_inserter(overlaps),
-                 [](const StartOverlap& overlap) { return overlap.depth > 0.0; });
-    std::stable_sort(overlaps.begin(), overlaps.end(),
-                     [](const auto& p, const auto& q) { return p.ratio > q.ratio; });
-    return overlaps;
-}
-
-bool separateAtStart(World& world, const StepSettings& settings, double leastRatio)
-{
-    // Velocities would tell the graph of falls that have nothing to do with who lies on whom.
-    const std::vector<BodyMotion> before = world.motion;
-    for (BodyMotion& motion : world.motion) {
-        motion.velocity.setZero();
-        motion.angularMomentum.setZero();
-    }
-    // Who sleeps would not be moved.
-    std::vector<BodyId> sleepers;
-    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
-        if (world.contactMemory.isAsleep(body)) sleepers.push_back(body);
-    }
-    world.contactMemory = {};
-    bool isApart = findStartOverlaps(world, 0.5 * leastRatio).empty();
-    for (int round = 0; round < kMostRounds && !isApart; ++round) {
-        separateOnce(world, settings);
-        isApart = findStartOverlaps(world, 0.5 * leastRatio).empty();
-    }
-    for (std::size_t body = 0; body < before.size(); ++body) {
-        world.motion[body].velocity = before[body].velocity;
-        world.motion[body].angularMomentum = before[body].angularMomentum;
-    }
-    sleepFromTheStart(world, settings, sleepers);
-    return isApart;
-}
 
 std::vector<BodyId> findUnsupported(const World& world, const Vec3& gravity)
 {

@@ -9,23 +9,6 @@
 
 namespace scree {
 
-struct StartOverlap {
-    BodyId a = -1, b = -1;
-    double depth = 0.0;          ///< [m]
-    double ratio = 0.0;          ///< of the smaller body's longest box edge [-]
-    bool isThroughWall = false;  ///< nearly as deep as anything can be in what is thin of either:
-                                 ///< contacts seldom lead out of there
-};
-
-/// Pairs that overlap by more than `leastRatio`, or through a wall however little that is of their
-/// size, of which one at least is movable and both are there; the worst ratio first.
-std::vector<StartOverlap> findStartOverlaps(const World& world, double leastRatio);
-
-/// Pushes bodies apart, without giving them velocity, until nothing overlaps by more than half of
-/// `leastRatio` or through a wall; false when that does not come about. Bodies that overlap nothing
-/// stay where they are.
-bool separateAtStart(World& world, const StepSettings& settings, double leastRatio);
-
 /// Movable bodies that no static or keyed body lies under, seen along gravity: unless others hold
 /// them they fall for ever. Judged by boxes, so a body beside a hole counts as held. Empty without
 /// gravity.

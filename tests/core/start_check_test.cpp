@@ -1,5 +1,7 @@
 // What is said of a world before its first step.
 #include "core/dynamics/start_check.h"
+#include "core/dynamics/start_overlap.h"
+#include "core/dynamics/start_separation.h"
 
 #include <gtest/gtest.h>
 
@@ -156,9 +158,8 @@ TEST_P(SeparationAtStart, MovesWhoSleepsAndLetsHimSleepOn)
     EXPECT_EQ(world.contactMemory.rest[high].still.position, world.motion[high].position);
 }
 
-TEST_F(StartCheck, WithMethodScreeACopyComesOutOfItsOriginal)
+TEST_P(SeparationAtStart, ACopyComesOutOfItsOriginal)
 {
-    settings.method = Method::scree;
     addGround();
     add("original", {0, 0.5, 0});
     add("copy", {0, 0.5, 0});
@@ -166,16 +167,35 @@ TEST_F(StartCheck, WithMethodScreeACopyComesOutOfItsOriginal)
     EXPECT_TRUE(findStartOverlaps(world, 0.005).empty());
 }
 
+// Contacts hold what crosses: all that they know leads along the rods.
+TEST_P(SeparationAtStart, RodsThatCrossComeApartByAboutTheirThickness)
+{
+    const double thick = 0.04;
+    const auto rod = test::boxShape({1.0, thick, thick}, 12);
+    const auto place = [&](const Vec3& at, const Vec3& along) {
+        const Quat turned = Quat::FromTwoVectors(Vec3::UnitX(), along);
+        return test::addBody(world, rod, 0, {at, turned});
+    };
+    const BodyId one = place({0, 1, 0}, {1, 0, 0.1});
+    const BodyId other = place({0.1, 1.01, 0.05}, {0.3, 0.1, 1});
+    const BodyId third = place({-0.2, 1.005, 0.0}, {0.5, -0.1, 1});
+    ASSERT_EQ(findStartOverlaps(world, 0.01).size(), 2u);
+    const std::vector<BodyMotion> before = world.motion;
+    ASSERT_TRUE(separateAtStart(world, settings, 0.01));
+    EXPECT_TRUE(findStartOverlaps(world, 0.005).empty());
+    for (const BodyId body : {one, other, third}) {
+        EXPECT_LT((world.motion[body].position - before[body].position).norm(), 1.5 * thick);
+    }
+}
+
 TEST_P(SeparationAtStart, WhatCannotComeApartIsTold)
 {
-    // Between two fixed cubes there is less room than the third needs.
-    add("left", {-0.9, 0, 0}, BodyKind::fixed);
-    add("right", {0.9, 0, 0}, BodyKind::fixed);
-    add("top", {0, 0.9, 0}, BodyKind::fixed);
-    add("bottom", {0, -0.9, 0}, BodyKind::fixed);
-    add("front", {0, 0, 0.9}, BodyKind::fixed);
-    add("back", {0, 0, -0.9}, BodyKind::fixed);
-    add("wedged", {0, 0, 0});
+    // Between floor and ceiling there is less room than the cube needs.
+    addGround();
+    const BodyId ceiling = addGround();
+    world.motion[ceiling].position.y() = 0.8;
+    world.motion[ceiling].orientation = Quat(0, 1, 0, 0);
+    add("wedged", {0, 0.4, 0});
     EXPECT_FALSE(separateAtStart(world, settings, 0.01));
 }
 

@@ -182,10 +182,17 @@ TEST_F(ShotTools, ACopyThatNobodyMovedAwayIsToldAndComesOut)
     const Outcome warned = run("sim drop.toml -o warned --set start.overlap=\\\"warn\\\"" + copy);
     EXPECT_EQ(warned.code, 0) << warned.err;
     EXPECT_TRUE(contains(warned.err, "low and high: 0.1 m")) << warned.err;
-    // The paper's method leaves it where it is.
-    const std::string paper = " --set solver.method=\\\"paper\\\"";
-    const Outcome stays =
-        run("sim drop.toml -o stays --set start.overlap=\\\"separate\\\"" + copy + paper);
+}
+
+TEST_F(ShotTools, WhatCannotBePushedApartIsRefused)
+{
+    writeFileBytes(folder / "low_ceiling.toml",
+                   std::string(kShotText) +
+                       "[[body]]\nname = \"ceiling\"\nmotion = \"static\"\n"
+                       "material = \"wood\"\n"
+                       "plane = { point = [0, 0.15, 0], normal = [0, -1, 0] }\n"
+                       "[start]\noverlap = \"separate\"\n");
+    const Outcome stays = run("sim low_ceiling.toml -o stays");
     EXPECT_EQ(stays.code, 65);
     EXPECT_TRUE(contains(stays.err, "could not be pushed apart")) << stays.err;
 }
