@@ -30,8 +30,9 @@ constexpr double kSeparationStep = 1.0 / 240.0;  // whose fall tells who rests o
 constexpr int kRoundsOfContacts = 10, kRoundsBetween = 2;
 constexpr double kAsDeep = 0.9;
 
-/// How far a body is tried from where it is, in growing steps: from so much of what is thin on.
-constexpr double kFirstTry = 0.3, kNextTry = 1.2;
+/// How far a body is tried from where it is, in growing steps: from so much of what is thin on, and
+/// of the way on which all is tried.
+constexpr double kFirstTry = 0.3, kLeastTry = 1e-3, kNextTry = 1.2;
 
 /// One sweep of push-out over everything that overlaps, as the methods do it.
 void separateGapsOnce(World& world, const StepSettings& settings)
@@ -88,8 +89,8 @@ std::optional<Vec3> shortestWayOut(const World& world, const OverlapMeasure& mea
         for (const Vec3& direction : ofCube) directions.push_back(frame.orientation * direction);
     }
     const double most = 2.0 * std::min(a.boundingRadius, b.boundingRadius);
-    const double first = kFirstTry * std::min(a.commonThickness, b.commonThickness);
-    for (double way = first; way < most; way *= kNextTry) {
+    const double thin = std::min(a.commonThickness, b.commonThickness);
+    for (double way = std::max(kFirstTry * thin, kLeastTry * most); way < most; way *= kNextTry) {
         for (const Vec3& direction : directions) {
             PlacedPair moved = placed;
             moved.worldFromA.position += way * direction;
