@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/start_check.h"
 #include "core/dynamics/start_overlap.h"
 #include "core/geometry/mesh_defects.h"
 #include "io/build_world.h"
