@@ -1,5 +1,6 @@
 // What can be said of a world before its first step, and what is better said then than after a
-// night: overlaps, bodies that nothing will hold, speeds that the steps cannot follow.
+// night: bodies that nothing will hold, speeds that the steps cannot follow. Overlaps are told in
+// start_overlap.h.
 #pragma once
 
 #include <vector>
