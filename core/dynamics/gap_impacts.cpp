@@ -89,15 +89,17 @@ ImpactState::ImpactState(const StepSettings& chosen, double step, const std::vec
 {
 }
 
-double ImpactVisits::timeOf(const GapPair& pair) const
+std::optional<FirstHit> ImpactVisits::firstHitOf(const GapPair& pair) const
 {
-    double time = -1.0;
+    std::optional<FirstHit> first;
     Impact impact{};
     for (std::size_t r = pair.begin; r < pair.end; ++r) {
         if (!impactOf(pair, scratch_.rows[r], impact) || impact.onlyPrecedes) continue;
-        time = time < 0.0 ? impact.time : std::min(time, impact.time);
+        const double speed = -impact.velocity.dot(impact.row->normal);
+        first = first ? FirstHit{std::min(first->time, impact.time), std::max(first->speed, speed)}
+                      : FirstHit{impact.time, speed};
     }
-    return time;
+    return first;
 }
 
 /// What lies on something does not fall on what lies a hair below it: of gravity only that
@@ -136,8 +138,8 @@ bool ImpactVisits::impactOf(const GapPair& pair, GapRow& row, Impact& impact) co
     // What all of gravity would bring back within the step bounces no more: in a heap each blow
     // makes many such, and they would go on for ever.
     if (row.wasHit) {
-        const double fall = strongerPull(a, b) * state_.dt;
-        if (u >= -state_.slowest || 2.0 * row.restitution * -u <= fall) return false;
+        const double least = std::max(0.5 * strongerPull(a, b) * state_.dt, leastRebound_);
+        if (u >= -state_.slowest || row.restitution * -u <= least) return false;
         impact = {&row, pair.isCarried, relative, 0.0, -row.restitution * u, Vec3::Zero()};
         return true;
     }

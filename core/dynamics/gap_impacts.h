@@ -37,6 +37,11 @@ struct Impact {
     bool onlyPrecedes = false;  // a later blow; without one it is left to contacts
 };
 
+struct FirstHit {
+    double time;   // within the step
+    double speed;  // [m/s]
+};
+
 /// The pairs of a block by the places of their movable bodies, in the order of visits.
 class PairsOfBodies {
 public:
@@ -98,8 +103,12 @@ public:
     const std::vector<GapImpact>& impacts() const { return noted_; }
     std::vector<GapImpact> takeImpacts() { return std::exchange(noted_, {}); }
 
-    /// When the first row of a pair will be hit; negative: none will.
-    double timeOf(const GapPair& pair) const;
+    /// What is hit again within a step and would leave no faster than this is left to contacts
+    /// [m/s].
+    void setLeastRebound(double speed) { leastRebound_ = speed; }
+
+    /// When the first row of a pair will be hit, and how fast the fastest; nothing if none will.
+    std::optional<FirstHit> firstHitOf(const GapPair& pair) const;
 
     void visit(std::size_t p)
     {
@@ -130,6 +139,7 @@ private:
     GapScratch& scratch_;
     std::int64_t clock_ = kBeforeAll;
     bool isOfHalf_;
+    double leastRebound_ = 0.0;
     std::vector<std::size_t> left_;
     std::vector<GapImpact> noted_;
 };
