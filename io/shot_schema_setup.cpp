@@ -312,8 +312,9 @@ const std::vector<ShotKey> kStartKeys = {
          "shot puts them, or go through a wall of each other, however thin: \"error\" names them "
          "and stops, \"warn\" names them and goes on (most "
          "come apart while the shot runs, which shows; a body in the place of its copy stays "
-         "there), \"separate\" pushes them apart before the first frame, giving them no velocity, "
-         "and stops if they will not come apart."},
+         "there), \"separate\" pushes them apart before the first frame, giving them no velocity; "
+         "what crosses is moved the shortest way out. That may take minutes where hundreds of thin "
+         "things cross, and says how many are left; what will not come apart stops the shot."},
 };
 
 }  // namespace

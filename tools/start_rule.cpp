@@ -1,6 +1,7 @@
 #include "tools/start_rule.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -10,6 +11,7 @@
 #include "core/dynamics/body_pairs.h"
 #include "core/dynamics/start_separation.h"
 #include "io/build_world.h"
+#include "tools/stop_signals.h"
 
 namespace scree {
 namespace {
@@ -68,6 +70,21 @@ std::string adviceOn(const std::vector<StartOverlap>& overlaps, const World& wor
         }
     }
     return text;
+}
+
+/// Thin things that cross take minutes to part: says now and then how many are left, and lets a
+/// signal end it.
+SeparationProgress progressOn(Console& console)
+{
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds kBetween{5};
+    return [&console, last = Clock::now()](std::size_t pairsLeft) mutable {
+        heedStop("nothing was simulated");
+        if (Clock::now() - last < kBetween) return;
+        last = Clock::now();
+        console.info("pushing apart what overlaps: " + std::to_string(pairsLeft) +
+                     (pairsLeft == 1 ? " pair left" : " pairs left"));
+    };
 }
 
 std::string namesOf(const std::vector<BodyId>& bodies, const World& world)
@@ -231,7 +248,7 @@ void applyStartRule(const Shot& shot, World& world, Console& console)
             console.warning(what);
             return;
         case StartOverlapRule::separate:
-            if (!separateAtStart(world, shot.settings, shot.penetrationWarn)) {
+            if (!separateAtStart(world, shot.settings, shot.penetrationWarn, progressOn(console))) {
                 throw Error(
                     ErrorKind::badInput,
                     what + "\nThey could not be pushed apart; still overlapping are:" +

@@ -188,6 +188,41 @@ TEST_P(SeparationAtStart, RodsThatCrossComeApartByAboutTheirThickness)
     }
 }
 
+// Out of one board it comes into the other.
+TEST_P(SeparationAtStart, WhatIsHemmedInComesOutOfAll)
+{
+    BodyDefinition board;
+    board.name = "board";
+    board.shape = world.addShape(test::boxShape({0.3, 0.02, 0.3}, 12));
+    board.kind = BodyKind::fixed;
+    for (const double y : {0.01, 0.07}) {
+        board.worldFromAsset.position.y() = y;
+        world.addBody(board);
+    }
+    const auto cube = test::boxShape({0.05, 0.05, 0.05}, 12);
+    const BodyId between = test::addBody(world, cube, 0, {Vec3(0, 0.03, 0), Quat::Identity()});
+    ASSERT_TRUE(separateAtStart(world, settings, 0.01));
+    EXPECT_TRUE(findStartOverlaps(world, 0.005).empty());
+    EXPECT_GT(std::abs(world.motion[between].position.y() - 0.04), 0.06);
+}
+
+TEST_P(SeparationAtStart, TellsHowManyAreLeftAndMayBeEnded)
+{
+    addGround();
+    add("low", {0, 0.45, 0});
+    add("high", {0.05, 1.3, 0.1});
+    std::vector<std::size_t> left;
+    ASSERT_TRUE(separateAtStart(world, settings, 0.01,
+                                [&](std::size_t pairsLeft) { left.push_back(pairsLeft); }));
+    ASSERT_FALSE(left.empty());
+    EXPECT_EQ(left.front(), 2u);
+
+    add("copy", {0.05, 1.3, 0.1});
+    struct Ended {};
+    const auto end = [](std::size_t) { throw Ended(); };
+    EXPECT_THROW(separateAtStart(world, settings, 0.01, end), Ended);
+}
+
 TEST_P(SeparationAtStart, WhatCannotComeApartIsTold)
 {
     // Between floor and ceiling there is less room than the cube needs.
