@@ -16,9 +16,9 @@ namespace scree {
 namespace {
 
 /// Of method `scree`: what a body may fall in a step, as a share of the inner thickness. Dominoes
-/// that may fall 4 % of theirs are awake for longer after they have fallen, and no faster for it. So
-/// it is when the mean of thickness and size counts: 12 instead of 22 steps a frame, each of which
-/// takes longer, for a pile of coins; a spiral of dominoes took 1.8 times as long.
+/// that may fall 4 % of theirs are awake for longer after they have fallen, and no faster for it.
+/// So it is when the mean of thickness and size counts: 12 instead of 22 steps a frame, each of
+/// which takes longer, for a pile of coins; a spiral of dominoes took 1.8 times as long.
 constexpr double kFallPerStep = 0.02;
 
 /// Of method `scree`: what ends in an edge is no thinner than this share of the largest ball
@@ -59,6 +59,11 @@ struct Outlook {
     std::vector<Vec3> scripted;  // of a keyed body instead: anything in their hull
     double spin = 0.0;           // that bends the way of its surface [rad/s]
     double surfaceSpeed = 0.0;   // by the spin [m/s]
+    double speed = 0.0;          // of the fastest of its places [m/s]
+    double pull = 0.0;           // [m/s²]
+    // Of its shape [m].
+    double thickness = 0.0;
+    double passed = 0.0;  // per step, so that all touch as they should
 
     std::span<const Vec3> velocities() const
     {
@@ -68,20 +73,32 @@ struct Outlook {
 
 /// What is round about an axis moves its surface only as that axis turns; but the way of that bends
 /// as fast as all of the body spins.
-Outlook outlookOf(const World& world, const StepSettings& settings, BodyId body, double remaining)
+Outlook outlookOf(const World& world, const StepSettings& settings, const AppliedForce& force,
+                  BodyId body, double remaining)
 {
     const Shape& shape = world.shapeOf(body);
+    Outlook outlook;
+    outlook.pull = force.acceleration.norm();
+    outlook.thickness = thicknessForSteps(settings.method, shape);
+    outlook.passed = passedPerStep(settings.method, shape);
     if (world.info[body].kind == BodyKind::keyed) {
         const ScriptBounds bounds =
             world.info[body].script->boundsBetween(world.time(), world.time(remaining));
         // The script moves the asset's origin, about which the centre of mass turns.
         const double arm = shape.bodyFromAsset.position.norm() + shape.boundingRadius;
-        return {Vec3::Zero(), bounds.velocities, bounds.spin, bounds.spin * arm};
+        outlook.scripted = bounds.velocities;
+        outlook.spin = bounds.spin;
+        outlook.surfaceSpeed = bounds.spin * arm;
+    } else {
+        const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
+        const double shown = shownSpin(world, settings, body);
+        outlook.velocity = world.motion[body].velocity;
+        outlook.spin = std::sqrt(shown * spin);
+        outlook.surfaceSpeed = shown > 0.0 ? shown * shape.boundingRadius : 0.0;
     }
-    const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
-    const double shown = shownSpin(world, settings, body);
-    const double surfaceSpeed = shown > 0.0 ? shown * shape.boundingRadius : 0.0;
-    return {world.motion[body].velocity, {}, std::sqrt(shown * spin), surfaceSpeed};
+    for (const Vec3& velocity : outlook.velocities())
+        outlook.speed = std::max(outlook.speed, velocity.norm() + outlook.surfaceSpeed);
+    return outlook;
 }
 
 /// The largest relative speed of two surfaces; `along` a direction, if that is all that counts.
@@ -120,11 +137,34 @@ void tighten(StepLength& limit, double dt, StepLimit by, BodyId body)
     if (dt < limit.dt) limit = {dt, by, body, false};
 }
 
-double passedPerStep(const StepSettings& settings, const Shape& shape, Limit purpose)
+/// What each is limited to by a pair.
+struct PairLimits {
+    double passed;  // way of the surfaces beside each other [m]
+    double turned;  // [rad]
+    double fallen;  // [m]
+};
+
+PairLimits limitsOf(const StepSettings& settings, const Outlook& a, const Outlook& b, Limit purpose)
 {
-    return purpose == Limit::forBlur
-               ? kPassedThicknesses * thicknessForSteps(settings.method, shape)
-               : passedPerStep(settings.method, shape);
+    const bool isPaper = settings.method == Method::paper;
+    const auto passed = [&](const Outlook& body) {
+        return purpose == Limit::forBlur ? kPassedThicknesses * body.thickness : body.passed;
+    };
+    const double turned = purpose == Limit::forBlur ? kBlurred * kTurnPerStep : kTurnPerStep;
+    return {settings.substeps.safety * std::min(passed(a), passed(b)),
+            settings.substeps.safety * turned,
+            (isPaper ? settings.hoverLimit : kFallPerStep) * std::min(a.thickness, b.thickness)};
+}
+
+/// Whether a pair cannot tighten the limit, whichever way its bodies move. Rods lie in the boxes of
+/// fifty others each; without this a quarter of the time of a heap of straw went into its limits.
+bool cannotTighten(const Outlook& a, const Outlook& b, const PairLimits& limits, double dt)
+{
+    constexpr double kRounding = 1.0 + 1e-9;
+    const double longer = kRounding * dt;
+    return longer * (a.speed + b.speed + longer * (a.pull + b.pull)) <= limits.passed &&
+           longer * std::max(a.spin, b.spin) <= limits.turned &&
+           longer * longer * std::max(a.pull, b.pull) <= limits.fallen;
 }
 
 void limitByPair(const World& world, const StepSettings& settings, const StepScratch& scratch,
@@ -132,37 +172,29 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
                  Limit purpose, StepLength& limit)
 {
     const auto [a, b] = pair;
-    const Vec3 &pullA = scratch.forces[a].acceleration, &pullB = scratch.forces[b].acceleration;
-    const Shape &shapeA = world.shapeOf(a), &shapeB = world.shapeOf(b);
-    const BodyId faster =
-        world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
+    const Outlook &ofA = outlooks[a], &ofB = outlooks[b];
     const bool isPaper = settings.method == Method::paper;
     const bool isStepped = world.isStepped(a) || world.isStepped(b);
     const auto isKeyed = [&](BodyId body) { return world.info[body].kind == BodyKind::keyed; };
     // A heap of cards that slept took five steps a frame.
     if (!isPaper && !isStepped && !isKeyed(a) && !isKeyed(b)) return;
+    const PairLimits limits = limitsOf(settings, ofA, ofB, purpose);
+    if (cannotTighten(ofA, ofB, limits, limit.dt)) return;
+    const BodyId faster =
+        world.motion[a].velocity.norm() >= world.motion[b].velocity.norm() ? a : b;
     // What goes along a plane does not come nearer to it.
     const std::optional<Vec3> along = isPaper ? std::nullopt : normalOfPlane(world, pair);
-    const double s = relativeSpeed(outlooks[a], outlooks[b], along);
-    const double g = std::max(pullA.norm(), pullB.norm());
+    const double s = relativeSpeed(ofA, ofB, along);
+    const double g = std::max(ofA.pull, ofB.pull);
     const double way = (s + g * remaining) * remaining;
     if (!isPaper && (isHighAbove(world, a, b, way) || isHighAbove(world, b, a, way))) return;
-    const double passed =
-        settings.substeps.safety * std::min(passedPerStep(settings, shapeA, purpose),
-                                            passedPerStep(settings, shapeB, purpose));
-    tighten(limit, timeToPass(passed, s, (pullA - pullB).norm()), StepLimit::relativeSpeed, faster);
-    const double spin = std::max(outlooks[a].spin, outlooks[b].spin);
-    if (!isPaper && spin > 0.0) {
-        const double turned = purpose == Limit::forBlur ? kBlurred * kTurnPerStep : kTurnPerStep;
-        tighten(limit, turned * settings.substeps.safety / spin, StepLimit::spin,
-                outlooks[a].spin > outlooks[b].spin ? a : b);
-    }
-    if (g > 0.0 && (isPaper || isStepped)) {
-        const double share = isPaper ? settings.hoverLimit : kFallPerStep;
-        const double thinner = std::min(thicknessForSteps(settings.method, shapeA),
-                                        thicknessForSteps(settings.method, shapeB));
-        tighten(limit, std::sqrt(share * thinner / g), StepLimit::hover, faster);
-    }
+    const Vec3 pull = scratch.forces[a].acceleration - scratch.forces[b].acceleration;
+    tighten(limit, timeToPass(limits.passed, s, pull.norm()), StepLimit::relativeSpeed, faster);
+    const double spin = std::max(ofA.spin, ofB.spin);
+    if (!isPaper && spin > 0.0)
+        tighten(limit, limits.turned / spin, StepLimit::spin, ofA.spin > ofB.spin ? a : b);
+    if (g > 0.0 && (isPaper || isStepped))
+        tighten(limit, std::sqrt(limits.fallen / g), StepLimit::hover, faster);
 }
 
 /// No longer than `longest` [s].
@@ -254,7 +286,8 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
     std::vector<Outlook>& outlooks = kept;  // of this thread, filled by all
     outlooks.resize(world.bodyCount());
     forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
-        outlooks[b] = outlookOf(world, settings, static_cast<BodyId>(b), remaining);
+        outlooks[b] =
+            outlookOf(world, settings, scratch.forces[b], static_cast<BodyId>(b), remaining);
     });
     // What is left of the frame is no wish of the motion: steps that had to fit into it would
     // halve, and halve again.
