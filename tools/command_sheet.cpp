@@ -1,6 +1,7 @@
 // A take, or pictures that are there already, at a glance.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "render/contact_sheet.h"
@@ -18,10 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kUsualCount = 12;
+
 struct SheetOptions {
     std::vector<std::string> inputs;
     std::string output, frames, camera;
-    int count = 12;
+    std::optional<int> count;
     SheetLayout layout;
 };
 
@@ -29,8 +32,10 @@ struct SheetOptions {
 std::vector<LabelledImage> paintTake(const SheetOptions& options, const TakeReader& take,
                                      const std::vector<int>& chosen)
 {
+    // Who names frames wants to see them all, if he does not say how many.
+    const bool isSpread = options.frames.empty() || options.count;
     const std::vector<int> frames =
-        options.frames.empty() ? spreadFrames(chosen, options.count) : chosen;
+        isSpread ? spreadFrames(chosen, options.count.value_or(kUsualCount)) : chosen;
     const std::array<int, 2> shotSize = take.info().pictureSize;
     const int width = options.layout.cellWidth;
     const int height = std::max(1, width * shotSize[1] / shotSize[0]);
@@ -99,8 +104,10 @@ Command addSheetCommand(CLI::App& program)
         ->required()
         ->type_name("TAKE|PNG...");
     command->add_option("-o,--output", options->output, "The PNG file to write")->required();
-    command->add_option("--frames", options->frames, "These frames of the take, all of them");
-    command->add_option("--count", options->count, "How many frames, evenly spread [12]")
+    command->add_option("--frames", options->frames, "These frames of the take [all]");
+    command
+        ->add_option("--count", options->count,
+                     "How many frames, evenly spread [12; with --frames all of them]")
         ->check(CLI::Range(1, 1000));
     command->add_option("--columns", options->layout.columns, "Pictures in a row [4]")
         ->check(CLI::Range(1, 100));

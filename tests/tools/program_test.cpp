@@ -364,6 +364,10 @@ TEST_F(ProgramTest, TakeBecomesPicturesSheetFilmAndCache)
     const Outcome sheet =
         runScree({"sheet", output, "--frames", "1001-1006x2", "-o", take("sheet.png")});
     EXPECT_EQ(sheet.code, 0) << sheet.err;
+    const Outcome spread = runScree({"sheet", output, "--frames", "1001-1005", "--count", "2",
+                                     "--width", "100", "-o", take("spread.png")});
+    EXPECT_EQ(spread.code, 0) << spread.err;
+    EXPECT_LT(readPng(take("spread.png")).image.width, 3 * 100);
     const Outcome movie =
         runScree({"movie", output + "/images/boxes.####.png", "-o", take("film.mp4")});
     EXPECT_EQ(movie.code, 0) << movie.err;
