@@ -113,13 +113,21 @@ void readBodies(const World& world, double dt, bool isAgain, GapScratch& scratch
     });
 }
 
+/// By impulses, or by what cannot be moved by these.
+bool isMovedBody(const GapBody& body)
+{
+    return body.inverseMass > 0.0 || isDriven(body);
+}
+
 /// The pairs of this step, to be asked one and all. Both lists are sorted: pairs that stay keep
 /// what they know.
 void findGapPairs(const World& world, GapScratch& scratch)
 {
+    thread_local std::vector<char> isMoved;
+    isMoved.resize(scratch.bodies.size());
+    std::ranges::transform(scratch.bodies, isMoved.begin(), isMovedBody);
     const std::vector<BodyPair>& found = scratch.broadPhase.findPairs(
-        scratch.boxes, world.mass,
-        [&](BodyPair pair) { return isMovedPair(world, scratch, pair); });
+        scratch.boxes, world.mass, [&](BodyPair pair) { return mayCollide(world, pair); }, isMoved);
     std::vector<NearPair>& former = scratch.formerNearPairs;
     std::swap(scratch.nearPairs, former);
     scratch.nearPairs.resize(found.size());
@@ -271,8 +279,7 @@ void seek(World& world, double dt, bool isAgain, GapScratch& scratch)
 
 bool isMovedPair(const World& world, const GapScratch& scratch, BodyPair pair)
 {
-    const GapBody &a = scratch.bodies[pair.a], &b = scratch.bodies[pair.b];
-    const bool isMoved = a.inverseMass > 0.0 || b.inverseMass > 0.0 || isDriven(a) || isDriven(b);
+    const bool isMoved = isMovedBody(scratch.bodies[pair.a]) || isMovedBody(scratch.bodies[pair.b]);
     return isMoved && mayCollide(world, pair);
 }
 

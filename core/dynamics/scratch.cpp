@@ -52,11 +52,18 @@ Aabb sweptBox(const World& world, BodyId body, const AppliedForce& force, double
     return swept.grown(contourValue(shape, shape));
 }
 
-/// The pairs whose swept boxes meet and that may collide, sorted.
+/// The pairs whose swept boxes meet, that may collide, and of which one moves by itself, sorted.
 const std::vector<BodyPair>& meetingBoxes(const World& world, StepScratch& scratch)
 {
+    thread_local std::vector<char> moves;
+    moves.resize(world.bodyCount());
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        const auto body = static_cast<BodyId>(b);
+        moves[b] = world.isStepped(body) || world.info[b].kind == BodyKind::keyed;
+    }
     scratch.candidates = scratch.broadPhase.findPairs(
-        scratch.sweptBoxes, world.mass, [&](BodyPair pair) { return mayCollide(world, pair); });
+        scratch.sweptBoxes, world.mass, [&](BodyPair pair) { return mayCollide(world, pair); },
+        moves);
     return scratch.candidates;
 }
 
@@ -146,11 +153,9 @@ void sortPairs(const World& world, StepScratch& scratch)
 
 }  // namespace
 
-void findCandidates(const World& world, const StepSettings& settings, double remaining,
-                    StepScratch& scratch)
+void findCandidates(const World& world, double remaining, StepScratch& scratch)
 {
     const std::size_t bodies = world.bodyCount();
-    findForces(world, settings, remaining, scratch.forces);
     scratch.sweptBoxes.resize(bodies);
     forEach(bodies, kShortWork, [&](std::size_t b) {
         scratch.sweptBoxes[b] =
@@ -162,7 +167,8 @@ void findCandidates(const World& world, const StepSettings& settings, double rem
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch)
 {
-    findCandidates(world, settings, remaining, scratch);
+    findForces(world, settings, remaining, scratch.forces);
+    findCandidates(world, remaining, scratch);
     layOutPairs(scratch.candidates, scratch, [](PairRecord&) {});
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         describePair(world, settings, scratch.pairs[i]);

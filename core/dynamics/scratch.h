@@ -71,12 +71,11 @@ struct StepScratch {
     std::vector<Pose> driftPose;       // per body: predicted without
 };
 
-/// Finds the pairs that may meet in the `remaining` time of the frame. Keyed bodies are swept along
-/// their scripts.
-void findCandidates(const World& world, const StepSettings& settings, double remaining,
-                    StepScratch& scratch);
+/// Finds the pairs that may meet in the `remaining` time of the frame under the forces of the
+/// scratch, and of which one moves by itself. Keyed bodies are swept along their scripts.
+void findCandidates(const World& world, double remaining, StepScratch& scratch);
 
-/// The same, and lays their records out.
+/// The same, with the forces, and lays their records out.
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch);
 

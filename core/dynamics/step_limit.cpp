@@ -89,7 +89,7 @@ Outlook outlookOf(const World& world, const StepSettings& settings, const Applie
         outlook.scripted = bounds.velocities;
         outlook.spin = bounds.spin;
         outlook.surfaceSpeed = bounds.spin * arm;
-    } else {
+    } else if (world.isStepped(body)) {
         const double spin = angularVelocity(world.motion[body], world.mass[body]).norm();
         const double shown = shownSpin(world, settings, body);
         outlook.velocity = world.motion[body].velocity;

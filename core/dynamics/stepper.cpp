@@ -267,8 +267,9 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         {
             const PhaseTimer timer(limitReport.seconds, Phase::stepLimit);
             if (settings_.method == Method::scree) {
-                findCandidates(world, settings_, remaining, *scratch_);
+                findForces(world, settings_, remaining, scratch_->forces);
                 if (world.clock.subStep == 0) wakeByForces(world, scratch_->forces);
+                findCandidates(world, remaining, *scratch_);
             } else {
                 findPairs(world, settings_, remaining, *scratch_);
             }
