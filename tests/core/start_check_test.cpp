@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/dynamics/sleep.h"
@@ -204,6 +205,34 @@ TEST_P(SeparationAtStart, WhatIsHemmedInComesOutOfAll)
     ASSERT_TRUE(separateAtStart(world, settings, 0.01));
     EXPECT_TRUE(findStartOverlaps(world, 0.005).empty());
     EXPECT_GT(std::abs(world.motion[between].position.y() - 0.04), 0.06);
+}
+
+TEST_P(SeparationAtStart, WhatIsPackedTooCloselyStaysInOrder)
+{
+    constexpr int kCubes = 5;  // along each edge of the block
+    const double edge = 0.1, apart = 0.9 * edge;
+    addGround();
+    const auto cube = test::boxShape({edge, edge, edge}, 12);
+    std::array<std::array<std::array<BodyId, kCubes>, kCubes>, kCubes> block;
+    for (int x = 0; x < kCubes; ++x) {
+        for (int y = 0; y < kCubes; ++y) {
+            for (int z = 0; z < kCubes; ++z) {
+                const Vec3 place(apart * x, 0.5 * edge + apart * y, apart * z);
+                block[x][y][z] = test::addBody(world, cube, 0, {place, Quat::Identity()});
+            }
+        }
+    }
+    ASSERT_TRUE(separateAtStart(world, settings, 0.01));
+    const auto placeOf = [&](BodyId body) { return world.motion[body].position; };
+    for (int i = 1; i < kCubes; ++i) {
+        for (int j = 0; j < kCubes; ++j) {
+            for (int k = 0; k < kCubes; ++k) {
+                EXPECT_GT(placeOf(block[i][j][k]).x(), placeOf(block[i - 1][j][k]).x());
+                EXPECT_GT(placeOf(block[j][i][k]).y(), placeOf(block[j][i - 1][k]).y());
+                EXPECT_GT(placeOf(block[j][k][i]).z(), placeOf(block[j][k][i - 1]).z());
+            }
+        }
+    }
 }
 
 TEST_P(SeparationAtStart, TellsHowManyAreLeftAndMayBeEnded)
