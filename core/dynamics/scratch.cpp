@@ -55,15 +55,15 @@ Aabb sweptBox(const World& world, BodyId body, const AppliedForce& force, double
 /// The pairs whose swept boxes meet, that may collide, and of which one moves by itself, sorted.
 const std::vector<BodyPair>& meetingBoxes(const World& world, StepScratch& scratch)
 {
-    thread_local std::vector<char> moves;
-    moves.resize(world.bodyCount());
+    thread_local std::vector<char> isAsked;
+    isAsked.resize(world.bodyCount());
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         const auto body = static_cast<BodyId>(b);
-        moves[b] = world.isStepped(body) || world.info[b].kind == BodyKind::keyed;
+        isAsked[b] = world.isStepped(body) || world.info[b].kind == BodyKind::keyed;
     }
     scratch.candidates = scratch.broadPhase.findPairs(
         scratch.sweptBoxes, world.mass, [&](BodyPair pair) { return mayCollide(world, pair); },
-        moves);
+        isAsked);
     return scratch.candidates;
 }
 
