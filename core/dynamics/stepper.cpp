@@ -268,6 +268,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
             const PhaseTimer timer(limitReport.seconds, Phase::stepLimit);
             if (settings_.method == Method::scree) {
                 findForces(world, settings_, remaining, scratch_->forces);
+                // Before pairs are looked for, of which only those with somebody awake are found.
                 if (world.clock.subStep == 0) wakeByForces(world, scratch_->forces);
                 findCandidates(world, remaining, *scratch_);
             } else {
