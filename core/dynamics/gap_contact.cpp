@@ -19,9 +19,6 @@
 #include <atomic>
 #include <cmath>
 #include <span>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 #include "core/base/parallel.h"
 #include "core/dynamics/gap_lanes.h"
@@ -70,11 +67,6 @@ constexpr int kSweepsBetweenLooks = 10;
 /// seventeen steps a frame, takes twice the time, and stands no better; with two thirds of these
 /// one of a dozen falls.
 constexpr double kSweepsPerUnit = 2400.0;
-
-/// What keyed bodies press is wrong however long sweeps go on: every one adds to impulses that are
-/// thrown away in the end (gap_press.h). After so many that shows. While rings were dropped among
-/// stones that a file moves, contacts took 22 instead of 72 ms a step.
-constexpr int kSweepsToTellPress = 30;
 
 /// What a sweep may still change, as a share of what gravity does in a step, or, where rows are
 /// many, of what the first sweep changed. Forty cubes of which each step left a hundredth drifted
@@ -266,26 +258,9 @@ int sweepsWhileWrong(const World& world, double dt, const GapScratch& scratch,
     return static_cast<int>(std::min<double>(kSweepsPerUnit * ofEach, kMostSweeps));
 }
 
-/// Whether an island is pressed (gap_press.h) as its sweeps are now. Bodies are left as they were.
-bool isPressedNow(const StepSettings& settings, double dt, GapScratch& scratch,
-                  const GapIsland& island, GapLanes& rows)
-{
-    thread_local std::vector<std::pair<Vec3, Vec3>> motions;
-    motions.clear();
-    for (const BodyId body : island.movers)
-        motions.emplace_back(scratch.bodies[body].velocity, scratch.bodies[body].spin);
-    rows.store(scratch);
-    const bool answer = isPressed(settings, dt, scratch, island);
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-        GapBody& body = scratch.bodies[island.movers[i]];
-        std::tie(body.velocity, body.spin) = motions[i];
-    }
-    return answer;
-}
-
 /// Until a sweep changes next to nothing beside gravity or the first one: the rest is left to the
 /// next step, which begins with what this one found.
-void solve(const World& world, const StepSettings& settings, double dt, GapScratch& scratch,
+void solve(const World& world, const StepSettings& settings, double dt, const GapScratch& scratch,
            const GapIsland& island, GapLanes& rows)
 {
     double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
@@ -298,7 +273,6 @@ void solve(const World& world, const StepSettings& settings, double dt, GapScrat
         const GapSweep swept = rows.sweep();
         if (done == 1) enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
         if (swept.residual <= enough) return;
-        if (done == kSweepsToTellPress && isPressedNow(settings, dt, scratch, island, rows)) return;
         if (done >= most) {
             if (done >= sweepsWhileWrong(world, dt, scratch, island)) return;
             const GapWork work = rows.work(scratch);
