@@ -1,5 +1,7 @@
 #include "core/dynamics/contact_point.h"
 
+#include <algorithm>
+
 #include "core/base/check.h"
 #include "core/collision/moving_samples.h"
 #include "core/dynamics/friction.h"
@@ -159,7 +161,7 @@ ContactPoint placeContact(const World& world, const PairRecord& pair, const Touc
 
 double slowestApproach(const StepSettings& settings, double dt)
 {
-    return 1e-10 * settings.gravity.norm() * dt + 1e-15;
+    return std::max(1e-10 * settings.gravity.norm() * dt, 1e-15);
 }
 
 void updateApproach(const World& world, const PairRecord& pair, const PairInertia& inertia,

@@ -41,7 +41,7 @@ struct PairInertia {
 };
 
 /// An approach slower than this is none: rounding, far below what gravity adds in a step [m/s].
-/// [A29]
+/// Where there is gravity that alone tells: a speed of its own would be one of larger scenes. [A29]
 double slowestApproach(const StepSettings& settings, double dt);
 
 /// Takes u from the bodies' present velocities; point and normal stay.

@@ -263,7 +263,7 @@ int sweepsWhileWrong(const World& world, double dt, const GapScratch& scratch,
 void solve(const World& world, const StepSettings& settings, double dt, const GapScratch& scratch,
            const GapIsland& island, GapLanes& rows)
 {
-    double enough = kEnough * settings.gravity.norm() * dt + 1e-15;
+    double enough = std::max(kEnough * settings.gravity.norm() * dt, 1e-15);
     auto [most, left, ofSpeed] = sweepLimits(world, settings, scratch, island);
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();

@@ -32,7 +32,7 @@ constexpr double kEnough = 1e-3;  // of U
 /// squeezed for each further unit of that share, and at most so many times in all. As an impulse of
 /// the contact itself it would throw what only one side overlaps.
 constexpr double kSqueezed = 1e-3, kHeldWeights = 1e4, kMostWeights = 100.0;
-constexpr double kWeight = 9.81;  // of a kilogram, wherever it is [N]
+constexpr double kLeastGravity = 9.8;  // of these weights, also where nothing pulls [m/s²]
 
 /// What keyed bodies do to an island.
 struct Press {
@@ -82,8 +82,10 @@ double visitYielding(double yield, GapRow& row, GapScratch& scratch)
 
 }  // namespace
 
-void gripSqueezed(const World& world, double dt, const GapBlock& block, GapScratch& scratch)
+void gripSqueezed(const World& world, const StepSettings& settings, double dt,
+                  const GapBlock& block, GapScratch& scratch)
 {
+    const double gravity = std::max(kLeastGravity, settings.gravity.norm());
     const auto excessOf = [&](const GapPair& pair) {
         const double smaller = smallerRadius(world, pair.bodies.a, pair.bodies.b);
         return scratch.nearPairs[pair.near].depth / smaller - kSqueezed;
@@ -106,7 +108,7 @@ void gripSqueezed(const World& world, double dt, const GapBlock& block, GapScrat
             const double mass = 1.0 / std::max(scratch.bodies[pair.bodies.a].inverseMass,
                                                scratch.bodies[pair.bodies.b].inverseMass);
             const double ofEach =
-                dt * weights * mass * kWeight / static_cast<double>(pair.end - pair.begin);
+                dt * weights * mass * gravity / static_cast<double>(pair.end - pair.begin);
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
                 GapRow& row = scratch.rows[r];
                 if (row.gap < 0.0) row.squeeze = ofEach;

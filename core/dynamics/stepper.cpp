@@ -154,7 +154,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
     {
         const PhaseTimer timer(seconds, Phase::contactGraph);
         buildRows(world, settings_, dt, block, scratch);
-        gripSqueezed(world, dt, block, scratch);
+        gripSqueezed(world, settings_, dt, block, scratch);
     }
     // Impacts change velocities that have not yet felt gravity, as in the paper: what lies still is
     // never mistaken for what has just landed.

@@ -49,10 +49,10 @@ Vec3 sharedNormal(const std::vector<NearFace>& faces, const Vec3& approach, cons
         bySpeed += face.angle * std::max(0.0, -approach.dot(face.normal)) * face.normal;
         byAngle += face.angle * face.normal;
     }
-    for (const Vec3& sum : {bySpeed, byAngle}) {
-        const double length = sum.norm();
-        if (length > 1e-12 * (1.0 + approach.norm())) return sum / length;
-    }
+    constexpr double kRounding = 1e-12;
+    if (const double length = bySpeed.norm(); length > kRounding * approach.norm())
+        return bySpeed / length;
+    if (const double length = byAngle.norm(); length > kRounding) return byAngle / length;
     return hitNormal;
 }
 
