@@ -42,7 +42,8 @@ const std::vector<ShotKey> kMaterialKeys = {
      .help = "Lever arm of the torque that brakes rolling where bodies stick: arm times the force "
              "between them. A thousandth of the radius suits a hard wheel, a hundredth a tyre; a "
              "pair takes the larger of its two. 0 rolls for ever, an arm near the radius never "
-             "starts. Flat contacts resist up to ten times more, edges less."},
+             "starts. That is of what is round, as a ball, a wheel or a coin; of other things flat "
+             "contacts resist up to ten times more, edges down to a tenth."},
     {.path = "material.rolling_friction_raw",
      .unit = "1/(kg m)",
      .min = 0,

@@ -93,10 +93,12 @@ RollingImpulse rollingAt(const World& world, const StepSettings& settings, const
     if (settings.curvatureScaling) {
         const Pose& poseS = ownedByA ? frames.geometry.worldFromA : frames.geometry.worldFromB;
         const Pose& poseF = ownedByA ? frames.geometry.worldFromB : frames.geometry.worldFromA;
-        const double curvature = meanCurvature(world.shapeOf(contact.sampleBody),
-                                               poseS.orientation.conjugate() * contact.rS) +
-                                 meanCurvature(world.shapeOf(contact.fieldBody),
-                                               poseF.orientation.conjugate() * contact.rF);
+        const auto curvatureOf = [&](BodyId body, const Pose& pose, const Vec3& r) {
+            const Shape& shape = world.shapeOf(body);
+            return rollingCurvature(meanCurvature(shape, pose.orientation.conjugate() * r), shape);
+        };
+        const double curvature = curvatureOf(contact.sampleBody, poseS, contact.rS) +
+                                 curvatureOf(contact.fieldBody, poseF, contact.rF);
         factor = curvatureFactor(curvature, finerShape(world, pair.bodies));
     }
     return rollingImpulse(

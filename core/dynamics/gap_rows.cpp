@@ -62,9 +62,12 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
     const Shape& finer =
         !row.movesA || (row.movesB && shapeB.unitMass.volume < shapeA.unitMass.volume) ? shapeB
                                                                                        : shapeA;
+    const auto curvatureOf = [&](const Shape& shape, BodyId body, const Vec3& r) {
+        const Vec3 place = world.motion[body].orientation.conjugate() * r;
+        return rollingCurvature(meanCurvatureOfCells(shape, place), shape);
+    };
     const double curvature =
-        meanCurvatureOfCells(shapeA, world.motion[row.a].orientation.conjugate() * row.rA) +
-        meanCurvatureOfCells(shapeB, world.motion[row.b].orientation.conjugate() * row.rB);
+        curvatureOf(shapeA, row.a, row.rA) + curvatureOf(shapeB, row.b, row.rB);
     const double factor = curvatureFactor(curvature, finer);
     const double about = row.normal.dot(response * row.normal);
     const Mat3 rollers = rollingResponse(inertiaOf(scratch.bodies[row.a], row.movesA), row.rA,

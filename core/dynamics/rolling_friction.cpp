@@ -13,6 +13,12 @@ constexpr int kMostHalvings = 6;      // of a resistance that leaves the frictio
 constexpr double kLeastFactor = 0.1;  // [A50]
 constexpr double kMostFactor = 10.0;
 
+/// R₀, of a ball its radius [m].  [A50]
+double roundRadius(const Shape& shape)
+{
+    return 3.0 * shape.unitMass.volume / shape.unitMass.area;
+}
+
 /// The four blocks of both bodies together.
 struct Blocks {
     Mat3 k1, k2, k4;
@@ -119,11 +125,15 @@ RollingFriction largerOf(const RollingFriction& a, const RollingFriction& b)
             std::max(a.rawRolling, b.rawRolling), std::max(a.rawSpinning, b.rawSpinning)};
 }
 
+double rollingCurvature(double measured, const Shape& shape)
+{
+    return shape.showsAllTurns() ? measured : std::min(measured, 1.0 / roundRadius(shape));
+}
+
 double curvatureFactor(double curvature, const Shape& finer)
 {
-    const double roundRadius = 3.0 * finer.unitMass.volume / finer.unitMass.area;
     if (curvature <= 0.0) return kMostFactor;
-    return std::clamp(1.0 / (curvature * roundRadius), kLeastFactor, kMostFactor);
+    return std::clamp(1.0 / (curvature * roundRadius(finer)), kLeastFactor, kMostFactor);
 }
 
 }  // namespace scree

@@ -43,6 +43,13 @@ RollingImpulse rollingImpulse(const StickingContact& contact, const RollingFrict
 /// The larger of each of the two coefficients.  [A27]
 RollingFriction largerOf(const RollingFriction& a, const RollingFriction& b);
 
+/// What a place of a shape adds to the curvature of a pair, of what its distance field measures
+/// there [1/m]. Where something round meets the ground, as a barrel does with both its rims, a
+/// field sees a sharp edge, the sharper the finer it is: barrels and coins were braked by a tenth
+/// to a quarter of what a shot said. They bend as the ball that its lever arms are told for, or
+/// less.  [A50]
+double rollingCurvature(double measured, const Shape& shape);
+
 /// How much more a pair resists than round bodies do: 1 for a sphere on a plane, more where the
 /// surfaces fit together, less on edges; from 0.1 to 10. `curvature` is the sum of both mean
 /// curvatures [1/m], `finer` the shape of the smaller movable body.  [A50]
