@@ -16,6 +16,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/rolling_advice.h"
 #include "tools/run_estimate.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
@@ -49,7 +50,7 @@ struct ShapeUse {
 struct ShotReport {
     std::size_t bodies = 0, movable = 0;
     std::map<std::string, ShapeUse> shapes;
-    std::vector<std::string> repairs, warnings;
+    std::vector<std::string> repairs, notes, warnings;
     std::vector<StartOverlap> overlaps;
     RunEstimate estimate;
 };
@@ -81,6 +82,7 @@ ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
     }
     report.shapes = collectUses(world);
     report.repairs = repairsOf(world);
+    report.notes = rollingAdvice(shot, world);
     report.overlaps = findStartOverlaps(world, shot.penetrationWarn);
     report.warnings = warningsBeforeStart(shot, world);
     report.estimate = estimateRun(shot, world, estimateFrames, kMostEstimateSeconds, stopRequested);
@@ -217,6 +219,7 @@ void printText(const Shot& shot, const World& world, const ShotReport& report,
         overlaps.push_back(describe(overlap, world));
     }
     printList("overlaps at the start", overlaps);
+    printList("notes", report.notes);
     printList("warnings", report.warnings);
     const RunEstimate& estimate = report.estimate;
     std::printf("\nestimate\n  disk %.1f MB, memory %.0f MB", 1e-6 * estimate.diskBytes,
@@ -302,6 +305,7 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
         {"shapes", shapes},
         {"repairs", report.repairs},
         {"overlaps", overlaps},
+        {"notes", report.notes},
         {"warnings", report.warnings},
         {"estimate",
          {{"frames_tried", report.estimate.framesTried},

@@ -23,6 +23,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/rolling_advice.h"
 #include "tools/settled_poses.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
@@ -148,6 +149,7 @@ private:
     bool isAtRest(const std::vector<BodyMotion>& before, const BirthReport& births)
     {
         double most = options_.tolerance;
+        restlessCount_ = 0;
         bool result = births.born == 0 && births.waiting == 0 &&
                       world_.time() >= endOfEvents_ + kWindowSeconds;
         for (BodyId body = 0; body < static_cast<BodyId>(world_.bodyCount()); ++body) {
@@ -155,6 +157,7 @@ private:
             if (!world_.mass[body].isMovable()) continue;
             const double moved =
                 movedRadii(world_.shapeOf(body), before[body], world_.motion[body]);
+            restlessCount_ += moved > options_.tolerance;
             if (moved <= most) continue;
             most = restlessness_ = moved;
             restless_ = body;
@@ -169,8 +172,14 @@ private:
             return "keys, releases and changes of force go on until " +
                    describeDuration(endOfEvents_) + " after the start (--seconds)";
         }
-        return "'" + world_.info[restless_].name + "' still moves, " + percentText(restlessness_) +
-               " of its radius in half a second";
+        const std::string most = "'" + world_.info[restless_].name + "' still moves, " +
+                                 percentText(restlessness_) + " of its radius in half a second";
+        const std::string others =
+            restlessCount_ > 1 ? ", the most of " + std::to_string(restlessCount_) : "";
+        if (!rollsOn(world_, restless_)) return most + others;
+        std::string advice;
+        for (const std::string& sentence : rollingAdvice(shot_, world_)) advice += "; " + sentence;
+        return most + others + advice;
     }
 
     void refuseBroken(const FrameReport& report, int frame) const
@@ -218,6 +227,7 @@ private:
     World world_;
     double endOfEvents_ = 0.0;   // [s]
     BodyId restless_ = 0;        // who moves most
+    int restlessCount_ = 0;      // how many move
     double restlessness_ = 0.0;  // by how much of its radius
 };
 

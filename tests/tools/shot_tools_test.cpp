@@ -238,6 +238,28 @@ TEST_F(ShotTools, SettleWaitsForWhatTheShotHasInStore)
     EXPECT_TRUE(contains(blown.err, "go on until")) << blown.err;
 }
 
+TEST_F(ShotTools, CheckAndSettleSayWhatRollsOnForEverAndWhatStopsIt)
+{
+    std::ofstream(folder / "barrel.toml")
+        << readFileBytes(folder / "drop.toml") +
+               "[shape.barrel]\ncylinder = { radius = 0.3, height = 0.8, sectors = 32 }\n"
+               "[[body]]\nname = \"one\"\nshape = \"barrel\"\nmaterial = \"wood\"\n"
+               "position = [4, 0.3, 0]\nrotation = [90, 0, 0]\nvelocity = [1, 0, 0]\n";
+    const std::string advice =
+        "once it rolls, 'barrel' of material 'wood' rolls on for ever: nothing has a "
+        "rolling_friction; 0.015 takes 1 m/s from it in three seconds";
+    const Outcome checked = run("check barrel.toml --estimate 0");
+    EXPECT_TRUE(contains(checked.out, advice)) << checked.out;
+    const Outcome settled = run("settle barrel.toml -o barrel.json --seconds 6");
+    EXPECT_EQ(settled.code, 79);
+    EXPECT_TRUE(contains(settled.err, advice)) << settled.err;
+
+    const std::string braked = " --set material.wood.rolling_friction=0.015";
+    EXPECT_FALSE(contains(run("check barrel.toml --estimate 0" + braked).out, "rolls on"));
+    EXPECT_EQ(run("settle barrel.toml -o barrel.json --seconds 6" + braked).code, 0);
+    EXPECT_FALSE(contains(run("check drop.toml --estimate 0").out, "rolls on"));
+}
+
 TEST_F(ShotTools, SettleAndCheckRefuseABirthThatCannotBe)
 {
     const std::string stuck =
