@@ -127,7 +127,9 @@ RollingFriction largerOf(const RollingFriction& a, const RollingFriction& b)
 
 double rollingCurvature(double measured, const Shape& shape)
 {
-    return shape.showsAllTurns() ? measured : std::min(measured, 1.0 / roundRadius(shape));
+    if (shape.showsAllTurns()) return measured;
+    const double ofBall = 1.0 / roundRadius(shape);
+    return shape.isCapsule() ? ofBall : std::min(measured, ofBall);
 }
 
 double curvatureFactor(double curvature, const Shape& finer)

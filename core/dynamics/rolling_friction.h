@@ -47,7 +47,8 @@ RollingFriction largerOf(const RollingFriction& a, const RollingFriction& b);
 /// there [1/m]. Where something round meets the ground, as a barrel does with both its rims, a
 /// field sees a sharp edge, the sharper the finer it is: barrels and coins were braked by a tenth
 /// to a quarter of what a shot said. They bend as the ball that its lever arms are told for, or
-/// less.  [A50]
+/// less; capsules and balls just as that, of which the field of their facets sees nine tenths.
+/// [A50]
 double rollingCurvature(double measured, const Shape& shape);
 
 /// How much more a pair resists than round bodies do: 1 for a sphere on a plane, more where the
