@@ -32,7 +32,7 @@ constexpr double kEnough = 1e-3;  // of U
 /// squeezed for each further unit of that share, and at most so many times in all. As an impulse of
 /// the contact itself it would throw what only one side overlaps.
 constexpr double kSqueezed = 1e-3, kHeldWeights = 1e4, kMostWeights = 100.0;
-constexpr double kLeastGravity = 9.8;  // of these weights, also where nothing pulls [m/s²]
+constexpr double kLeastGravity = 9.81;  // of these weights, also where nothing pulls [m/s²]
 
 /// What keyed bodies do to an island.
 struct Press {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/base/random.h"
 #include "core/dynamics/friction.h"
@@ -75,33 +76,62 @@ TEST(E9RollingFriction, ALeverArmBrakesWithThatArmTimesTheWeight)  // [A49]
 // A barrel touches the ground with both its rims, where its field has a sharp edge. By what that
 // measures there barrels were braked by a quarter of their arm, or by a tenth where the field was
 // finer; balls of facets by a tenth too much.
+constexpr double kRadius = 0.3, kGravity = 9.8;
+
+struct Roller {
+    const char* name;
+    TriMesh mesh;
+    double inertia;  // about its axis, of a mass and a radius of one
+};
+
+std::vector<Roller> rollers()
+{
+    return {{"barrel", makeCylinder(kRadius, 0.8, 48, 1), 0.5},
+            {"coin", makeCylinder(kRadius, 0.1, 48, 1), 0.5},
+            {"ball", makeSphere(kRadius, 3), 0.4}};
+}
+
+/// A roller with an arm of `b` [m] that has rolled for a second from `speed` down a slope.
+BodyMotion rolledDown(const Roller& roller, double b, double speed, double slope, int resolution)
+{
+    ShapeSettings settings;
+    settings.resolution = resolution;
+    World world;
+    const MaterialId material = addRollingMaterial(world, 0.8, {b, 0.0, 0.0, 0.0});
+    addPlane(world, material);
+    const BodyId body = addBody(world, buildMeshShape(roller.name, roller.mesh, settings), material,
+                                {{0.0, kRadius, 0.0}, exponentialMap({0.5 * kPi, 0.0, 0.0})}, 2.0,
+                                {speed, 0.0, 0.0}, {0.0, 0.0, -speed / kRadius});
+    StepSettings steps = screeSettings();
+    steps.gravity = kGravity * Vec3(std::sin(slope), -std::cos(slope), 0.0);
+    Stepper stepper(steps);
+    for (int frame = 0; frame < 24; ++frame) stepper.advanceFrame(world, 1.0 / 24.0);
+    return world.motion[body];
+}
+
 TEST(RollingFriction, ABallABarrelAndACoinAreBrakedByTheirArmHoweverFineTheirFields)  // [A49, A50]
 {
-    const double b = 0.003, radius = 0.3;
-    struct Roller {
-        const char* name;
-        TriMesh mesh;
-        double inertia;  // about its axis, of a mass and a radius of one
-    };
-    for (const Roller& roller : {Roller{"barrel", makeCylinder(radius, 0.8, 48, 1), 0.5},
-                                 Roller{"coin", makeCylinder(radius, 0.1, 48, 1), 0.5},
-                                 Roller{"ball", makeSphere(radius, 3), 0.4}}) {
+    const double b = 0.003;
+    for (const Roller& roller : rollers()) {
+        const double theory = b * kGravity / ((1.0 + roller.inertia) * kRadius);
         for (const int resolution : {40, 100}) {
-            ShapeSettings settings;
-            settings.resolution = resolution;
-            const auto shape = buildMeshShape(roller.name, roller.mesh, settings);
-            World world;
-            const MaterialId material = addRollingMaterial(world, 0.8, {b, 0.0, 0.0, 0.0});
-            addPlane(world, material);
-            const BodyId body = addBody(world, shape, material,
-                                        {{0.0, radius, 0.0}, exponentialMap({0.5 * kPi, 0.0, 0.0})},
-                                        2.0, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0 / radius});
-            Stepper stepper(screeSettings());
-            for (int frame = 0; frame < 24; ++frame) stepper.advanceFrame(world, 1.0 / 24.0);
-            const double theory = b * 9.8 / ((1.0 + roller.inertia) * radius);
-            EXPECT_NEAR(1.0 - world.motion[body].velocity.x(), theory, 0.03 * theory)
-                << roller.name << ' ' << resolution;
+            const double speed = rolledDown(roller, b, 1.0, 0.0, resolution).velocity.x();
+            EXPECT_NEAR(1.0 - speed, theory, 0.03 * theory) << roller.name << ' ' << resolution;
         }
+    }
+}
+
+TEST(RollingFriction, TheyLieOnASlopeAsSteepAsTheirArmIsLong)  // [A49, A50]
+{
+    const double b = 0.05 * kRadius;
+    for (const Roller& roller : rollers()) {
+        EXPECT_LT(rolledDown(roller, b, 0.0, std::atan(0.045), 40).position.x(), 1e-5)
+            << roller.name;
+        const double slope = std::atan(0.06), theory = 0.5 * kGravity *
+                                                       (std::sin(slope) - 0.05 * std::cos(slope)) /
+                                                       (1.0 + roller.inertia);
+        EXPECT_NEAR(rolledDown(roller, b, 0.0, slope, 40).position.x(), theory, 0.03 * theory)
+            << roller.name;
     }
 }
 

@@ -29,7 +29,7 @@ std::shared_ptr<const Shape> scaled(TriMesh mesh, const Scale& scale)
 StepSettings settingsAt(const Scale& scale, Method method)
 {
     StepSettings settings = method == Method::scree ? screeSettings() : experimentSettings();
-    settings.gravity *= scale.speed() / scale.time;
+    settings.gravity = scale.speed() / scale.time * Vec3(0.0, -9.81, 0.0);
     return settings;
 }
 
