@@ -1,6 +1,5 @@
 #include "tools/rolling_advice.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <map>
 
