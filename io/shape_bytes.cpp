@@ -16,7 +16,7 @@ struct Format {
     std::string_view mark;
     std::uint32_t version;
 };
-constexpr Format kFieldFormat = {"scree distance field\n", 2};
+constexpr Format kFieldFormat = {"scree distance field\n", 3};
 constexpr Format kSolidFormat = {"scree repaired solid\n", 1};
 
 template <class Element>
@@ -99,7 +99,7 @@ std::optional<DistanceField> takeField(ByteCursor& cursor)
     field.nodes.blocks = takeArray<FieldBlock>(cursor);
     field.nodes.values = takeArray<float>(cursor);
     field.nearest.start = takeArray<std::uint32_t>(cursor);
-    field.nearest.faces = takeArray<std::uint32_t>(cursor);
+    field.nearest.faces = takeArray<ListedFace>(cursor);
     if (!cursor.isAtEnd() || !isConsistent(field)) return std::nullopt;
     field.nodes.blockCount = blocksAlong(layout);
     return field;

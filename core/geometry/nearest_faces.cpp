@@ -23,6 +23,11 @@ struct Near {
 
 using BlockCell = std::array<int, 3>;
 
+float roundedDown(double distance)
+{
+    return static_cast<float>((1.0 - 1e-6) * distance);
+}
+
 /// The cells of one block in which the surface is near.
 class BlockLists {
 public:
@@ -84,7 +89,7 @@ public:
             std::ranges::stable_sort(near, {}, &Near::distance);
             for (const Near& entry : near) {
                 if (entry.distance > near.front().distance + diagonal) break;
-                lists.faces.push_back(entry.face);
+                lists.faces.push_back({entry.face, roundedDown(entry.distance)});
             }
         }
         lists.start.push_back(static_cast<std::uint32_t>(lists.faces.size()));

@@ -10,14 +10,21 @@
 
 namespace scree {
 
+/// A triangle that can be the closest somewhere in a cell.
+struct ListedFace {
+    std::uint32_t face;
+    float fromCentre;  ///< of the cell, rounded down [m]
+
+    bool operator==(const ListedFace&) const = default;
+};
+
 /// Lists exist only for the cells of blocks that hold some of the surface: a block's cells have
 /// consecutive lists, found by FieldBlock::candidates.
 struct NearestFaces {
     std::vector<std::uint32_t> start;  // 8³ + 1 for each block with lists: where each cell's begin
-    std::vector<std::uint32_t> faces;  // of a cell: those nearest to its centre first
+    std::vector<ListedFace> faces;     // of a cell: those nearest to its centre first
 
-    std::span<const std::uint32_t> of(const DistanceNodes& nodes,
-                                      const std::array<int, 3>& cell) const
+    std::span<const ListedFace> of(const DistanceNodes& nodes, const std::array<int, 3>& cell) const
     {
         const std::uint32_t first = nodes.blockOf(cell).candidates;
         if (first == FieldBlock::kNone) return {};

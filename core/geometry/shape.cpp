@@ -196,7 +196,8 @@ bool fits(const DistanceField& kept, const TriMesh& mesh, const NodeLayout& layo
     const auto faceCount = static_cast<std::uint32_t>(mesh.triangles.cols());
     return own.origin == layout.origin && own.spacing == layout.spacing &&
            own.count == layout.count &&
-           std::ranges::all_of(kept.nearest.faces, [&](std::uint32_t f) { return f < faceCount; });
+           std::ranges::all_of(kept.nearest.faces,
+                               [&](const ListedFace& listed) { return listed.face < faceCount; });
 }
 
 /// The field of the shape's mesh, from the store if it is there.
@@ -215,6 +216,14 @@ DistanceField fieldOf(const Shape& shape, const NodeLayout& layout, const ShapeS
     return field;
 }
 
+/// How far a point is from each axis.
+Vec3 radiiAbout(const Vec3& point)
+{
+    const auto beside = [](double u, double v) { return std::sqrt(u * u + v * v); };
+    return {beside(point.y(), point.z()), beside(point.z(), point.x()),
+            beside(point.x(), point.y())};
+}
+
 /// All that follows from the solid: mass, field, samples, rays, features.
 void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSettings& settings,
                    ShapeStore* store, Shape& shape)
@@ -231,6 +240,7 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
         const Vec3 p = shape.mesh.points.col(v);
         shape.box.include(p);
         shape.boundingRadius = std::max(shape.boundingRadius, p.norm());
+        shape.axisRadii = shape.axisRadii.cwiseMax(radiiAbout(p));
     }
 
     shape.rays = SurfaceRays(shape.mesh);
@@ -301,11 +311,14 @@ std::shared_ptr<const Shape> buildExactShape(const std::string& name, const Exac
     shape->unitMass = solid.massProperties();
     shape->box = solid.box();
     shape->boundingRadius = solid.boundingRadius();
+    shape->axisRadii = radiiAbout(solid.half());
+    const bool isRound = solid.form() != ExactSolid::Form::box;
+    if (isRound) shape->axisRadii.y() = solid.half().x();
     shape->innerThickness = shape->commonThickness = shape->box.shortestEdge();
     // No field is sampled, so none can be too large: a playing card may be exact.
     shape->distance = SignedDistance(solid, wantedSpacing({}, shape->box, shape->innerThickness));
     shape->innerBall = {Vec3::Zero(), 0.5 * shape->innerThickness};
-    shape->samplesMove = solid.form() != ExactSolid::Form::box;
+    shape->samplesMove = isRound;
     if (solid.form() == ExactSolid::Form::sphere) shape->capsule.radius = solid.half().x();
     shape->turnsThatShow = shape->isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape->mesh);
     if (solid.form() != ExactSolid::Form::sphere) shape->features = ContactFeatures(shape->mesh);
@@ -332,7 +345,26 @@ std::shared_ptr<const Shape> buildPlaneShape(const std::string& name)
 Aabb boxAt(const Shape& shape, const Pose& pose)
 {
     if (shape.isPlane) return shape.box;
-    return transformed(shape.box, pose.orientation.toRotationMatrix(), pose.position);
+    const Mat3 rotation = pose.orientation.toRotationMatrix();
+    Aabb box = transformed(shape.box, rotation, pose.position);
+    const auto cut = [&](const Vec3& low, const Vec3& high) {
+        box.min = box.min.cwiseMax(pose.position + low);
+        box.max = box.max.cwiseMin(pose.position + high);
+    };
+    // The corners of the box of a ring are not of the ring: five in eight of the pairs of a
+    // thousand rings met only there.
+    const Vec3 ball = Vec3::Constant(shape.boundingRadius);
+    cut(-ball, ball);
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 axis = rotation.col(k);
+        const Vec3 from = shape.box.min[k] * axis, to = shape.box.max[k] * axis;
+        const Vec3 acrossAxis =
+            (rotation.col((k + 1) % 3).cwiseAbs2() + rotation.col((k + 2) % 3).cwiseAbs2())
+                .cwiseSqrt();
+        const Vec3 beside = shape.axisRadii[k] * acrossAxis;
+        cut(from.cwiseMin(to) - beside, from.cwiseMax(to) + beside);
+    }
+    return box;
 }
 
 Pose worldFromPlane(const Vec3& point, const Vec3& normal)

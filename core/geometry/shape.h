@@ -86,12 +86,13 @@ struct Shape {
     Pose bodyFromAsset;       ///< object frame from the artist's frame
     MassProperties unitMass;  ///< for density 1 kg/m³, in the object frame
 
-    TriMesh mesh;                  ///< in the object frame [m]
-    Aabb box;                      ///< of the mesh, object frame
-    double boundingRadius = 0.0;   ///< of the mesh about the centre of mass [m]
-    double innerThickness = 0.0;   ///< first percentile of the inscribed-ball diameter [m]  [A16]
-    double commonThickness = 0.0;  ///< tenth percentile of it: without edges; of a plane endless
-    Ball innerBall;                ///< about as large as any in the solid, object frame [m]
+    TriMesh mesh;                   ///< in the object frame [m]
+    Aabb box;                       ///< of the mesh, object frame
+    double boundingRadius = 0.0;    ///< of the mesh about the centre of mass [m]
+    Vec3 axisRadii = Vec3::Zero();  ///< of the mesh about each axis of the object frame [m]
+    double innerThickness = 0.0;    ///< first percentile of the inscribed-ball diameter [m]  [A16]
+    double commonThickness = 0.0;   ///< tenth percentile of it: without edges; of a plane endless
+    Ball innerBall;                 ///< about as large as any in the solid, object frame [m]
     bool usesTrueNormals = false;
     Vec3 turnsThatShow = Vec3::Ones();  ///< by axis of the object frame  [revolution.h]
     Capsule capsule;                    ///< that it touches as, or ball; else of radius 0
@@ -128,7 +129,8 @@ struct Shape {
     static constexpr double kEndless = std::numeric_limits<double>::infinity();
 };
 
-/// The world box of a placed shape; a plane's is everything.
+/// A world box around a placed shape; a plane's is everything. Hardly larger than needed for what
+/// is long, flat or round.
 Aabb boxAt(const Shape& shape, const Pose& pose);
 
 /// Builds mass, field, samples and rays from a closed mesh in the artist's frame, lengths in

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/check.h"
@@ -19,6 +20,9 @@ constexpr double kNoSlope = 0.1;
 
 /// Of squared distances near the surface, in spacings².
 constexpr double kSquaredRounding = 1e-12;
+
+/// Of lengths there, in spacings.
+constexpr double kLengthRounding = 1e-6;
 
 }  // namespace
 
@@ -41,8 +45,8 @@ SignedDistance::SignedDistance(const TriMesh& mesh, DistanceField field, bool re
 
 std::size_t SignedDistance::byteCount() const
 {
-    return field_.nodes.byteCount() +
-           sizeof(std::uint32_t) * (field_.nearest.start.size() + field_.nearest.faces.size()) +
+    return field_.nodes.byteCount() + sizeof(std::uint32_t) * field_.nearest.start.size() +
+           sizeof(ListedFace) * field_.nearest.faces.size() +
            (sizeof(Face) + sizeof(Border)) * faces_.size();
 }
 
@@ -72,9 +76,13 @@ void SignedDistance::buildFaces(const TriMesh& mesh)
     });
 }
 
-std::span<const std::uint32_t> SignedDistance::facesOfCell(const Vec3& pointInDomain) const
+SignedDistance::CellFaces SignedDistance::facesFor(const Vec3& point, const Vec3& placeInCell) const
 {
-    return field_.nearest.of(field_.nodes, field_.nodes.placeOf(pointInDomain).cell);
+    const std::array<int, 3> cell = field_.nodes.placeOf(placeInCell).cell;
+    const double h = spacing();
+    const Vec3 centre =
+        field_.nodes.layout.node(cell[0], cell[1], cell[2]) + Vec3::Constant(0.5 * h);
+    return {field_.nearest.of(field_.nodes, cell), (point - centre).norm() + kLengthRounding * h};
 }
 
 double SignedDistance::gridValue(const Vec3& point) const
@@ -115,31 +123,43 @@ bool SignedDistance::isClearOf(const Vec3& point, double radius) const
     return nodes.interpolate(place) - block.slack > radius;
 }
 
-SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point, const Vec3& place) const
+/// Whether a face is closer than the best so far, which it then is. Of faces that are as close as
+/// each other the first of the mesh answers, so that nothing depends on the order in which they are
+/// asked: planes are told to be farther only where rounding cannot be why.
+bool SignedDistance::isCloser(std::uint32_t face, const Vec3& point, Closest& best) const
 {
-    const std::span<const std::uint32_t> candidates = facesOfCell(place);
-    SCREE_CHECK(!candidates.empty(), "a cell near the surface has no triangles");
-    return closestAmong(candidates, point);
+    const Face& of = faces_[face];
+    const double rounding = kSquaredRounding * spacing() * spacing();
+    // Nothing of a triangle is closer than its plane.
+    const double height = of.normal.dot(point - of.corners.a);
+    if (height * height > best.squaredDistance + rounding) return false;
+    const ClosestOnTriangle closest = closestOnTriangle(point, of.corners, of.edges);
+    const double squared = (point - closest.point).squaredNorm();
+    if (squared > best.squaredDistance) return false;
+    if (squared == best.squaredDistance && face > best.face) return false;
+    best = {face, closest.feature, closest.point, squared};
+    return true;
 }
 
-SignedDistance::Closest SignedDistance::closestAmong(std::span<const std::uint32_t> faces,
-                                                     const Vec3& point) const
+SignedDistance::Closest SignedDistance::closestInCell(const Vec3& point,
+                                                      const Vec3& placeInCell) const
 {
-    // Of triangles that are as close as each other the first of the mesh answers, so that nothing
-    // depends on their order here: planes are told to be farther only where rounding cannot be why.
-    const double rounding = kSquaredRounding * spacing() * spacing();
-    Closest best{faces.front(), TriangleFeature::face, Vec3::Zero(), 1e300};
-    for (const std::uint32_t f : faces) {
-        const Face& face = faces_[f];
-        // Nothing of a triangle is closer than its plane.
-        const double height = face.normal.dot(point - face.corners.a);
-        if (height * height > best.squaredDistance + rounding) continue;
-        const ClosestOnTriangle closest = closestOnTriangle(point, face.corners, face.edges);
-        const double squared = (point - closest.point).squaredNorm();
-        const bool isCloser =
-            squared < best.squaredDistance || (squared == best.squaredDistance && f < best.face);
-        if (isCloser) best = {f, closest.feature, closest.point, squared};
+    const CellFaces near = facesFor(point, placeInCell);
+    SCREE_CHECK(!near.faces.empty(), "a cell near the surface has no triangles");
+    Closest best;
+    double farthest = std::numeric_limits<double>::infinity();
+    for (const auto [face, fromCentre] : near.faces) {
+        if (fromCentre > farthest) break;
+        if (isCloser(face, point, best))
+            farthest = near.fromCentre + std::sqrt(best.squaredDistance);
     }
+    return best;
+}
+
+SignedDistance::Closest SignedDistance::closestOf(const FacePlace& place, const Vec3& point) const
+{
+    Closest best;
+    for (std::uint32_t i = 0; i < place.faceCount; ++i) isCloser(place.faces[i], point, best);
     return best;
 }
 
@@ -231,7 +251,9 @@ FacePlace SignedDistance::placeAround(const Vec3& point, double gridValue) const
         std::uint32_t face = 0;
     };
     std::array<Near, 3> nearest;  // ascending
-    for (const std::uint32_t f : facesOfCell(point)) {
+    const CellFaces near = facesFor(point, point);
+    for (const auto [f, fromCentre] : near.faces) {
+        if (fromCentre > near.fromCentre + nearest[2].distance) break;
         const Face& face = faces_[f];
         const Vec3 closest = closestOnTriangle(point, face.corners, face.edges).point;
         Near next{(point - closest).norm(), f};
@@ -267,21 +289,23 @@ double SignedDistance::value(const Vec3& point, const FacePlace& place) const
 {
     const Face& face = faces_[place.faces[0]];
     if (place.faceCount == 1) return face.normal.dot(point - face.corners.a);
-    return signedValue(closestAmong(place.faces, point), point);
+    return signedValue(closestOf(place, point), point);
 }
 
 SignedDistance::Sloped SignedDistance::sloped(const Vec3& point, const FacePlace& place) const
 {
     const Face& face = faces_[place.faces[0]];
     if (place.faceCount == 1) return {face.normal.dot(point - face.corners.a), face.normal};
-    return slopedAt(closestAmong(place.faces, point), point);
+    return slopedAt(closestOf(place, point), point);
 }
 
 void SignedDistance::facesNear(const Vec3& point, double tolerance,
                                std::vector<NearFace>& faces) const
 {
     if (solid_) return solid_->facesNear(point, tolerance, faces);
-    for (const std::uint32_t f : facesOfCell(point)) {
+    const CellFaces near = facesFor(point, point);
+    for (const auto [f, fromCentre] : near.faces) {
+        if (fromCentre > near.fromCentre + tolerance) break;
         const Face& face = faces_[f];
         const double height = face.normal.dot(point - face.corners.a);
         if (std::abs(height) > tolerance) continue;

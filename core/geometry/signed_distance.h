@@ -142,10 +142,10 @@ private:
     };
 
     struct Closest {
-        std::uint32_t face;
-        TriangleFeature feature;
-        Vec3 point;
-        double squaredDistance;
+        std::uint32_t face = 0;
+        TriangleFeature feature = TriangleFeature::face;
+        Vec3 point = Vec3::Zero();
+        double squaredDistance = 1e300;
     };
 
     void buildFaces(const TriMesh& mesh);
@@ -153,10 +153,16 @@ private:
     {
         return point.cwiseMax(domain_.min).cwiseMin(domain_.max);
     }
-    std::span<const std::uint32_t> facesOfCell(const Vec3& pointInDomain) const;
-    /// Of the faces that can be closest to some point of the cell that `place` is in.
-    Closest closestInCell(const Vec3& point, const Vec3& place) const;
-    Closest closestAmong(std::span<const std::uint32_t> faces, const Vec3& point) const;
+    /// The faces that can be closest to some point of a cell, those first that are nearest to its
+    /// centre; how far a point is from there tells when none of the others can matter.
+    struct CellFaces {
+        std::span<const ListedFace> faces;
+        double fromCentre;  ///< of the point [m]
+    };
+    CellFaces facesFor(const Vec3& point, const Vec3& placeInCell) const;
+    Closest closestInCell(const Vec3& point, const Vec3& placeInCell) const;
+    Closest closestOf(const FacePlace& place, const Vec3& point) const;
+    bool isCloser(std::uint32_t face, const Vec3& point, Closest& best) const;
     Sloped slopedAt(const Closest& closest, const Vec3& point) const;
     const Vec3& normalAt(const Closest& closest) const;
     double signedValue(const Closest& closest, const Vec3& point) const;

@@ -110,7 +110,7 @@ TEST(E21FieldStorage, AKeptFieldOfOtherFacesOrAnotherLatticeIsBuiltAnew)
     build();
     build();
     ASSERT_EQ(store.timesKept, 1);
-    store.field->nearest.faces.back() = static_cast<std::uint32_t>(cube.triangles.cols());
+    store.field->nearest.faces.back().face = static_cast<std::uint32_t>(cube.triangles.cols());
     const auto shape = build();
     EXPECT_EQ(store.timesKept, 2);
     EXPECT_NEAR(shape->distance.value({0.5 + 1e-3, 0.1, 0.1}), 1e-3, 1e-12);
