@@ -56,7 +56,7 @@ void findCreaseContacts(const RelativePair& pair, std::int32_t corner, double re
     if (other.creases().empty()) return;
     const Vec3 p = pair * features.points().col(corner);
     const double farthest = kFartherThanSide * reach;
-    thread_local std::vector<std::uint32_t> near;
+    thread_local std::vector<std::pair<std::uint32_t, Beside>> near;
     near.clear();
     const FloatLanes3 place = FloatLanes3::all(p);
     const FloatLanes most =
@@ -67,18 +67,19 @@ void findCreaseContacts(const RelativePair& pair, std::int32_t corner, double re
             const FloatLanes within = most + spheres.radius;
             return bitsOf(dot(way, way) <= within * within);
         },
-        [&](std::uint32_t crease, int) { near.push_back(crease); });
+        [&](std::uint32_t index, int) {
+            const Beside at = placeBeside(other.creases()[index], p);
+            if (at.squaredApart <= farthest * farthest) near.push_back({index, at});
+        });
     if (near.empty()) return;
-    std::sort(near.begin(), near.end());
+    std::ranges::sort(near, {}, &std::pair<std::uint32_t, Beside>::first);
 
     const SignedDistance& field = pair.second.distance;
     const double rounding = kRounding * pair.second.boundingRadius;
     // Behind the plane of a side a corner is only if it came through the crease.
     const double throughIt = rounding + std::max(0.0, -field.value(p));
-    for (const std::uint32_t index : near) {
+    for (const auto& [index, at] : near) {
         const Crease& crease = other.creases()[index];
-        const Beside at = placeBeside(crease, p);
-        if (at.squaredApart > farthest * farthest) continue;
         for (const int side : {0, 1}) {
             const Vec3& n = crease.faceNormal[side];
             const auto isOne = [&](const FeatureContact& c) { return c.normal.dot(n) > kOneFace; };
