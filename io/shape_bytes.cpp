@@ -16,8 +16,8 @@ struct Format {
     std::string_view mark;
     std::uint32_t version;
 };
-constexpr Format kFieldFormat = {"scree distance field\n", 3};
-constexpr Format kSolidFormat = {"scree repaired solid\n", 1};
+constexpr Format kFieldFormat = {"scree distance field\n", kFieldVersion};
+constexpr Format kSolidFormat = {"scree repaired solid\n", kSolidVersion};
 
 template <class Element>
 void appendArray(std::string& bytes, std::span<Element> elements)

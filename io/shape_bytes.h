@@ -13,6 +13,9 @@
 
 namespace scree {
 
+/// Of the formats.
+inline constexpr std::uint32_t kFieldVersion = 3, kSolidVersion = 1;
+
 std::string bytesOfField(std::uint64_t key, const DistanceField& field);
 std::optional<DistanceField> fieldOfBytes(std::uint64_t key, std::string_view bytes);
 

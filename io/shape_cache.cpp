@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kFieldEnding = ".field", *kSolidEnding = ".solid";
+
+/// Programs of other versions may share the folder: each finds what it has kept itself.
+fs::path fieldName(std::uint64_t key)
+{
+    return toHex(key) + "-" + std::to_string(kFieldVersion) + kFieldEnding;
+}
+
+fs::path solidName(std::uint64_t key)
+{
+    return toHex(key) + "-" + std::to_string(kSolidVersion) + kSolidEnding;
+}
 
 /// A run that has something to keep first removes what was not used for longest beyond this: nobody
 /// looks into such a folder before it has filled a disk.
@@ -74,22 +86,22 @@ ShapeCache::ShapeCache(fs::path folder) : folder_(std::move(folder)) {}
 
 std::optional<DistanceField> ShapeCache::findField(std::uint64_t key)
 {
-    return find(folder_ / (toHex(key) + kFieldEnding), key, fieldOfBytes);
+    return find(folder_ / fieldName(key), key, fieldOfBytes);
 }
 
 void ShapeCache::keepField(std::uint64_t key, const DistanceField& field)
 {
-    keep(folder_ / (toHex(key) + kFieldEnding), bytesOfField(key, field));
+    keep(folder_ / fieldName(key), bytesOfField(key, field));
 }
 
 std::optional<TriMesh> ShapeCache::findSolid(std::uint64_t key)
 {
-    return find(folder_ / (toHex(key) + kSolidEnding), key, solidOfBytes);
+    return find(folder_ / solidName(key), key, solidOfBytes);
 }
 
 void ShapeCache::keepSolid(std::uint64_t key, const TriMesh& solid)
 {
-    keep(folder_ / (toHex(key) + kSolidEnding), bytesOfSolid(key, solid));
+    keep(folder_ / solidName(key), bytesOfSolid(key, solid));
 }
 
 template <class What>

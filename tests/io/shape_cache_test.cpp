@@ -102,6 +102,29 @@ TEST(ShapeCache, ADamagedFileIsNoticedAndWrittenAnew)
     EXPECT_EQ(readFileBytes(file), good);
 }
 
+// On a farm one machine may have the next program a week before the others.
+TEST(ShapeCache, WhatAProgramOfAnotherVersionHasKeptIsNeitherDamagedNorReplaced)
+{
+    const test::TemporaryFolder folder;
+    const TriMesh ring = makeTorus(1.0, 0.25, {16, 10});
+    ShapeCache first(folder.path());
+    buildMeshShape("ring", ring, {}, &first);
+    const std::filesystem::path file = onlyFileIn(folder.path());
+    std::string name = file.filename().string();
+    const std::string version = "-" + std::to_string(kFieldVersion) + ".";
+    ASSERT_NE(name.find(version), std::string::npos);
+    name.replace(name.find(version), version.size(), "-0.");
+    std::filesystem::rename(file, folder / name);
+    writeFileBytes(folder / name, "in another format");
+
+    ShapeCache second(folder.path());
+    buildMeshShape("ring", ring, {}, &second);
+    EXPECT_EQ(second.keptCount(), 1);
+    EXPECT_EQ(second.problem(), "");
+    EXPECT_EQ(second.size().files, 2);
+    EXPECT_EQ(readFileBytes(folder / name), "in another format");
+}
+
 /// Whether a field would be taken from a file whose checksum is right.
 bool isAccepted(const DistanceField& field)
 {
