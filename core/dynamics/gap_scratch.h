@@ -120,7 +120,7 @@ struct BodyMove {
 /// Whom a step, as solved, takes where it has not looked: gap_unseen.h. Per body.
 struct GapUnseen {
     std::vector<double> change;      ///< of the velocity it was looked for with [m/s]
-    std::vector<char> isStruck;      ///< so that it ends visibly elsewhere
+    std::vector<double> strays;      ///< how far that takes any point of it, at most [m]
     std::vector<char> isFaster;      ///< leaves the box that it was looked for in
     std::vector<Aabb> boxes;         ///< that nobody leaves
     std::vector<char> isMet;         ///< per pair that was asked about

@@ -12,13 +12,21 @@
 namespace scree {
 namespace {
 
-/// An overlap that must not come unseen, as a share of the smaller body.
-constexpr double kVisible = 1e-3;
+/// An overlap that must not come unseen, as a share of the smaller body, nor more than a share of
+/// what is thin in the two: edges that are in deeper are none that touch (deepestEdges). With a
+/// fifth of it one step in six of a thousand rings is solved again, for overlaps that nobody sees.
+constexpr double kVisible = 5e-3, kOfThickness = 0.1;
 
-/// And one that those who were let pass must not come to: nor more than this share of what is thin
-/// in them, for edges that are in deeper are none that touch (deepestEdges). With a fifth of it one
-/// step in seven of a thousand rings is solved again, for overlaps that nobody sees.
-constexpr double kVisibleToPassers = 5e-3, kOfThickness = 0.1;
+/// How far a body may leave the box that it was looked for in, as a share of its size: whom it
+/// would meet there, and how small that is, nobody knows.
+constexpr double kBeyondBox = 1e-3;
+
+double visibleTo(const World& world, BodyPair bodies)
+{
+    const auto [a, b] = bodies;
+    const double thinner = std::min(world.shapeOf(a).thickness(), world.shapeOf(b).thickness());
+    return std::min(kVisible * smallerRadius(world, a, b), kOfThickness * thinner);
+}
 
 /// By how much the velocity of any point of a movable body has changed, as solved, beyond what
 /// pulls it [m/s].
@@ -44,7 +52,7 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
                     double seen, double least, NearFeatures& near)
 {
     const auto [a, b] = bodies;
-    const double visible = kVisible * smallerRadius(world, a, b);
+    const double visible = visibleTo(world, bodies);
     const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
     const double within =
         farthestApproach(world, bodies, motionOf(bodyA, dt), motionOf(bodyB, dt)) - visible;
@@ -65,26 +73,33 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
     });
 }
 
-bool isAny(const std::vector<char>& flags)
+template <class Number>
+bool isAny(const std::vector<Number>& all)
 {
-    return std::ranges::find(flags, 1) != flags.end();
+    return std::ranges::any_of(all, [](Number one) { return one > 0; });
 }
 
-/// Marks whom the step has given another velocity than it was looked for with, so that it ends
-/// visibly elsewhere. Answers whether there is anybody.
-bool findStruck(const World& world, double dt, GapScratch& scratch)
+/// Finds how far the step, as solved, takes bodies from where they were looked for. Answers whether
+/// there is anybody.
+bool findStrays(const World& world, double dt, GapScratch& scratch)
 {
     GapUnseen& unseen = scratch.unseen;
     unseen.change.assign(world.bodyCount(), 0.0);
-    unseen.isStruck.assign(world.bodyCount(), 0);
+    unseen.strays.assign(world.bodyCount(), 0.0);
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) return;
-        const double visible = kVisible * world.shapeOf(body).boundingRadius;
         unseen.change[i] = changeOf(world, scratch, body, dt);
-        unseen.isStruck[i] = dt * (unseen.change[i] - scratch.gain[i]) > visible;
+        unseen.strays[i] = dt * std::max(unseen.change[i] - scratch.gain[i], 0.0);
     });
-    return isAny(unseen.isStruck);
+    return isAny(unseen.strays);
+}
+
+/// Whether either ends so far from where it was looked for that it matters to the other.
+bool endElsewhere(const World& world, const GapScratch& scratch, BodyPair bodies)
+{
+    const std::vector<double>& ofBody = scratch.unseen.strays;
+    return std::max(ofBody[bodies.a], ofBody[bodies.b]) > visibleTo(world, bodies);
 }
 
 /// Marks who leaves the box that it was looked for in, and makes boxes that nobody leaves. Answers
@@ -99,7 +114,7 @@ bool findFaster(const World& world, double dt, GapScratch& scratch)
         if (scratch.bodies[i].inverseMass == 0.0) return;
         const double gained = paceOf(world, scratch, body, dt).fastest(dt) -
                               scratch.paces[i].fastest(dt) - scratch.gain[i];
-        unseen.isFaster[i] = dt * gained > kVisible * world.shapeOf(body).boundingRadius;
+        unseen.isFaster[i] = dt * gained > kBeyondBox * world.shapeOf(body).boundingRadius;
         if (unseen.isFaster[i]) unseen.boxes[i] = unseen.boxes[i].grown(dt * gained);
     });
     return isAny(unseen.isFaster);
@@ -118,8 +133,8 @@ void findUnseenAmongNear(const World& world, double dt, GapScratch& scratch)
     unseen.isMet.assign(near.size(), 0);
     forEach(near.size(), kShortWork, [&](std::size_t i) {
         NearPair& pair = near[i];
-        if (!unseen.isStruck[pair.bodies.a] && !unseen.isStruck[pair.bodies.b]) return;
-        if (!isSolvedAnew(scratch, pair.bodies)) return;
+        if (!isSolvedAnew(scratch, pair.bodies) || !endElsewhere(world, scratch, pair.bodies))
+            return;
         const double least = apartAtLeast(world, scratch, pair);
         unseen.isMet[i] =
             runsIntoUnseen(world, scratch, pair.bodies, dt, pair.foundWithin, least, pair.near);
@@ -136,13 +151,6 @@ Pose poseAfter(const World& world, const GapScratch& scratch, BodyId body, doubl
     return {motion.position + solved.shift, rotated(motion.orientation, solved.turn)};
 }
 
-double visibleToPassers(const World& world, BodyPair bodies)
-{
-    const auto [a, b] = bodies;
-    const double thinner = std::min(world.shapeOf(a).thickness(), world.shapeOf(b).thickness());
-    return std::min(kVisibleToPassers * smallerRadius(world, a, b), kOfThickness * thinner);
-}
-
 /// Adds the pairs that were let pass on their ways as these were, and overlap where the step, as
 /// solved, takes them: marbles that pass each other on a stair, of which it throws one up.
 void findDiverted(const World& world, double dt, GapScratch& scratch)
@@ -153,13 +161,13 @@ void findDiverted(const World& world, double dt, GapScratch& scratch)
         const GapPair& pair = scratch.pairs[i];
         const auto [a, b] = pair.bodies;
         if (!pair.isLetPass || !isSolvedAnew(scratch, pair.bodies)) return;
-        if (!unseen.isStruck[a] && !unseen.isStruck[b]) return;
+        if (!endElsewhere(world, scratch, pair.bodies)) return;
         const PlacedPair placed{&world.shapeOf(a), &world.shapeOf(b),
                                 poseAfter(world, scratch, a, dt), poseAfter(world, scratch, b, dt)};
         thread_local std::vector<GapContact> contacts;
         contacts.clear();
         scratch.nearPairs[pair.near].near.findContacts(placed, 0.0, contacts);
-        unseen.isMet[i] = deepestOf(contacts) > visibleToPassers(world, pair.bodies);
+        unseen.isMet[i] = deepestOf(contacts) > visibleTo(world, pair.bodies);
     });
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {
         if (!unseen.isMet[i]) continue;
@@ -196,7 +204,7 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
 {
     GapUnseen& unseen = scratch.unseen;
     unseen.pairs.clear();
-    if (findStruck(world, dt, scratch)) {
+    if (findStrays(world, dt, scratch)) {
         findUnseenAmongNear(world, dt, scratch);
         findDiverted(world, dt, scratch);
         if (findFaster(world, dt, scratch)) findUnseenBeyondBoxes(world, dt, scratch);
