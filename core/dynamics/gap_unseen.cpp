@@ -17,15 +17,24 @@ namespace {
 /// fifth of it one step in six of a thousand rings is solved again, for overlaps that nobody sees.
 constexpr double kVisible = 5e-3, kOfThickness = 0.1;
 
-/// How far a body may leave the box that it was looked for in, as a share of its size: whom it
-/// would meet there, and how small that is, nobody knows.
-constexpr double kBeyondBox = 1e-3;
+double visibleOf(const Shape& shape)
+{
+    if (shape.isPlane) return Shape::kEndless;
+    return std::min(kVisible * shape.boundingRadius, kOfThickness * shape.thickness());
+}
 
 double visibleTo(const World& world, BodyPair bodies)
 {
-    const auto [a, b] = bodies;
-    const double thinner = std::min(world.shapeOf(a).thickness(), world.shapeOf(b).thickness());
-    return std::min(kVisible * smallerRadius(world, a, b), kOfThickness * thinner);
+    return std::min(visibleOf(world.shapeOf(bodies.a)), visibleOf(world.shapeOf(bodies.b)));
+}
+
+/// To whom it matters most.
+double visibleToAnybody(const World& world)
+{
+    double least = Shape::kEndless;
+    for (std::size_t i = 0; i < world.bodyCount(); ++i)
+        least = std::min(least, visibleOf(world.shapeOf(static_cast<BodyId>(i))));
+    return least;
 }
 
 /// By how much the velocity of any point of a movable body has changed, as solved, beyond what
@@ -103,18 +112,19 @@ bool endElsewhere(const World& world, const GapScratch& scratch, BodyPair bodies
 }
 
 /// Marks who leaves the box that it was looked for in, and makes boxes that nobody leaves. Answers
-/// whether there is anybody.
+/// whether there is anybody. Whom it would meet there, and how small that is, is not known yet.
 bool findFaster(const World& world, double dt, GapScratch& scratch)
 {
     GapUnseen& unseen = scratch.unseen;
     unseen.isFaster.assign(world.bodyCount(), 0);
     unseen.boxes = scratch.boxes;
+    const double visible = visibleToAnybody(world);
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) return;
         const double gained = paceOf(world, scratch, body, dt).fastest(dt) -
                               scratch.paces[i].fastest(dt) - scratch.gain[i];
-        unseen.isFaster[i] = dt * gained > kBeyondBox * world.shapeOf(body).boundingRadius;
+        unseen.isFaster[i] = dt * gained > visible;
         if (unseen.isFaster[i]) unseen.boxes[i] = unseen.boxes[i].grown(dt * gained);
     });
     return isAny(unseen.isFaster);
