@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/dynamics/body_pairs.h"
 #include "core/dynamics/integrator.h"
@@ -113,6 +114,20 @@ void settleRows(double dt, const std::vector<Held>& held, const GapPair& pair, c
     }
 }
 
+/// Brings the arms of a row, of a moment at which its bodies were elsewhere, to one place: that of
+/// each changes the more the harder it is to turn. Half each let a block sink under ten thousand
+/// times its weight.
+void bringTogether(const World& world, const std::vector<GapBody>& bodies, GapRow& row)
+{
+    const Vec3 bFromA = world.motion[row.a].position - world.motion[row.b].position;
+    const Vec3 slid = bFromA - (row.rB - row.rA);
+    const double easeA = row.movesA ? bodies[row.a].inverseInertia.trace() : 0.0;
+    const double easeB = row.movesB ? bodies[row.b].inverseInertia.trace() : 0.0;
+    if (easeA + easeB > 0.0) row.rA -= easeB / (easeA + easeB) * slid;
+    row.rB = row.rA + bFromA;
+    prepareRow(bodies, row);
+}
+
 }  // namespace
 
 void foreseeBlows(const World& world, const StepSettings& settings, double dt,
@@ -142,6 +157,18 @@ void foreseeBlows(const World& world, const StepSettings& settings, double dt,
             isTurned[scratch.placeInBlock[pair.bodies.a]] ||
             isTurned[scratch.placeInBlock[pair.bodies.b]])
             settleRows(dt, held, pair, seen, scratch);
+    });
+}
+
+void forgetMomentsOfBlows(const World& world, const GapBlock& block, GapScratch& scratch)
+{
+    forPairs(block, [&](std::size_t i) {
+        const GapPair& pair = scratch.pairs[i];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            GapRow& row = scratch.rows[r];
+            if (!std::exchange(row.isOfBlow, false)) continue;
+            bringTogether(world, scratch.bodies, row);
+        }
     });
 }
 

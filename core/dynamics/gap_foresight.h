@@ -27,4 +27,10 @@ namespace scree {
 void foreseeBlows(const World& world, const StepSettings& settings, double dt,
                   const std::vector<Held>& held, const GapBlock& block, GapScratch& scratch);
 
+/// Once blows are done all rows of a pair have arms to one place again. What carries for the whole
+/// step knows no moment of it; and GapLanes has one way between the centres for all rows of a pair:
+/// a chip under eight thousand times its weight, one of whose corners was about to be hit, was told
+/// of one spin and given another that differed by 330 rad/s.
+void forgetMomentsOfBlows(const World& world, const GapBlock& block, GapScratch& scratch);
+
 }  // namespace scree

@@ -208,7 +208,6 @@ PairTurn rememberContacts(const World& world, double dt, GapScratch& scratch, co
     PairTurn turn;
     const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
     const Quat aFromWorld = world.motion[pair.bodies.a].orientation.conjugate();
-    const Vec3 bFromA = world.motion[pair.bodies.a].position - world.motion[pair.bodies.b].position;
     for (std::size_t r = pair.begin; r < pair.end; ++r) {
         const GapRow& row = scratch.rows[r];
         if (!row.carries()) continue;
@@ -219,12 +218,6 @@ PairTurn rememberContacts(const World& world, double dt, GapScratch& scratch, co
         // its inverse would lose bits every step.
         turn.ofA += row.rA.cross(impulse) + row.couple;
         turn.ofB -= row.rB.cross(impulse) + row.couple;
-        if (row.isOfBlow && row.movesA && row.movesB) {
-            const PairTurn couple =
-                missingCouple(scratch, row, impulse, bFromA - (row.rB - row.rA));
-            turn.ofA += couple.ofA;
-            turn.ofB += couple.ofB;
-        }
         scratch.formerContacts[place++] = {
             row.a,        row.b,          contacts[r - pair.begin].feature, aFromWorld * row.rA,
             impulse / dt, row.couple / dt};

@@ -165,6 +165,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         const std::vector<VelocityLead> trails = trailPlaces(world, block, scratch);
         resolveImpacts(settings_, dt, held, block, scratch);
         endOverruns(world, dt, block, scratch);
+        forgetMomentsOfBlows(world, block, scratch);
         takeBack(trails, scratch);
         findLevels(dt, block, scratch);
     }
