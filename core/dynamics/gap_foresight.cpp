@@ -115,8 +115,7 @@ void settleRows(double dt, const std::vector<Held>& held, const GapPair& pair, c
 }
 
 /// Brings the arms of a row, of a moment at which its bodies were elsewhere, to one place: that of
-/// each changes the more the harder it is to turn. Half each let a block sink under ten thousand
-/// times its weight.
+/// each changes the more the harder it is to turn, as in gap_motion.cpp.
 void bringTogether(const World& world, const std::vector<GapBody>& bodies, GapRow& row)
 {
     const Vec3 bFromA = world.motion[row.a].position - world.motion[row.b].position;

@@ -53,22 +53,15 @@ struct PairTurn {
 /// would gain or lose angular momentum. They take the couple that is missing, as if the place had
 /// gone along with both: each the more of it the harder it is to turn. Half each let a block sink
 /// under ten thousand times its weight.
-PairTurn missingCouple(const GapScratch& scratch, const GapRow& row, const Vec3& impulse,
-                       const Vec3& slid)
-{
-    const double easeA = scratch.bodies[row.a].inverseInertia.trace();
-    const double easeB = scratch.bodies[row.b].inverseInertia.trace();
-    const Vec3 couple = impulse.cross(slid) / (easeA + easeB);
-    return {easeB * couple, easeA * couple};
-}
-
 void addCouple(World& world, const GapScratch& scratch, const GapRow& row, const Vec3& impulse,
                const Vec3& slid)
 {
     if (!row.movesA || !row.movesB) return;
-    const PairTurn couple = missingCouple(scratch, row, impulse, slid);
-    world.motion[row.a].angularMomentum += couple.ofA;
-    world.motion[row.b].angularMomentum += couple.ofB;
+    const double easeA = scratch.bodies[row.a].inverseInertia.trace();
+    const double easeB = scratch.bodies[row.b].inverseInertia.trace();
+    const Vec3 couple = impulse.cross(slid) / (easeA + easeB);
+    world.motion[row.a].angularMomentum += easeB * couple;
+    world.motion[row.b].angularMomentum += easeA * couple;
 }
 
 void addCouplesOfImpacts(World& world, const GapScratch& scratch)
