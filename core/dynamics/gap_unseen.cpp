@@ -82,15 +82,14 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
     });
 }
 
-template <class Number>
-bool isAny(const std::vector<Number>& all)
+bool isAny(const std::vector<char>& flags)
 {
-    return std::ranges::any_of(all, [](Number one) { return one > 0; });
+    return std::ranges::find(flags, 1) != flags.end();
 }
 
 /// Finds how far the step, as solved, takes bodies from where they were looked for. Answers whether
-/// there is anybody.
-bool findStrays(const World& world, double dt, GapScratch& scratch)
+/// anybody goes as far as `visible`.
+bool findStrays(const World& world, double dt, double visible, GapScratch& scratch)
 {
     GapUnseen& unseen = scratch.unseen;
     unseen.change.assign(world.bodyCount(), 0.0);
@@ -101,7 +100,7 @@ bool findStrays(const World& world, double dt, GapScratch& scratch)
         unseen.change[i] = changeOf(world, scratch, body, dt);
         unseen.strays[i] = dt * std::max(unseen.change[i] - scratch.gain[i], 0.0);
     });
-    return isAny(unseen.strays);
+    return std::ranges::any_of(unseen.strays, [&](double way) { return way > visible; });
 }
 
 /// Whether either ends so far from where it was looked for that it matters to the other.
@@ -113,12 +112,11 @@ bool endElsewhere(const World& world, const GapScratch& scratch, BodyPair bodies
 
 /// Marks who leaves the box that it was looked for in, and makes boxes that nobody leaves. Answers
 /// whether there is anybody. Whom it would meet there, and how small that is, is not known yet.
-bool findFaster(const World& world, double dt, GapScratch& scratch)
+bool findFaster(const World& world, double dt, double visible, GapScratch& scratch)
 {
     GapUnseen& unseen = scratch.unseen;
     unseen.isFaster.assign(world.bodyCount(), 0);
     unseen.boxes = scratch.boxes;
-    const double visible = visibleToAnybody(world);
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         if (scratch.bodies[i].inverseMass == 0.0) return;
@@ -214,10 +212,11 @@ bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
 {
     GapUnseen& unseen = scratch.unseen;
     unseen.pairs.clear();
-    if (findStrays(world, dt, scratch)) {
+    const double visible = visibleToAnybody(world);
+    if (findStrays(world, dt, visible, scratch)) {
         findUnseenAmongNear(world, dt, scratch);
         findDiverted(world, dt, scratch);
-        if (findFaster(world, dt, scratch)) findUnseenBeyondBoxes(world, dt, scratch);
+        if (findFaster(world, dt, visible, scratch)) findUnseenBeyondBoxes(world, dt, scratch);
     }
     scratch.isSolvedAnew.assign(world.bodyCount(), 0);
     for (const BodyPair& pair : unseen.pairs) {
