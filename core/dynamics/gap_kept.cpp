@@ -133,8 +133,8 @@ void SolvedIslands::handOn(GapScratch& scratch) const
             GapPair& pair = scratch.pairs[i];
             pair.part = before[i]->part;
             pair.isCarried = before[i]->isCarried;
-            pair.fallsOnB = before[i]->fallsOnB;
-            pair.fallsOnA = before[i]->fallsOnA;
+            pair.fallOnB = before[i]->fallOnB;
+            pair.fallOnA = before[i]->fallOnA;
             for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
                 GapBody& still = scratch.bodies[body];
                 if (still.inverseMass == 0.0 || still.isKept) continue;

@@ -18,10 +18,18 @@ namespace {
 /// 18 layers it had 54 levels.
 constexpr double kFalls = 1e-4;
 
-/// Whether falling alone takes a body into what is `drift` away along `normal`, out of that.
-bool fallsInto(double drift, const Vec3& pull, const Vec3& normal, double dt)
+/// What takes less than this share of what bears a body most only leans on it. Books pushed along
+/// their shelf lean on each other by a thousandth, and each was to rest on the next: pushes drove
+/// them back into what pushed them, the "highest" first, 15 mm deep.
+constexpr double kBears = 0.1;
+
+/// The share of its fall by which falling alone takes a body into what is `drift` away along
+/// `normal`, out of that; 0 if it does not.
+double shareOfFall(double drift, const Vec3& pull, const Vec3& normal, double dt)
 {
-    return drift + dt * dt * pull.dot(normal) < -kFalls * dt * dt * pull.norm();
+    const double fall = dt * dt * pull.norm();
+    const double into = -(drift + dt * dt * pull.dot(normal));
+    return into > kFalls * fall ? into / fall : 0.0;
 }
 
 }  // namespace
@@ -42,8 +50,10 @@ void findLevels(double dt, const GapBlock& block, GapScratch& scratch)
                                dt * velocityAt(row, a, b).dot(row.normal);
             // Blows of so different masses may be far from answered when their rounds are over.
             const double drift = row.wasHit ? 0.0 : std::max(end, 0.0);
-            pair.fallsOnB |= row.movesA && fallsInto(drift, a.pull, row.normal, dt);
-            pair.fallsOnA |= row.movesB && fallsInto(drift, b.pull, -row.normal, dt);
+            if (row.movesA)
+                pair.fallOnB = std::max(pair.fallOnB, shareOfFall(drift, a.pull, row.normal, dt));
+            if (row.movesB)
+                pair.fallOnA = std::max(pair.fallOnA, shareOfFall(drift, b.pull, -row.normal, dt));
         }
     });
     // Node 0 is all that cannot be moved: nothing of it rests on anything.
@@ -51,13 +61,21 @@ void findLevels(double dt, const GapBlock& block, GapScratch& scratch)
     isFixed[0] = 1;
     std::vector<SupportEdge> edges;
     edges.reserve(2 * block.pairs.size());
-    for (const std::size_t i : block.pairs) {
-        const GapPair& pair = scratch.pairs[i];
-        const BodyId a = scratch.placeInBlock[pair.bodies.a];
-        const BodyId b = scratch.placeInBlock[pair.bodies.b];
-        if (pair.fallsOnB) edges.push_back({b, a});
-        if (pair.fallsOnA) edges.push_back({a, b});
-    }
+    std::vector<double> most(isFixed.size(), 0.0);
+    const auto forFalls = [&](const auto& work) {
+        for (const std::size_t i : block.pairs) {
+            const GapPair& pair = scratch.pairs[i];
+            const BodyId a = scratch.placeInBlock[pair.bodies.a];
+            const BodyId b = scratch.placeInBlock[pair.bodies.b];
+            if (pair.fallOnB > 0.0) work(b, a, pair.fallOnB);
+            if (pair.fallOnA > 0.0) work(a, b, pair.fallOnA);
+        }
+    };
+    forFalls(
+        [&](BodyId, BodyId upper, double share) { most[upper] = std::max(most[upper], share); });
+    forFalls([&](BodyId lower, BodyId upper, double share) {
+        if (share >= kBears * most[upper]) edges.push_back({lower, upper});
+    });
     const GraphLevels graph = computeLevels(isFixed.size(), edges, isFixed);
     for (std::size_t n = 0; n < block.bodies.size(); ++n) {
         scratch.levels.level[block.bodies[n]] = graph.level[n + 1];

@@ -5,8 +5,8 @@
 
 namespace scree {
 
-/// The levels of the bodies of a block, the same as those of the paper's graph. With the velocities
-/// before forces. Notes who falls on whom.
+/// The levels of the bodies of a block, those of the paper's graph but that nothing rests on what
+/// it merely leans on. With the velocities before forces. Notes who falls on whom.
 void findLevels(double dt, const GapBlock& block, GapScratch& scratch);
 
 /// The levels of all that is in no block, nor kept: nothing rests on anything.

@@ -41,15 +41,15 @@ struct NearPair {
 /// The few of these that have rows.
 struct GapPair {
     BodyPair bodies;
-    std::size_t near;                         ///< index into GapScratch::nearPairs
-    std::size_t begin = 0, end = 0;           ///< its rows
-    std::size_t bearing = 0;                  ///< how many of them have an impulse, once solved
-    bool isCarried = false;                   ///< it had an impulse in the last step
-    bool fallsOnB = false, fallsOnA = false;  ///< the other of the two, falling alone
-    std::size_t island = 0;                   ///< index into GapScratch::islands
-    int part = 0;                             ///< gap_pairs.h
-    bool isLetPass = false;                   ///< by gap_foresight.h, although rows would stop it
-    std::size_t place = 0;                    ///< in the pairs of its block
+    std::size_t near;                     ///< index into GapScratch::nearPairs
+    std::size_t begin = 0, end = 0;       ///< its rows
+    std::size_t bearing = 0;              ///< how many of them have an impulse, once solved
+    bool isCarried = false;               ///< it had an impulse in the last step
+    double fallOnB = 0.0, fallOnA = 0.0;  ///< share of its fall that takes the other into it
+    std::size_t island = 0;               ///< index into GapScratch::islands
+    int part = 0;                         ///< gap_pairs.h
+    bool isLetPass = false;               ///< by gap_foresight.h, although rows would stop it
+    std::size_t place = 0;                ///< in the pairs of its block
 };
 
 /// A blow.

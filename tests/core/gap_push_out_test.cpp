@@ -213,6 +213,28 @@ TEST(GapPushOut, AFallenRowOfDominoesIsNotThrownAboutByAnOverlapThatIsHardlyDeep
     EXPECT_LE(worst[1], 1e-3);
 }
 
+// Each leans on the next by a five hundredth, and was to rest on it: the "highest", as the easiest
+// to push, went back into the wall from where all the others have room to go.
+TEST(GapPushOut, BooksThatLeanAwayFromAWallAreNotPushedIntoIt)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    addPlane(world, material, Vec3::Zero(), Vec3::UnitX());
+    constexpr double kThick = 0.04, kDeep = 5e-4;
+    const Quat leaning(Eigen::AngleAxisd(-0.002, Vec3::UnitZ()));
+    for (int i = 0; i < 26; ++i) {
+        const double x = 0.5 * kThick + i * (kThick - kDeep);
+        addBody(world, boxShape({kThick, 0.35, 0.24}, 1), material, {{x, 0.175, 0.0}, leaning});
+    }
+    Stepper stepper(screeSettings());
+    double worst = 0.0;
+    for (int step = 0; step < 400; ++step)
+        worst = std::max(worst, stepper.step(world, 1.0 / 192.0).deepestBeforePushOut);
+    EXPECT_LE(worst, 2e-3);  // seen: 1.0 mm, and 9.4
+    EXPECT_GE(world.motion[27].position.x(), 0.5 * kThick + 25 * (kThick - kDeep) + 3e-3);
+}
+
 TEST(GapPushOut, WhatIsSqueezedBetweenWallsTooCloseStaysInTheMiddle)
 {
     World world;
