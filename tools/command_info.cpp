@@ -2,8 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "io/take_reader.h"
 #include "tools/command_line.h"
@@ -19,6 +23,11 @@ struct InfoOptions {
     bool json = false;
 };
 
+struct MovingBody {
+    std::string name;
+    double speed = 0.0;  ///< of its origin [m/s]
+};
+
 /// The take in a few numbers.
 struct TakeSummary {
     std::vector<int> frames;
@@ -30,8 +39,26 @@ struct TakeSummary {
     double wallSeconds = 0.0, cpuSeconds = 0.0;
     FrameSummary worst;  ///< the frame with the deepest overlap
     FrameSummary last;
-    std::size_t untold = 0;  ///< frames that stats.jsonl says nothing of
+    std::size_t untold = 0;           ///< frames that stats.jsonl says nothing of
+    std::vector<MovingBody> fastest;  ///< in the last frame, a few of those that move at all
 };
+
+/// Of what may move by itself: who keeps a heap awake is what people ask.
+std::vector<MovingBody> fastestAtTheEnd(const TakeReader& take)
+{
+    constexpr std::size_t kMost = 3;
+    const TakeInfo& info = take.info();
+    const SceneFrame last = take.readFrame(take.frames().back());
+    std::vector<MovingBody> moving;
+    for (std::size_t b = 0; b < info.bodies.size(); ++b) {
+        const double speed = info.metresPerUnit * last.velocity[b].norm();
+        if (info.bodies[b].mass > 0.0 && speed > 0.0)
+            moving.push_back({info.bodies[b].name, speed});
+    }
+    std::ranges::stable_sort(moving, std::ranges::greater{}, &MovingBody::speed);
+    moving.resize(std::min(moving.size(), kMost));
+    return moving;
+}
 
 TakeSummary summarize(const TakeReader& take)
 {
@@ -56,6 +83,10 @@ TakeSummary summarize(const TakeReader& take)
         if (frame.frame >= summary.last.frame) summary.last = frame;
     }
     summary.untold = untold.size();
+    const bool isLastRead =
+        !summary.frames.empty() &&
+        (summary.damaged.empty() || summary.damaged.back() != summary.frames.back());
+    if (isLastRead) summary.fastest = fastestAtTheEnd(take);
     return summary;
 }
 
@@ -94,6 +125,10 @@ void printText(const TakeReader& take, const TakeSummary& summary)
         std::printf("figures    missing for %zu of %zu frames: stats.jsonl does not tell of them\n",
                     summary.untold, summary.frames.size());
     if (summary.untold < summary.frames.size()) printFigures(summary);
+    for (std::size_t i = 0; i < summary.fastest.size(); ++i)
+        std::printf("%s%s at %.3g m/s%s", i == 0 ? "fastest    " : ", ",
+                    summary.fastest[i].name.c_str(), summary.fastest[i].speed,
+                    i + 1 == summary.fastest.size() ? " in the last frame\n" : "");
     std::printf("made by    scree %s, shot hash %s\n", info.programVersion.c_str(),
                 toHex(info.shotHash).c_str());
 }
@@ -126,6 +161,9 @@ void printJson(const TakeReader& take, const TakeSummary& summary)
         {"last_kinetic_energy_J", summary.last.kineticEnergy},
         {"last_state_hash", summary.last.stateHash},
     };
+    json["last_fastest"] = nlohmann::ordered_json::array();
+    for (const auto& [name, speed] : summary.fastest)
+        json["last_fastest"].push_back({{"body", name}, {"speed_m_per_s", speed}});
     // Zeros would be taken for figures.
     if (summary.untold == summary.frames.size())
         for (const char* key : {"wall_s", "cpu_s", "worst_overlap_ratio", "worst_overlap_frame",

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -156,6 +157,28 @@ TEST_F(MishapsTest, ABodyThatIsReleasedCountsAmongTheMovable)
     EXPECT_EQ(info(path).at("movable_bodies"), 2);
     EXPECT_NE(runScree({"check", file("t.toml")}).out.find("2 of them movable"), std::string::npos);
     EXPECT_EQ(info(take("keyed", "1001-1005", thrown)).at("movable_bodies"), 1);
+}
+
+TEST_F(MishapsTest, InfoSaysWhoIsFastestInTheLastFrame)
+{
+    const std::string two = test::bodyText("slow", "position = [2, 20, 0]") +
+                            test::bodyText("fast", "position = [4, 20, 0]\nvelocity = [9, 0, 0]");
+    const std::string driven =
+        test::bodyText("lift",
+                       "motion = \"keyed\"\nkeys = [{ frame = 1001, position = [9, 9, 0] }, "
+                       "{ frame = 1101, position = [9, 999, 0] }]");
+    const std::string path = take("t", "1001-1005", two + driven);
+    const nlohmann::json fastest = info(path).at("last_fastest");
+    ASSERT_EQ(fastest.size(), 3u);
+    EXPECT_EQ(fastest[0].at("body"), "fast");
+    EXPECT_EQ(fastest[1].at("body"), "slow");
+    EXPECT_NEAR(fastest[0].at("speed_m_per_s"), std::hypot(9.0, 9.81 * 4.0 / 24.0), 1e-3);
+    EXPECT_NE(runScree({"info", path}).out.find("fastest    fast at 9.15 m/s, slow at 1.6"),
+              std::string::npos);
+
+    const std::string still = take("still", "1001-1060", driven);
+    EXPECT_TRUE(info(still).at("last_fastest").empty());
+    EXPECT_EQ(runScree({"info", still}).out.find("fastest"), std::string::npos);
 }
 
 TEST_F(MishapsTest, NothingIsWrittenOverTheFilesOfATake)
