@@ -215,6 +215,8 @@ PairTurn rememberContacts(const World& world, double dt, GapScratch& scratch, co
             row.a,        row.b,          contacts[r - pair.begin].feature, aFromWorld * row.rA,
             impulse / dt, row.couple / dt};
     }
+    turn.ofA /= scratch.bodies[pair.bodies.a].heavier;
+    turn.ofB /= scratch.bodies[pair.bodies.b].heavier;
     return turn;
 }
 

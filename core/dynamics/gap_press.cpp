@@ -141,7 +141,7 @@ void solvePressed(double dt, const GapIsland& island, GapScratch& scratch)
     for (const BodyId mover : island.movers) {
         GapBody& body = scratch.bodies[mover];
         body.velocity = body.velocityBefore + dt * body.pull;
-        body.spin = body.spinBefore + dt * (body.inverseInertia * body.torque);
+        body.spin = body.spinBefore + dt * body.heavier * (body.inverseInertia * body.torque);
     }
     forRows(scratch, island.pairs, [&](std::size_t r) {
         scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();

@@ -30,6 +30,7 @@ struct alignas(64) GapBody {
     Vec3 velocityBefore, spinBefore;  ///< before pull and torque acted
     Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
     double hitAt;    ///< the first moment at which an impact changed its velocity; 0: none did [s]
+    double heavier;  ///< times it weighs its mass while contacts are solved: gap_laden.h; ≥ 1
     bool isHeld;     ///< something bore it in the last step
     bool isStopped;  ///< something may stop it within the step
     bool isKept;     ///< as an earlier attempt at the step has solved it

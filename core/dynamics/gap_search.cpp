@@ -35,6 +35,7 @@ GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
     const BodyMotion& motion = world.motion[id];
     const PassInertia inertia = passInertia(world.mass[id], motion.orientation);
     GapBody body{};
+    body.heavier = 1.0;
     body.velocity = motion.velocity;
     body.spin = inertia.inverseInertia * motion.angularMomentum;
     body.angularImpulse = body.shift = body.turn = Vec3::Zero();

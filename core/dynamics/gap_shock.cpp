@@ -282,8 +282,9 @@ bool shake(const World& world, const StepSettings& settings, double dt,
         if (isUndone) continue;
         const Vec3 extra = withShock - row.worldImpulse();
         const Vec3 extraCouple = coupleWithShock - row.couple;
-        if (row.movesA) scratch.bodies[row.a].angularImpulse += row.rA.cross(extra) + extraCouple;
-        if (row.movesB) scratch.bodies[row.b].angularImpulse -= row.rB.cross(extra) + extraCouple;
+        GapBody &a = scratch.bodies[row.a], &b = scratch.bodies[row.b];
+        if (row.movesA) a.angularImpulse += (row.rA.cross(extra) + extraCouple) / a.heavier;
+        if (row.movesB) b.angularImpulse -= (row.rB.cross(extra) + extraCouple) / b.heavier;
     }
     return true;
 }

@@ -19,6 +19,7 @@
 #include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_lag.h"
+#include "core/dynamics/gap_laden.h"
 #include "core/dynamics/gap_layout.h"
 #include "core/dynamics/gap_lead.h"
 #include "core/dynamics/gap_levels.h"
@@ -174,12 +175,17 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         const PhaseTimer timer(seconds, Phase::contact);
         leads = leadPlaces(world, dt, block, scratch);
         addForcesToGaps(dt, block, scratch);
+    }
+    LadenBodies laden(settings_, dt, block, scratch);
+    {
+        const PhaseTimer timer(seconds, Phase::contact);
         resolveGaps(world, settings_, dt, block, scratch);
     }
     if (settings_.shockPropagation) {
         const PhaseTimer timer(seconds, Phase::shock);
         propagateShockUp(world, settings_, dt, block, scratch);
     }
+    laden.release();
     takeBack(leads, scratch);
     return seconds;
 }

@@ -1,0 +1,89 @@
+// A sweep hands no more momentum through a body than it has itself: of eleven tonnes that roll on
+// pebbles of a kilogram four hundred sweeps left so much that the slab, with nothing to drive it,
+// went faster and faster, by 380 J in half a second; neither four thousand did so nor four times as
+// many steps. What carries that much moves as what it lies between lets it, and its own inertia is
+// a hundredth of what it passes on even if it weighs a hundred times more. It wins as much where it
+// is squeezed out: it leaves at a hundred times the acceleration of gravity, not at ten thousand.
+#include "core/dynamics/gap_laden.h"
+
+#include <algorithm>
+
+namespace scree {
+namespace {
+
+/// Of what a body carries it weighs at least so much. With three times the share slabs settle no
+/// better.
+constexpr double kLeastShare = 0.01;
+
+/// What its contacts bore of a body in the last step, as impulses of this one [N s].
+struct Burden {
+    double total = 0.0;
+    double inward = 0.0;  // times the arm towards its centre [N s m]
+
+    void add(double impulse, double inwardArm)
+    {
+        total += impulse;
+        inward += impulse * inwardArm;
+    }
+
+    /// Only what is pressed: a link pulled taut swings with the weight that it holds, and would be
+    /// heaviest where that is fastest. Two tonnes on fifteen links rose by 1.9 m in 20 s.
+    double carried() const { return inward > 0.0 ? 0.5 * total : 0.0; }
+};
+
+/// By the places of the bodies in the block, from 1.
+std::vector<Burden> burdensOf(const GapBlock& block, const GapScratch& scratch)
+{
+    std::vector<Burden> burdens(block.bodies.size() + 1);
+    for (const std::size_t i : block.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        if (!pair.isCarried) continue;
+        Burden& a = burdens[scratch.placeInBlock[pair.bodies.a]];
+        Burden& b = burdens[scratch.placeInBlock[pair.bodies.b]];
+        for (std::size_t r = pair.begin; r < pair.end; ++r) {
+            const GapRow& row = scratch.rows[r];
+            a.add(row.impulse.x(), -row.normal.dot(row.rA));
+            b.add(row.impulse.x(), row.normal.dot(row.rB));
+        }
+    }
+    return burdens;
+}
+
+}  // namespace
+
+LadenBodies::LadenBodies(const StepSettings& settings, double dt, const GapBlock& block,
+                         GapScratch& scratch)
+    : scratch_(scratch)
+{
+    const double gravity = settings.gravity.norm();
+    if (gravity == 0.0) return;
+    const std::vector<Burden> burdens = burdensOf(block, scratch);
+    for (std::size_t n = 0; n < block.bodies.size(); ++n) {
+        GapBody& body = scratch.bodies[block.bodies[n]];
+        const double mass = burdens[n + 1].carried() / (dt * gravity);
+        body.heavier = std::max(1.0, kLeastShare * mass * body.inverseMass);
+        if (body.heavier == 1.0) continue;
+        laden_.push_back({block.bodies[n], body.inverseMass, body.inverseInertia});
+        body.inverseMass /= body.heavier;
+        body.inverseInertia /= body.heavier;
+    }
+    if (laden_.empty()) return;
+    for (const std::size_t i : block.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        const auto isLaden = [&](BodyId body) { return scratch.bodies[body].heavier > 1.0; };
+        if (!isLaden(pair.bodies.a) && !isLaden(pair.bodies.b)) continue;
+        for (std::size_t r = pair.begin; r < pair.end; ++r)
+            prepareRow(scratch.bodies, scratch.rows[r]);
+    }
+}
+
+void LadenBodies::release()
+{
+    for (const Laden& laden : laden_) {
+        scratch_.bodies[laden.body].inverseMass = laden.inverseMass;
+        scratch_.bodies[laden.body].inverseInertia = laden.inverseInertia;
+    }
+    laden_.clear();
+}
+
+}  // namespace scree
