@@ -7,6 +7,7 @@
 #include "core/dynamics/gap_laden.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace scree {
 namespace {
@@ -49,6 +50,21 @@ std::vector<Burden> burdensOf(const GapBlock& block, const GapScratch& scratch)
     return burdens;
 }
 
+/// The mass of the heaviest body of an island; none is too great where a script presses [kg].
+/// Impulses alone do not tell of weight: rings of mail that is caught as it falls had been laden.
+double heaviestOf(const GapIsland& island, const GapScratch& scratch)
+{
+    for (const std::size_t i : island.pairs) {
+        const auto [a, b] = scratch.pairs[i].bodies;
+        if (isDriven(scratch.bodies[a]) || isDriven(scratch.bodies[b]))
+            return std::numeric_limits<double>::infinity();
+    }
+    double heaviest = 0.0;
+    for (const BodyId body : island.movers)
+        heaviest = std::max(heaviest, 1.0 / scratch.bodies[body].inverseMass);
+    return heaviest;
+}
+
 }  // namespace
 
 LadenBodies::LadenBodies(const StepSettings& settings, double dt, const GapBlock& block,
@@ -58,14 +74,19 @@ LadenBodies::LadenBodies(const StepSettings& settings, double dt, const GapBlock
     const double gravity = settings.gravity.norm();
     if (gravity == 0.0) return;
     const std::vector<Burden> burdens = burdensOf(block, scratch);
-    for (std::size_t n = 0; n < block.bodies.size(); ++n) {
-        GapBody& body = scratch.bodies[block.bodies[n]];
-        const double mass = burdens[n + 1].carried() / (dt * gravity);
-        body.heavier = std::max(1.0, kLeastShare * mass * body.inverseMass);
-        if (body.heavier == 1.0) continue;
-        laden_.push_back({block.bodies[n], body.inverseMass, body.inverseInertia});
-        body.inverseMass /= body.heavier;
-        body.inverseInertia /= body.heavier;
+    for (const std::size_t i : block.islands) {
+        const GapIsland& island = scratch.islands[i];
+        const double heaviest = heaviestOf(island, scratch);
+        for (const BodyId id : island.movers) {
+            GapBody& body = scratch.bodies[id];
+            const double carried = burdens[scratch.placeInBlock[id]].carried() / (dt * gravity);
+            body.heavier =
+                std::max(1.0, kLeastShare * std::min(carried, heaviest) * body.inverseMass);
+            if (body.heavier == 1.0) continue;
+            laden_.push_back({id, body.inverseMass, body.inverseInertia});
+            body.inverseMass /= body.heavier;
+            body.inverseInertia /= body.heavier;
+        }
     }
     if (laden_.empty()) return;
     for (const std::size_t i : block.pairs) {
