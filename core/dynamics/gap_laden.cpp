@@ -1,9 +1,10 @@
 // A sweep hands no more momentum through a body than it has itself: of eleven tonnes that roll on
 // pebbles of a kilogram four hundred sweeps left so much that the slab, with nothing to drive it,
-// went faster and faster, by 380 J in half a second; neither four thousand did so nor four times as
-// many steps. What carries that much moves as what it lies between lets it, and its own inertia is
-// a hundredth of what it passes on even if it weighs a hundred times more. It wins as much where it
-// is squeezed out: it leaves at a hundred times the acceleration of gravity, not at ten thousand.
+// went faster and faster, by 380 J in half a second; with four thousand sweeps it did not, nor with
+// four times as many steps. What carries that much moves as what it lies between lets it, and its
+// own inertia is a hundredth of what it passes on even if it weighs a hundred times more. Nor is it
+// flung where it is squeezed out: it leaves at a hundred times the acceleration of gravity, not at
+// ten thousand times.
 #include "core/dynamics/gap_laden.h"
 
 #include <algorithm>
