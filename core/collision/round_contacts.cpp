@@ -32,6 +32,9 @@ constexpr double kParallel = 1e-2;
 /// Heights that differ by less than this share of the smaller body are one; for rounding.
 constexpr double kSameHeight = 1e-7;
 
+/// Sine of how far facets may lie off the axis of the cylinder that they stand for.
+constexpr double kAlongTube = 1e-6;
+
 /// Cosine, taken from 1, of the angle within which a normal is that of a face.
 constexpr double kSameFace = 1e-9;
 
@@ -56,6 +59,23 @@ const Vec3 kUnmoved = Vec3::Zero();
 Vec3 centreOf(const Capsule& capsule, std::int32_t part)
 {
     return part == 0 ? Vec3(Vec3::Zero()) : part == 1 ? Vec3(-capsule.half) : capsule.half;
+}
+
+/// The radius of the cylinder about the centre of a shape that an edge between two of its facets
+/// lies on, if it is one [m].
+std::optional<double> tubeAt(const Shape& shape, const ConvexEdge& edge)
+{
+    const auto isAcross = [](const Vec3& normal, int axis) {
+        return std::abs(normal[axis]) < kAlongTube;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        if (shape.turnsThatShow[axis] > 0.0) continue;
+        if (!isAcross(edge.faceNormal[0], axis) || !isAcross(edge.faceNormal[1], axis)) continue;
+        Vec3 arm = edge.start;
+        arm[axis] = 0.0;
+        return arm.norm();
+    }
+    return {};
 }
 
 /// One body of a contact, seen from the second.
@@ -84,7 +104,9 @@ public:
         if (isSide_) axis_ = rotation * *shape.roundFacets.axisOf(facet_);
         if (isRound_) return;
         place_ = {near, 0.0, Mat3::Zero()};
-        if (part.kind == Kind::edge) axis_ = rotation * edge().direction;
+        if (part.kind != Kind::edge) return;
+        axis_ = rotation * edge().direction;
+        tube_ = tubeAt(shape, edge());
     }
 
     bool isRound() const { return isRound_; }
@@ -92,12 +114,16 @@ public:
     /// Round about an axis; n stays across it.
     bool isSide() const { return isSide_; }
     bool isFlat() const { return !isRound_ && part_.kind == Kind::face; }
+    bool isSharpEdge() const { return !isRound_ && part_.kind == Kind::edge; }
+    /// An edge between facets of a cylinder: its radius, else nothing [m].
+    const std::optional<double>& tube() const { return tube_; }
     /// Of a side or a sharp edge; n stays across it.
     const std::optional<Vec3>& axis() const { return axis_; }
     const RoundPlace& place() const { return place_; }
 
     Search turnTo(const Vec3& outward)
     {
+        if (tube_) place_.point = *tube_ * outward + translation_;
         if (!isRound_) return Search::found;
         if (part_.kind == Kind::ball) {
             place_.point = centre_ + shape_.capsule.radius * outward;
@@ -129,8 +155,14 @@ public:
         if (isRound_ || part_.kind == Kind::face) return true;
         if (part_.kind == Kind::corner)
             return shape_.features.cornerSupports(part_.index, inward, kStrictly);
+        return isAlongEdge(other) && edgeSupports(edge(), inward, kStrictly);
+    }
+
+    /// Whether a sharp edge is as long as it has to be to meet what is at `other`.
+    bool isAlongEdge(const Vec3& other) const
+    {
         const double along = axis_->dot(other - (rotation_ * edge().start + translation_));
-        return along >= 0.0 && along <= edge().length && edgeSupports(edge(), inward, kStrictly);
+        return along >= 0.0 && along <= edge().length;
     }
 
     /// The face of a sharp edge that is nearer than the edge to what is met that way: a place on it
@@ -153,6 +185,7 @@ public:
     std::int32_t partWithin() const
     {
         if (part_.kind == Kind::ball) return part_.index;
+        if (tube_) return 1;  // all along its circle: it rolls
         if (isRound_ || part_.kind == Kind::face) return 0;
         return 2 * part_.index + (part_.kind == Kind::corner ? 1 : 2);
     }
@@ -186,6 +219,7 @@ private:
     bool isRound_ = false, isSide_ = false;
     RoundPlace place_;
     std::optional<Vec3> axis_;
+    std::optional<double> tube_;  // about the centre of the shape
 };
 
 /// The turn of n that brings two places opposite each other that are now t apart, as they advance.
@@ -273,9 +307,13 @@ Rounding besideEdge(const RelativePair& pair, Side& first, Side& second, const V
     return {Result::elsewhere};
 }
 
-/// Two sides that cross: n is across both axes.
+/// Two sides that cross, or what is round about an axis and an edge: n is across both axes. That an
+/// edge is met from there has been seen: those of the facets are all along that axis.
 Rounding betweenSides(Side& first, Side& second, const FeatureContact& contact)
 {
+    const auto isThere = [](const Side& side, const Vec3& outward, const Vec3& other) {
+        return side.isSharpEdge() ? side.isAlongEdge(other) : side.isNearest(outward, other);
+    };
     const Vec3 &a = *first.axis(), &b = *second.axis();
     const Vec3 across = a.cross(b);
     if (across.norm() < kParallel) return {};
@@ -285,9 +323,12 @@ Rounding betweenSides(Side& first, Side& second, const FeatureContact& contact)
     const RoundPlace &x = first.place(), &y = second.place();
     const Vec3 between = y.point - x.point;
     const Vec3 onX = x.point + b.cross(n).dot(between) / b.cross(n).dot(a) * a;
-    if (!first.isNearest(-n, onX) || !second.isNearest(n, onX)) return {Result::elsewhere};
+    if (!isThere(first, -n, onX) || !isThere(second, n, onX)) return {Result::elsewhere};
     const double apart = -n.dot(between);
-    return {Result::rounded, {onX - x.bulge * n, n, apart - x.bulge - y.bulge}};
+    return {Result::rounded,
+            {onX - x.bulge * n, n, apart - x.bulge - y.bulge},
+            first.partWithin(),
+            second.partWithin()};
 }
 
 }  // namespace
@@ -298,9 +339,13 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
     Vec3 n = contact.normal;
     Side first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
     Side second(pair.second, ofSecond, kUnturned, kUnmoved, contact.point - contact.gap * n, n);
+    if (first.isSharpEdge() && second.isSharpEdge() && (first.tube() || second.tube()))
+        return betweenSides(first, second, contact);
     if (!first.isRoundMesh() && !second.isRoundMesh()) return {};
-    if (first.isSide() && second.isSide()) return betweenSides(first, second, contact);
-    // To what is sharp or flat a side is its facets: a pole holds rings as well so.
+    if ((first.isSide() && (second.isSide() || second.isSharpEdge())) ||
+        (first.isSharpEdge() && second.isSide()))
+        return betweenSides(first, second, contact);
+    // To corners and faces a side is its facets: a pole holds rings as well so.
     if ((first.isSide() && !second.isRound()) || (second.isSide() && !first.isRound())) return {};
     if (first.isFlat() || second.isFlat()) {
         const Rounding rounding = onFlat(pair, first, second, contact);
