@@ -35,6 +35,10 @@ constexpr double kSameHeight = 1e-7;
 /// Sine of how far facets may lie off the axis of the cylinder that they stand for.
 constexpr double kAlongTube = 1e-6;
 
+/// Cosine of the bend from which an edge is one over which something rolls, and not a facet of a
+/// coarse ring that lies against a pole.
+constexpr double kSharpBend = 0.5;
+
 /// Cosine, taken from 1, of the angle within which a normal is that of a face.
 constexpr double kSameFace = 1e-9;
 
@@ -114,7 +118,11 @@ public:
     /// Round about an axis; n stays across it.
     bool isSide() const { return isSide_; }
     bool isFlat() const { return !isRound_ && part_.kind == Kind::face; }
-    bool isSharpEdge() const { return !isRound_ && part_.kind == Kind::edge; }
+    bool isEdge() const { return !isRound_ && part_.kind == Kind::edge; }
+    bool isSharpEdge() const
+    {
+        return isEdge() && edge().faceNormal[0].dot(edge().faceNormal[1]) < kSharpBend;
+    }
     /// An edge between facets of a cylinder: its radius, else nothing [m].
     const std::optional<double>& tube() const { return tube_; }
     /// Of a side or a sharp edge; n stays across it.
@@ -312,7 +320,7 @@ Rounding besideEdge(const RelativePair& pair, Side& first, Side& second, const V
 Rounding betweenSides(Side& first, Side& second, const FeatureContact& contact)
 {
     const auto isThere = [](const Side& side, const Vec3& outward, const Vec3& other) {
-        return side.isSharpEdge() ? side.isAlongEdge(other) : side.isNearest(outward, other);
+        return side.isEdge() ? side.isAlongEdge(other) : side.isNearest(outward, other);
     };
     const Vec3 &a = *first.axis(), &b = *second.axis();
     const Vec3 across = a.cross(b);
@@ -339,13 +347,16 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
     Vec3 n = contact.normal;
     Side first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
     Side second(pair.second, ofSecond, kUnturned, kUnmoved, contact.point - contact.gap * n, n);
-    if (first.isSharpEdge() && second.isSharpEdge() && (first.tube() || second.tube()))
+    const auto rolls = [](const Side& side) {
+        return side.tube() || (side.isSide() && side.isRoundMesh());
+    };
+    const auto crosses = [](const Side& side) {
+        return side.tube() || side.isSide() || side.isSharpEdge();
+    };
+    if ((rolls(first) && crosses(second)) || (crosses(first) && rolls(second)))
         return betweenSides(first, second, contact);
     if (!first.isRoundMesh() && !second.isRoundMesh()) return {};
-    if ((first.isSide() && (second.isSide() || second.isSharpEdge())) ||
-        (first.isSharpEdge() && second.isSide()))
-        return betweenSides(first, second, contact);
-    // To corners and faces a side is its facets: a pole holds rings as well so.
+    // To what else is sharp or flat a side is its facets: a pole holds rings as well so.
     if ((first.isSide() && !second.isRound()) || (second.isSide() && !first.isRound())) return {};
     if (first.isFlat() || second.isFlat()) {
         const Rounding rounding = onFlat(pair, first, second, contact);
