@@ -175,9 +175,11 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const Outlook &ofA = outlooks[a], &ofB = outlooks[b];
     const bool isPaper = settings.method == Method::paper;
     const bool isStepped = world.isStepped(a) || world.isStepped(b);
-    const auto isKeyed = [&](BodyId body) { return world.info[body].kind == BodyKind::keyed; };
-    // A heap of cards that slept took five steps a frame.
-    if (!isPaper && !isStepped && !isKeyed(a) && !isKeyed(b)) return;
+    const auto isDriven = [&](BodyId body) {
+        return world.info[body].kind == BodyKind::keyed && outlooks[body].speed > 0.0;
+    };
+    // A heap of cards that slept took five steps a frame, and two on a table that might move.
+    if (!isPaper && !isStepped && !isDriven(a) && !isDriven(b)) return;
     const PairLimits limits = limitsOf(settings, ofA, ofB, purpose);
     if (cannotTighten(ofA, ofB, limits, limit.dt)) return;
     const BodyId faster =

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "core/dynamics/step_limit.h"
 #include "core/dynamics/stepper.h"
@@ -120,18 +122,32 @@ TEST(StepLimit, WhatIsThinOnlyAtItsEdgeMayPassMoreThanThatInAStep)
 TEST(StepLimit, WhatSleepsAsksForNoSteps)
 {
     // Awake it asks for five: it may fall half its thickness in each.
-    World world;
-    const MaterialId material = addMaterial(world, 0.5, 0.0);
-    addPlane(world, material);
-    addBody(world, exactBox({0.09, 0.002, 0.06}, 1), material,
-            {Vec3(0.0, 0.001, 0.0), Quat::Identity()});
-    Stepper stepper(screeSettings());
-    EXPECT_GE(stepper.advanceFrame(world, 1.0 / 24.0).steps, 5);
-    for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
-    ASSERT_TRUE(world.contactMemory.isAsleep(1));
-    const FrameReport report = stepper.advanceFrame(world, 1.0 / 24.0);
-    EXPECT_EQ(report.steps, 1);
-    EXPECT_EQ(report.fastestBody, -1);
+    for (const bool onKeyedTable : {false, true}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.5, 0.0);
+        if (onKeyedTable) {
+            BodyDefinition table;
+            table.name = "table";
+            table.shape = world.addShape(boxShape({1.0, 0.2, 1.0}, 1));
+            table.material = material;
+            table.kind = BodyKind::keyed;
+            table.script = std::make_shared<MotionScript>(
+                std::vector<MotionKey>{{0.0, {{0.0, -0.1, 0.0}, Quat::Identity()}}},
+                KeyInterpolation::smooth);
+            world.addBody(table);
+        } else {
+            addPlane(world, material);
+        }
+        addBody(world, exactBox({0.09, 0.002, 0.06}, 1), material,
+                {Vec3(0.0, 0.001, 0.0), Quat::Identity()});
+        Stepper stepper(screeSettings());
+        EXPECT_GE(stepper.advanceFrame(world, 1.0 / 24.0).steps, 5);
+        for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+        ASSERT_TRUE(world.contactMemory.isAsleep(1)) << onKeyedTable;
+        const FrameReport report = stepper.advanceFrame(world, 1.0 / 24.0);
+        EXPECT_EQ(report.steps, 1) << onKeyedTable;
+        EXPECT_EQ(report.fastestBody, -1) << onKeyedTable;
+    }
 }
 
 /// Steps of a frame in which a wheel of so many sides rolls so fast, and how far it goes [m].
