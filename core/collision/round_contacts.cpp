@@ -32,8 +32,8 @@ constexpr double kParallel = 1e-2;
 /// Heights that differ by less than this share of the smaller body are one; for rounding.
 constexpr double kSameHeight = 1e-7;
 
-/// Sine of how far facets may lie off the axis of the cylinder that they stand for.
-constexpr double kAlongTube = 1e-6;
+/// Sine of how far facets may lie off the axis of the cylinder that they stand for: files round.
+constexpr double kAlongTube = 1e-4;
 
 /// Cosine of the bend from which an edge is one over which something rolls, and not a facet of a
 /// coarse ring that lies against a pole.
