@@ -35,9 +35,10 @@ constexpr double kSameHeight = 1e-7;
 /// Sine of how far facets may lie off the axis of the cylinder that they stand for: files round.
 constexpr double kAlongTube = 1e-4;
 
-/// Cosine of the bend from which an edge is one over which something rolls, and not a facet of a
-/// coarse ring that lies against a pole.
-constexpr double kSharpBend = 0.5;
+/// Cosine of the bend from which any edge is one over which something rolls. What bends less does
+/// it on what is so many times as large, as a ground: a coarse ring lies against a pole with its
+/// facets.
+constexpr double kSharpBend = 0.5, kMuchLarger = 2.0;
 
 /// Cosine, taken from 1, of the angle within which a normal is that of a face.
 constexpr double kSameFace = 1e-9;
@@ -119,9 +120,12 @@ public:
     bool isSide() const { return isSide_; }
     bool isFlat() const { return !isRound_ && part_.kind == Kind::face; }
     bool isEdge() const { return !isRound_ && part_.kind == Kind::edge; }
-    bool isSharpEdge() const
+    /// Whether it is an edge that something of this size rolls over.
+    bool isRolledOver(const Shape& other) const
     {
-        return isEdge() && edge().faceNormal[0].dot(edge().faceNormal[1]) < kSharpBend;
+        if (!isEdge()) return false;
+        return shape_.boundingRadius >= kMuchLarger * other.boundingRadius ||
+               edge().faceNormal[0].dot(edge().faceNormal[1]) < kSharpBend;
     }
     /// An edge between facets of a cylinder: its radius, else nothing [m].
     const std::optional<double>& tube() const { return tube_; }
@@ -350,10 +354,11 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
     const auto rolls = [](const Side& side) {
         return side.tube() || (side.isSide() && side.isRoundMesh());
     };
-    const auto crosses = [](const Side& side) {
-        return side.tube() || side.isSide() || side.isSharpEdge();
+    const auto crosses = [](const Side& side, const Shape& other) {
+        return side.tube() || side.isSide() || side.isRolledOver(other);
     };
-    if ((rolls(first) && crosses(second)) || (crosses(first) && rolls(second)))
+    if ((rolls(first) && crosses(second, pair.first)) ||
+        (crosses(first, pair.second) && rolls(second)))
         return betweenSides(first, second, contact);
     if (!first.isRoundMesh() && !second.isRoundMesh()) return {};
     // To what else is sharp or flat a side is its facets: a pole holds rings as well so.
