@@ -175,11 +175,11 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const Outlook &ofA = outlooks[a], &ofB = outlooks[b];
     const bool isPaper = settings.method == Method::paper;
     const bool isStepped = world.isStepped(a) || world.isStepped(b);
-    const auto isDriven = [&](BodyId body) {
+    const auto isMovedByScript = [&](BodyId body) {
         return world.info[body].kind == BodyKind::keyed && outlooks[body].speed > 0.0;
     };
     // A heap of cards that slept took five steps a frame, and two on a table that might move.
-    if (!isPaper && !isStepped && !isDriven(a) && !isDriven(b)) return;
+    if (!isPaper && !isStepped && !isMovedByScript(a) && !isMovedByScript(b)) return;
     const PairLimits limits = limitsOf(settings, ofA, ofB, purpose);
     if (cannotTighten(ofA, ofB, limits, limit.dt)) return;
     const BodyId faster =

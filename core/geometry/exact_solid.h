@@ -67,7 +67,7 @@ public:
     /// Unit gradient of the distance; where several directions are equally near, one of them.
     Vec3 gradient(const Vec3& point) const;
 
-    /// ½ ∇·N of the face nearest to the point [1/m].
+    /// ½ ∇·N of the face nearest to the point; at a rim it has no end [1/m].
     double meanCurvature(const Vec3& point) const;
 
     /// Where the way from `from` to `to`, begun `slack` earlier and ended as much later, enters the
