@@ -33,22 +33,11 @@ struct Burden {
     double carried() const { return inward > 0.0 ? 0.5 * total : 0.0; }
 };
 
-/// Whether a script presses on an island.
-bool isPushed(const GapIsland& island, const GapScratch& scratch)
-{
-    return std::ranges::any_of(island.pairs, [&](std::size_t i) {
-        const auto [a, b] = scratch.pairs[i].bodies;
-        return isDriven(scratch.bodies[a]) || isDriven(scratch.bodies[b]);
-    });
-}
-
 /// The most that a body of an island may be taken to carry [kg]. Impulses alone do not tell of
 /// weight: rings of mail that is caught as it falls had been laden.
 double mostOf(const GapIsland& island, const GapScratch& scratch)
 {
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    if (isPushed(island, scratch)) return kAny;
-    double lightest = kAny, heaviest = 0.0;
+    double lightest = std::numeric_limits<double>::infinity(), heaviest = 0.0;
     for (const BodyId body : island.movers) {
         const double mass = 1.0 / scratch.bodies[body].inverseMass;
         lightest = std::min(lightest, mass);

@@ -17,13 +17,7 @@ constexpr double kDt = 1.0 / 48.0;
 BodyId addKeyed(World& world, const Vec3& size, MaterialId material,
                 const std::vector<MotionKey>& keys)
 {
-    BodyDefinition definition;
-    definition.name = "keyed";
-    definition.shape = world.addShape(boxShape(size, 2));
-    definition.material = material;
-    definition.kind = BodyKind::keyed;
-    definition.script = std::make_shared<MotionScript>(keys, KeyInterpolation::linear);
-    return world.addBody(definition);
+    return addKeyedBody(world, boxShape(size, 2), material, keys, KeyInterpolation::linear);
 }
 
 /// Frames of kDt, the clock moved on.

@@ -100,5 +100,25 @@ TEST(GapLaden, ASlabOnRollersGoesDownASlopeAsFarAsTheorySays)
     }
 }
 
+// Ground and pusher as rough as this hold the first ball fast between them, with any force at all.
+// It came to weigh what that force would carry, went into the second, and some such run ended in
+// numbers that are none.
+TEST(GapLaden, ABallJammedByAPusherStillDrivesAnotherBeforeIt)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 1.2, 0.0);
+    addPlane(world, material);
+    const auto at = [](double x) { return Pose{{x, 0.3, 0.0}, Quat::Identity()}; };
+    addKeyedBody(world, boxShape({0.2, 0.5, 1.0}, 1), material, {{0.0, at(-0.3)}, {1.0, at(2.7)}},
+                 KeyInterpolation::linear);
+    for (const double x : {0.0, 0.5})
+        addBody(world, exactSphere(0.1), material, {{x, 0.1, 0.0}, Quat::Identity()});
+    Stepper stepper(screeSettings());
+    double deepest = 0.0;
+    for (int frame = 0; frame < 24; ++frame)
+        deepest = std::max(deepest, stepper.advanceFrame(world, kFrame).sum.deepestAfterPushOut);
+    EXPECT_LT(deepest, 4e-3);  // seen: 1.4 mm, and 13
+}
+
 }  // namespace
 }  // namespace scree::test

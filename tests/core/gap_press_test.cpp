@@ -17,16 +17,10 @@ constexpr double kDt = 1.0 / 24.0;
 /// A plate over the ground whose lower face comes down from `from` by `by` in `seconds`.
 BodyId addPlate(World& world, MaterialId material, double from, double by, double seconds)
 {
-    BodyDefinition definition;
-    definition.name = "plate";
-    definition.shape = world.addShape(boxShape({4.0, 0.2, 4.0}, 2));
-    definition.material = material;
-    definition.kind = BodyKind::keyed;
-    definition.script = std::make_shared<MotionScript>(
-        std::vector<MotionKey>{{0.0, {{0.0, from + 0.1, 0.0}, Quat::Identity()}},
-                               {seconds, {{0.0, from + 0.1 - by, 0.0}, Quat::Identity()}}},
-        KeyInterpolation::linear);
-    return world.addBody(definition);
+    return addKeyedBody(world, boxShape({4.0, 0.2, 4.0}, 2), material,
+                        {{0.0, {{0.0, from + 0.1, 0.0}, Quat::Identity()}},
+                         {seconds, {{0.0, from + 0.1 - by, 0.0}, Quat::Identity()}}},
+                        KeyInterpolation::linear);
 }
 
 double fastestOf(const World& world, const std::vector<BodyId>& bodies)
@@ -97,20 +91,14 @@ struct Jaws {
             const auto at = [&](double apart, double y) {
                 return Pose{{side * (0.5 * count + 0.1 + apart), y, 0.0}, Quat::Identity()};
             };
-            BodyDefinition definition;
-            definition.name = side < 0.0 ? "left" : "right";
-            definition.shape = world.addShape(boxShape({0.2, 1.0, 1.0}, 1));
-            definition.material = material;
-            definition.kind = BodyKind::keyed;
-            definition.script =
-                std::make_shared<MotionScript>(std::vector<MotionKey>{{0.0, at(0.2, 0.7)},
-                                                                      {0.5, at(-deep, 0.7)},
-                                                                      {1.0, at(-deep, 0.7)},
-                                                                      {2.0, at(-deep, 2.7)},
-                                                                      {3.0, at(-deep, 2.7)},
-                                                                      {3.25, at(0.2, 2.7)}},
-                                               KeyInterpolation::smooth);
-            world.addBody(definition);
+            addKeyedBody(world, boxShape({0.2, 1.0, 1.0}, 1), material,
+                         {{0.0, at(0.2, 0.7)},
+                          {0.5, at(-deep, 0.7)},
+                          {1.0, at(-deep, 0.7)},
+                          {2.0, at(-deep, 2.7)},
+                          {3.0, at(-deep, 2.7)},
+                          {3.25, at(0.2, 2.7)}},
+                         KeyInterpolation::smooth);
         }
     }
 

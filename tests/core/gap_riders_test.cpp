@@ -19,16 +19,10 @@ constexpr double kFrame = 1.0 / 24.0, kHalf = 0.1;
 BodyId addPlate(World& world, MaterialId material, KeyInterpolation interpolation,
                 const std::vector<std::pair<double, double>>& tops)
 {
-    BodyDefinition definition;
-    definition.name = "plate";
-    definition.shape = world.addShape(boxShape({2.0, 2.0 * kHalf, 2.0}, 1));
-    definition.material = material;
-    definition.kind = BodyKind::keyed;
     std::vector<MotionKey> keys;
     for (const auto& [time, top] : tops)
         keys.push_back({time, {{0.0, top - kHalf, 0.0}, Quat::Identity()}});
-    definition.script = std::make_shared<MotionScript>(keys, interpolation);
-    return world.addBody(definition);
+    return addKeyedBody(world, boxShape({2.0, 2.0 * kHalf, 2.0}, 1), material, keys, interpolation);
 }
 
 /// How high the body comes if it flies on, above where it stood at first.
@@ -121,16 +115,10 @@ TEST(GapRiders, WhatRollsOffTheEdgeOfAStillPlateFallsFromThere)
 void addPusher(World& world, MaterialId material, double height,
                const std::vector<std::pair<double, double>>& keys)
 {
-    BodyDefinition definition;
-    definition.name = "pusher";
-    definition.shape = world.addShape(boxShape(Vec3::Ones(), 1));
-    definition.material = material;
-    definition.kind = BodyKind::keyed;
     std::vector<MotionKey> moves;
     for (const auto& [time, x] : keys)
         moves.push_back({time, {{x, height, 0.0}, Quat::Identity()}});
-    definition.script = std::make_shared<MotionScript>(moves, KeyInterpolation::smooth);
-    world.addBody(definition);
+    addKeyedBody(world, boxShape(Vec3::Ones(), 1), material, moves, KeyInterpolation::smooth);
 }
 
 TEST(GapRiders, ABoxThatABrakingPusherLetsGoSlidesOnTheGround)

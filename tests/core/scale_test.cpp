@@ -65,19 +65,12 @@ World pressAt(const Scale& scale)
 {
     MaterialId material = 0;
     World world = worldAt(scale, material);
-    BodyDefinition plate;
-    plate.name = "plate";
-    plate.shape = world.addShape(scaled(makeBox({2.0, 0.2, 2.0}, {2, 2, 2}), scale));
-    plate.material = material;
-    plate.kind = BodyKind::keyed;
     const auto key = [&](double seconds, double height) {
         return MotionKey{scale.time * seconds,
                          {{0.0, scale.length * height, 0.0}, Quat::Identity()}};
     };
-    plate.script = std::make_shared<MotionScript>(
-        std::vector<MotionKey>{key(0.0, 1.15), key(0.5, 1.05), key(1.0, 1.1)},
-        KeyInterpolation::linear);
-    world.addBody(plate);
+    addKeyedBody(world, scaled(makeBox({2.0, 0.2, 2.0}, {2, 2, 2}), scale), material,
+                 {key(0.0, 1.15), key(0.5, 1.05), key(1.0, 1.1)}, KeyInterpolation::linear);
     const auto cube = scaled(makeBox(0.5 * Vec3::Ones(), {1, 1, 1}), scale);
     for (const double y : {0.25, 0.75}) {
         addBody(world, cube, material,

@@ -126,15 +126,8 @@ TEST(StepLimit, WhatSleepsAsksForNoSteps)
         World world;
         const MaterialId material = addMaterial(world, 0.5, 0.0);
         if (onKeyedTable) {
-            BodyDefinition table;
-            table.name = "table";
-            table.shape = world.addShape(boxShape({1.0, 0.2, 1.0}, 1));
-            table.material = material;
-            table.kind = BodyKind::keyed;
-            table.script = std::make_shared<MotionScript>(
-                std::vector<MotionKey>{{0.0, {{0.0, -0.1, 0.0}, Quat::Identity()}}},
-                KeyInterpolation::smooth);
-            world.addBody(table);
+            addKeyedBody(world, boxShape({1.0, 0.2, 1.0}, 1), material,
+                         {{0.0, {{0.0, -0.1, 0.0}, Quat::Identity()}}}, KeyInterpolation::smooth);
         } else {
             addPlane(world, material);
         }

@@ -169,6 +169,18 @@ BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId mate
     return world.addBody(definition);
 }
 
+BodyId addKeyedBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
+                    const std::vector<MotionKey>& keys, KeyInterpolation interpolation)
+{
+    BodyDefinition definition;
+    definition.name = "keyed_" + std::to_string(world.bodyCount());
+    definition.shape = world.addShape(std::move(shape));
+    definition.material = material;
+    definition.kind = BodyKind::keyed;
+    definition.script = std::make_shared<MotionScript>(keys, interpolation);
+    return world.addBody(definition);
+}
+
 World stackOfCubes(int count, double topMass)
 {
     constexpr double kOffset = 0.01;

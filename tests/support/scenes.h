@@ -51,6 +51,10 @@ BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId mate
                const Pose& worldFromAsset, double mass = 1.0, const Vec3& velocity = Vec3::Zero(),
                const Vec3& angularVelocity = Vec3::Zero());
 
+/// A body that a script moves; keys in seconds since the first frame.
+BodyId addKeyedBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
+                    const std::vector<MotionKey>& keys, KeyInterpolation interpolation);
+
 /// Cubes of 1 m and 1 kg, eight corners each, one on the other on the ground but for a centimetre
 /// each way; the last and top one weighs `topMass`.
 World stackOfCubes(int count, double topMass);
