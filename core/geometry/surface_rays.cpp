@@ -111,6 +111,11 @@ SurfaceRays::SurfaceRays(const TriMesh& mesh) : scene_(std::make_unique<Scene>()
 std::optional<SurfaceRays::Hit> SurfaceRays::firstHit(const Vec3& origin, const Vec3& direction,
                                                       double reach, Facing facing) const
 {
+    // Embree ends the program where a ray begins beyond what it takes for numbers. A step that led
+    // there is told of when it is over.
+    constexpr double kFarthest = 1e18;
+    if (!(origin.array().abs() < kFarthest).all() || !direction.allFinite()) return std::nullopt;
+
     FacingContext context;
     rtcInitIntersectContext(&context.base);
     context.facing = facing;
