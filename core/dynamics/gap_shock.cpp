@@ -23,6 +23,10 @@ constexpr int kShockSweeps = 30, kWeightSweeps = 100;
 /// A row that closes this share of the smaller body past zero in a step calls for shock: where the
 /// sweeps could have solved the problem to the end, and where they had to stop.
 constexpr double kVisibleWhenSolved = 1e-5, kVisibleInHeaps = 1e-3;
+/// What bears so many times all that there is of weight bears none. Half a tonne that rolled onto
+/// two splinters of two grams, both pinned, jammed between them; handed that, they had 1e7 m/s, and
+/// threw it 60 m high.
+constexpr double kMostOfWeight = 10.0;
 /// What a level of shock may leave of that, as a share.
 constexpr double kWellBelow = 0.1;
 
@@ -69,39 +73,14 @@ private:
     std::vector<char>& isPinned_;
 };
 
-/// The motion of the bodies that a solve may move, so that it can be undone. Pinned bodies
-/// are as heavy as the world: what is wedged between two of them that close cannot obey both, and
-/// each sweep throws it harder; and what hangs on those that swing is driven by them. More than the
-/// energy there was and that of a step's fall is such a throw. Allowed to double it, five tonnes on
-/// twenty links of two kilograms got a fifth of their fall back within six seconds.
-class LevelMotion {
+/// The motion that bodies had before a solve, so that it can be undone.
+class FormerMotion {
 public:
-    LevelMotion(const GapScratch& scratch, const std::vector<std::size_t>& rows)
+    FormerMotion(const GapScratch& scratch, const std::vector<BodyId>& bodies)
     {
-        std::vector<BodyId> movers;
-        for (std::size_t r : rows) {
-            const GapRow& row = scratch.rows[r];
-            if (row.movesA) movers.push_back(row.a);
-            if (row.movesB) movers.push_back(row.b);
-        }
-        sortUnique(movers);
-        for (BodyId body : movers) {
-            const GapBody& b = scratch.bodies[body];
-            before_.push_back({body, b.velocity, b.spin, b.inverseInertia.inverse()});
-        }
-        energy_ = energy(scratch);
+        for (const BodyId body : bodies)
+            before_.push_back({body, scratch.bodies[body].velocity, scratch.bodies[body].spin});
     }
-
-    bool isThrown(const GapScratch& scratch, double dt) const
-    {
-        double fall = 0.0;
-        for (const Before& before : before_) {
-            const GapBody& b = scratch.bodies[before.body];
-            fall += 0.5 * (dt * b.pull).squaredNorm() / b.inverseMass;
-        }
-        return energy(scratch) > energy_ + fall;
-    }
-
     void restore(GapScratch& scratch) const
     {
         for (const Before& before : before_) {
@@ -114,21 +93,65 @@ private:
     struct Before {
         BodyId body;
         Vec3 velocity, spin;
+    };
+    std::vector<Before> before_;
+};
+
+/// The bodies that a solve may move. Sorted.
+std::vector<BodyId> moversOf(const GapScratch& scratch, const std::vector<std::size_t>& rows)
+{
+    std::vector<BodyId> movers;
+    for (const std::size_t r : rows) {
+        const GapRow& row = scratch.rows[r];
+        if (row.movesA) movers.push_back(row.a);
+        if (row.movesB) movers.push_back(row.b);
+    }
+    sortUnique(movers);
+    return movers;
+}
+
+/// Tells whether a solve throws its bodies. Pinned ones are as heavy as the world: what is wedged
+/// between two of them that close cannot obey both, and each sweep throws it harder; and what hangs
+/// on those that swing is driven by them. More than the energy there was and that of a step's fall
+/// is such a throw. Allowed to double it, five tonnes on twenty links of two kilograms got a fifth
+/// of their fall back within six seconds.
+class LevelEnergy {
+public:
+    LevelEnergy(const GapScratch& scratch, const std::vector<BodyId>& movers)
+    {
+        for (const BodyId body : movers)
+            bodies_.push_back({body, scratch.bodies[body].inverseInertia.inverse()});
+        before_ = energy(scratch);
+    }
+
+    bool isThrown(const GapScratch& scratch, double dt) const
+    {
+        double fall = 0.0;
+        for (const Mover& mover : bodies_) {
+            const GapBody& b = scratch.bodies[mover.body];
+            fall += 0.5 * (dt * b.pull).squaredNorm() / b.inverseMass;
+        }
+        return energy(scratch) > before_ + fall;
+    }
+
+private:
+    struct Mover {
+        BodyId body;
         Mat3 inertia;
     };
     double energy(const GapScratch& scratch) const
     {
         double sum = 0.0;
-        for (const Before& before : before_) {
-            const GapBody& b = scratch.bodies[before.body];
+        for (const Mover& mover : bodies_) {
+            const GapBody& b = scratch.bodies[mover.body];
             sum += 0.5 *
-                   (b.velocity.squaredNorm() / b.inverseMass + b.spin.dot(before.inertia * b.spin));
+                   (b.velocity.squaredNorm() / b.inverseMass + b.spin.dot(mover.inertia * b.spin));
         }
         return sum;
     }
 
-    std::vector<Before> before_;
-    double energy_ = 0.0;  // [J]
+    std::vector<Mover> bodies_;
+    double before_ = 0.0;  // [J]
 };
 
 void solveRows(GapScratch& scratch, const std::vector<std::size_t>& rows, int most, double enough)
@@ -269,10 +292,12 @@ bool shake(const World& world, const StepSettings& settings, double dt,
         prepareRow(scratch.bodies, row);
         enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, island, row));
     }
-    const LevelMotion before(scratch, rows);
+    const std::vector<BodyId> movers = moversOf(scratch, rows);
+    const FormerMotion before(scratch, movers);
+    const LevelEnergy energy(scratch, movers);
     const double closingBefore = closingOf(scratch, rows);
     solveRows(scratch, rows, kShockSweeps, enough);
-    const bool isUndone = before.isThrown(scratch, dt) || closingOf(scratch, rows) >= closingBefore;
+    const bool isUndone = energy.isThrown(scratch, dt) || closingOf(scratch, rows) >= closingBefore;
     if (isUndone) before.restore(scratch);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         GapRow& row = scratch.rows[rows[i]];
@@ -289,9 +314,20 @@ bool shake(const World& world, const StepSettings& settings, double dt,
     return true;
 }
 
+/// What pulls at the bodies of an island in a step, all together [N s].
+double weightOf(const GapScratch& scratch, const GapIsland& island, double dt)
+{
+    double weight = 0.0;
+    for (const BodyId body : island.movers)
+        weight += dt * scratch.bodies[body].pull.norm() / scratch.bodies[body].inverseMass;
+    return weight;
+}
+
 void handWeightDown(const StepSettings& settings, double dt, const GapIsland& island,
                     GapScratch& scratch)
 {
+    const FormerMotion before(scratch, island.movers);
+    const double most = kMostOfWeight * weightOf(scratch, island, dt);
     thread_local Groups byLevel;
     groupByLevel(scratch, island.pairs, byLevel);
     PinnedBodies pinned(scratch);
@@ -338,6 +374,14 @@ void handWeightDown(const StepSettings& settings, double dt, const GapIsland& is
             if (wasPinnedA[i] && row.movesA) hand(row.a, row.rA, impulse, row.couple);
             if (wasPinnedB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);
         }
+        const bool isWeight = std::ranges::all_of(
+            rows, [&](std::size_t r) { return scratch.rows[r].impulse.x() <= most; });
+        if (isWeight) continue;
+        before.restore(scratch);
+        forRows(scratch, island.pairs, [&](std::size_t r) {
+            scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
+        });
+        return;
     }
 }
 
