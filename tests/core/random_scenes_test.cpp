@@ -145,7 +145,8 @@ TEST(RandomScenes, NothingGoesThroughAnythingAndNoEnergyComesOfNothing)
         double before = atFirst, gained = 0.0, deepest = 0.0;
         for (int frame = 0; frame < kFrames; ++frame) {
             const StepReport sum = stepper.advanceFrame(scene.world, kFrame).sum;
-            ASSERT_TRUE(sum.nonFinite.empty()) << number;
+            EXPECT_TRUE(sum.nonFinite.empty()) << number;
+            if (!sum.nonFinite.empty()) break;  // the other scenes still tell
             const double after = totalEnergy(scene.world, settings);
             gained += std::max(after - before - std::max(sum.pushOutWork, 0.0), 0.0);
             before = after;
