@@ -11,7 +11,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/base/random.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
@@ -23,34 +22,6 @@ namespace {
 
 constexpr double kFrame = 1.0 / 24.0;
 constexpr int kFrames = 48;
-
-/// Draws of one scene, one after the other.
-class Draw {
-public:
-    explicit Draw(std::uint64_t scene) : scene_(scene) {}
-
-    double between(double least, double most) { return least + (most - least) * unit(); }
-    double magnitude(double least, double most)
-    {
-        return std::exp(between(std::log(least), std::log(most)));
-    }
-    int below(int count) { return std::min(static_cast<int>(count * unit()), count - 1); }
-    template <class Choices>
-    auto of(const Choices& choices)
-    {
-        return choices[static_cast<std::size_t>(below(static_cast<int>(choices.size())))];
-    }
-    Vec3 vector(double most)
-    {
-        const double x = between(-most, most), y = between(-most, most);
-        return {x, y, between(-most, most)};
-    }
-
-private:
-    double unit() { return randomUnit(31, scene_, drawn_++); }
-
-    std::uint64_t scene_, drawn_ = 0;
-};
 
 std::shared_ptr<const Shape> drawSolid(Draw& draw)
 {
@@ -82,7 +53,7 @@ struct RandomScene {
 
 RandomScene makeScene(std::uint64_t number)
 {
-    Draw draw(number);
+    Draw draw(31, number);
     RandomScene scene;
     World& world = scene.world;
     const int script = draw.below(3);

@@ -69,11 +69,8 @@ std::shared_ptr<const Shape> exactCylinder(double radius, double height)
                            makeCylinder(radius, height, 20, 1));
 }
 
-namespace {
-
-/// A solid of a flat outline, all of which is seen from `centre`, thick along z.
 std::shared_ptr<const Shape> extruded(const std::vector<Eigen::Vector2d>& outline, double thick,
-                                      const Eigen::Vector2d& centre = Eigen::Vector2d::Zero())
+                                      const Eigen::Vector2d& centre)
 {
     const int corners = static_cast<int>(outline.size());
     TriMesh mesh{Points(3, 2 * corners + 2), Triangles(3, 4 * corners)};
@@ -93,8 +90,6 @@ std::shared_ptr<const Shape> extruded(const std::vector<Eigen::Vector2d>& outlin
     }
     return buildMeshShape("extruded", mesh);
 }
-
-}  // namespace
 
 std::shared_ptr<const Shape> starShape()
 {

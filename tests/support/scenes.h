@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/dynamics/settings.h"
 #include "core/geometry/shape.h"
@@ -32,6 +33,10 @@ std::shared_ptr<const Shape> boxShape(const Vec3& size, int segments);
 std::shared_ptr<const Shape> exactSphere(double radius);
 std::shared_ptr<const Shape> exactBox(const Vec3& size, int segments);
 std::shared_ptr<const Shape> exactCylinder(double radius, double height);
+
+/// A solid of a flat outline, all of which is seen from `centre`, thick along z.
+std::shared_ptr<const Shape> extruded(const std::vector<Eigen::Vector2d>& outline, double thick,
+                                      const Eigen::Vector2d& centre = Eigen::Vector2d::Zero());
 
 /// Solids with points, hollows and edges sharper than square, half a metre or so in size: a star
 /// with five points, an outline like that of a gear; an angle of two bars; a three-sided prism; a
