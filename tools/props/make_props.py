@@ -3,7 +3,7 @@
 
     tools/props/make_props.py shots
 
-writes shots/meshes/*.obj and shots/poses/*.poses: crockery, a chain, the stones of an arch, gears
+writes shots/meshes/*.obj and shots/poses/*.poses: crockery, a chain, the stones of an arch and of a viaduct, gears
 and their bucket, the letters of a word, a house of cards, an hourglass, a spiral of dominoes, a
 truck, a hillside and a broken wall. Lengths are in the unit of the shot that uses them. Every mesh
 but the mug and the hillside is one closed surface; a mug's handle is pushed into its wall, as
@@ -68,6 +68,47 @@ def arch():  # m
     rope = [(cable, -length * (1 - i / 8)) for i in range(1, 9)]
     profile = [(0.0, -length - radius), *bob, *rope, (0.0, 0.0)]
     yield "wrecking_ball", revolved(profile, 20), "A ball of 0.68 on a cable, from where it hangs [m]"
+
+
+VIADUCT = {"bays": 6, "bay": 3.6, "pier": 0.45, "height": 4.4, "crown": 0.22, "stones": 17, "depth": 1.2}
+
+
+def kept(outline, a, b, c):
+    """What of a convex outline has a x + b y <= c."""
+    def over(p):
+        return a * p[0] + b * p[1] - c
+
+    inside = []
+    for p, q in zip(outline[-1:] + outline, outline):
+        if (over(p) > 0) != (over(q) > 0):
+            t = over(p) / (over(p) - over(q))
+            inside.append((p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])))
+        if over(q) <= 0:
+            inside.append(q)
+    return inside
+
+
+def pieces(stone):
+    """A stone of the viaduct is laid in so many, so that joints in its depth are bonded."""
+    return 2 + stone % 2
+
+
+def viaduct():  # m
+    """The stones of one arch from its crown to the right: between rays from its middle, which lies
+    in the springing, up to the deck and as far as the middle of the pier."""
+    v = VIADUCT
+    inner = 0.5 * (v["bay"] - v["pier"])
+    step = math.pi / v["stones"]
+    for i in range(v["stones"] // 2 + 1):
+        low, high, middle = (i - 0.5) * step, (i + 0.5) * step, i * step
+        outline = [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)]
+        for a, b, c in ((-math.cos(low), math.sin(low), 0.0), (math.cos(high), -math.sin(high), 0.0),
+                        (-math.sin(middle), -math.cos(middle), -inner * math.cos(0.5 * step)),
+                        (0.0, 1.0, inner + v["crown"]), (1.0, 0.0, 0.5 * v["bay"])):
+            outline = kept(outline, a, b, c)
+        outline = [tuple(round(c, 6) for c in p) for p in outline]
+        yield (f"viaduct_{i}", extruded(list(dict.fromkeys(outline)), v["depth"] / pieces(i)),
+               "A stone of a viaduct about +z, its arch springing from y = 0 [m]")
 
 
 def gear(teeth, outer, depth, bore):
@@ -227,6 +268,20 @@ def arch_poses():
                         for i in range(STONES) if i != middle]
 
 
+def viaduct_poses():
+    v = VIADUCT
+    for i in range(v["stones"] // 2 + 1):
+        poses = []
+        for bay in range(v["bays"]):
+            for piece in range(pieces(i)):
+                place = ((bay - 0.5 * (v["bays"] - 1)) * v["bay"], v["height"],
+                         ((piece + 0.5) / pieces(i) - 0.5) * v["depth"])
+                poses.append(pose(place))
+                if i > 0:
+                    poses.append(pose(place, about((0, 1, 0), 180.0)))
+        yield f"viaduct_{i}", poses
+
+
 def chain_poses():
     """Straight, side by side above the bar; every other link is turned by a quarter."""
     for number, (z, links, ahead) in enumerate(((-14.0, 33, 0), (-2.0, 37, -4), (10.0, 33, 3),
@@ -347,13 +402,13 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     shots = sys.argv[1]
-    for make in (crockery, chain, arch, gears, letters, hourglass, truck, hillside):
+    for make in (crockery, chain, arch, viaduct, gears, letters, hourglass, truck, hillside):
         for name, mesh, words in make():
             write_obj(os.path.join(shots, "meshes", name + ".obj"), mesh, words)
     write_objects(os.path.join(shots, "meshes", "wall.obj"), wall(),
                   "A wall of 4 by 2.5 by 0.3, broken into two hundred shards [m]")
-    for make in (arch_poses, chain_poses, mail_poses, card_poses, domino_poses, letter_poses,
-                 block_poses, chimney_poses):
+    for make in (arch_poses, viaduct_poses, chain_poses, mail_poses, card_poses, domino_poses,
+                 letter_poses, block_poses, chimney_poses):
         for name, poses in make():
             write_poses(os.path.join(shots, "poses", name + ".poses"), poses)
 
