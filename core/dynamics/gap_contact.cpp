@@ -264,7 +264,8 @@ private:
 /// What a step may spend on an island: the sweeps of the settings on a large heap, more on a small
 /// problem and in a chain.
 struct SweepLimits {
-    int most, mostAtRest;
+    int most;
+    int mostAtRest;  // where it hardly moves
     double left;     // share of the change of the first sweep that may be left to the next step
     double ofSpeed;  // the same of the fastest slip
 };

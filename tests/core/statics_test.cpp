@@ -126,25 +126,26 @@ Structure makeArch(std::uint64_t number)
         extruded({foot.head<2>(), head.head<2>(), {-head.x(), head.y()}, {-foot.x(), foot.y()}},
                  kDepth, {0.0, std::cos(0.5 * step)});
     const auto abutment = boxShape({thick, 2.0 * thick, 2.0 * kDepth}, 1);
-    for (const double side : {-1.0, 1.0}) {
+    const auto abut = [&](double side) {
         const double angle = side * half;
         const Vec3 along(std::cos(angle), -std::sin(angle), 0.0);
         addBody(world, abutment, material,
                 {at(1.0, angle) + side * 0.5 * thick * along, turned(angle)}, 0.0);
-    }
+    };
+    abut(-1.0);
     for (int i = 0; i < stones; ++i) {
         addBody(world, stone, material, {Vec3::Zero(), turned(-half + (i + 0.5) * step)},
                 draw.magnitude(1.0, heaviest));
     }
+    abut(1.0);
     for (int i = 0; i <= stones; ++i) {
         const double angle = -half + i * step;
-        const auto stoneOf = [](int k) { return static_cast<BodyId>(2 + k); };
-        const Vec3 radial = at(1.0, angle);
-        arch.joints.push_back({i == stones ? BodyId(1) : stoneOf(i),
-                               i == 0 ? BodyId(0) : stoneOf(i - 1),
+        const auto before = static_cast<BodyId>(i);
+        arch.joints.push_back({before + 1,
+                               before,
                                {at(inner, angle), at(outer, angle)},
                                {std::cos(angle), -std::sin(angle), 0.0},
-                               {radial},
+                               {at(1.0, angle)},
                                friction});
     }
     return arch;
