@@ -59,8 +59,7 @@ constexpr int kSweepsToRest = 100;
 /// kTimesAtRest as many, also where it is new: of 60 random arches of up to sixty stones that stand
 /// by statics, with a twentieth of their thickness and friction to spare, eight sank or fell with
 /// 400 sweeps; now 133 of 133 stand. They cost a tenth, for they sleep at once, and what tumbles
-/// pays nothing. A new heap begins too far from the truth: a wall that leans over gained a
-/// hundredth of its energy.
+/// pays nothing. A new heap is left out: with more sweeps walls stood no better.
 constexpr std::size_t kTimesAtRest = 40, kMostSweepsAtRest = 4000;
 constexpr double kAtRest = 0.3;
 
