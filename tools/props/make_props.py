@@ -16,7 +16,7 @@ import sys
 
 from forms import (arc, ball, cells, extruded, joined, moved, plate_with_bore, revolved, rounded, stroke,
                    swept, write_obj, write_objects)
-from shards import shards
+from shards import box, clipped, shards, triangulated
 
 
 def vessel(curve, thickness):
@@ -73,41 +73,26 @@ def arch():  # m
 VIADUCT = {"bays": 6, "bay": 3.6, "pier": 0.45, "height": 4.4, "crown": 0.22, "stones": 17, "depth": 1.2}
 
 
-def kept(outline, a, b, c):
-    """What of a convex outline has a x + b y <= c."""
-    def over(p):
-        return a * p[0] + b * p[1] - c
-
-    inside = []
-    for p, q in zip(outline[-1:] + outline, outline):
-        if (over(p) > 0) != (over(q) > 0):
-            t = over(p) / (over(p) - over(q))
-            inside.append((p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])))
-        if over(q) <= 0:
-            inside.append(q)
-    return inside
-
-
 def pieces(stone):
     """A stone of the viaduct is laid in so many, so that joints in its depth are bonded."""
     return 2 + stone % 2
 
 
 def viaduct():  # m
-    """The stones of one arch from its crown to the right: between rays from its middle, which lies
-    in the springing, up to the deck and as far as the middle of the pier."""
+    """The stones of one arch from its crown to the right. They are cut from a block above the
+    springing, as wide as a bay and up to the deck: below first, for the rays meet in its foot."""
     v = VIADUCT
     inner = 0.5 * (v["bay"] - v["pier"])
     step = math.pi / v["stones"]
     for i in range(v["stones"] // 2 + 1):
+        depth = v["depth"] / pieces(i)
         low, high, middle = (i - 0.5) * step, (i + 0.5) * step, i * step
-        outline = [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)]
-        for a, b, c in ((-math.cos(low), math.sin(low), 0.0), (math.cos(high), -math.sin(high), 0.0),
-                        (-math.sin(middle), -math.cos(middle), -inner * math.cos(0.5 * step)),
-                        (0.0, 1.0, inner + v["crown"]), (1.0, 0.0, 0.5 * v["bay"])):
-            outline = kept(outline, a, b, c)
-        outline = [tuple(round(c, 6) for c in p) for p in outline]
-        yield (f"viaduct_{i}", extruded(list(dict.fromkeys(outline)), v["depth"] / pieces(i)),
+        stone = box((v["bay"], inner + v["crown"], depth))
+        for across, up, limit in ((-math.sin(middle), -math.cos(middle), -inner * math.cos(0.5 * step)),
+                                  (-math.cos(low), math.sin(low), 0.0),
+                                  (round(math.cos(high), 12), -math.sin(high), 0.0)):
+            stone = clipped(stone, (across, up, 0.0), limit + 0.5 * v["bay"] * across)
+        yield (f"viaduct_{i}", moved(triangulated(stone), (-0.5 * v["bay"], 0.0, -0.5 * depth)),
                "A stone of a viaduct about +z, its arch springing from y = 0 [m]")
 
 
