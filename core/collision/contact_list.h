@@ -3,15 +3,14 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/collision/contact_with_gap.h"
+#include "core/collision/place_grid.h"
 #include "core/collision/round_contacts.h"
-#include "core/math/lanes.h"
 
 namespace scree {
 
@@ -80,7 +79,7 @@ public:
         known.gap = contact.gap;
         known.rA = contact.rA;
         known.normal = contact.normal;
-        if (i - first_ < placed_) place(i);
+        if (grid_ && i - first_ < grid_->size()) grid_->move(i - first_, known.rA);
     }
 
     void addUnsupported(const GapContact& contact)
@@ -141,26 +140,17 @@ private:
             while (i < end && !isSame(contacts_[i])) ++i;
             return i;
         }
-        x_.resize((end - first_) / kLanes + 1);
-        while (placed_ < end - first_) place(first_ + placed_++);
-        const Lanes x = lanesOf(contact.rA.x()), within = lanesOf(samePlace_ * (1.0 + 1e-9));
-        for (std::size_t four = 0; four < x_.size(); ++four) {
-            for (unsigned bits = bitsOf(absOf(x_[four] - x) <= within); bits; bits &= bits - 1) {
-                const std::size_t i =
-                    first_ + kLanes * four + static_cast<std::size_t>(std::countr_zero(bits));
-                if (i < end && isSame(contacts_[i])) return i;
-            }
-        }
-        return end;
+        if (!grid_) grid_.emplace(samePlace_);
+        while (grid_->size() < end - first_) grid_->add(contacts_[first_ + grid_->size()].rA);
+        std::size_t known = end;
+        grid_->visitNear(contact.rA, [&](std::size_t i) {
+            if (first_ + i < known && isSame(contacts_[first_ + i])) known = first_ + i;
+        });
+        return known;
     }
 
-    void place(std::size_t i)
-    {
-        x_[(i - first_) / kLanes][(i - first_) % kLanes] = contacts_[i].rA.x();
-    }
-
-    /// Where so many touch, as a nut and its bolt do, most are told apart by where they are along
-    /// x, four of them at once. Looking at each took a quarter of the time of a fine thread.
+    /// Where so many touch, as a nut and its bolt do, only those that are near by are looked at. A
+    /// fine thread has seven thousand for each pair.
     static constexpr std::size_t kMany = 32;
 
     /// Contacts nearer to each other than this share of the smaller body, with normals as close,
@@ -174,8 +164,7 @@ private:
     double samePlace_, sharpness_, reach_;
     bool isRound_;
     std::optional<GapContact> unsupported_;
-    std::vector<Lanes> x_;  // of contacts, in their order, as far as they have been placed [m]
-    std::size_t placed_ = 0;
+    std::optional<PlaceGrid> grid_;  // of contacts, in their order, as far as they have been asked for
     std::vector<GapContact> elsewhere_;  // of round parts that touch at another place, if at all
 };
 

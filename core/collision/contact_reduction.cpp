@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "core/math/rotation.h"
 
@@ -92,18 +94,23 @@ void markHull(const std::vector<GapContact>& contacts, std::vector<Place>& group
 void keepOfGroups(std::vector<GapContact>& contacts, std::size_t first, const Mat3& worldFromBody,
                   double size, double oneNormal)
 {
-    thread_local std::vector<char> isKept, isGrouped;
+    thread_local std::vector<char> isKept;
     thread_local std::vector<Place> group;
+    thread_local std::vector<std::pair<std::size_t, Vec3>> left;  // in no group yet, with its normal
     isKept.assign(contacts.size(), 0);
-    isGrouped.assign(contacts.size(), 0);
-    for (std::size_t i = first; i < contacts.size(); ++i) {
-        if (isGrouped[i]) continue;
-        group.clear();
-        for (std::size_t j = i; j < contacts.size(); ++j) {
-            if (isGrouped[j] || contacts[i].normal.dot(contacts[j].normal) < oneNormal) continue;
-            isGrouped[j] = 1;
-            group.push_back({j, Eigen::Vector2d::Zero(), 0.0});
+    left.clear();
+    for (std::size_t i = first; i < contacts.size(); ++i) left.push_back({i, contacts[i].normal});
+    while (!left.empty()) {
+        const auto [leader, normal] = left[0];
+        group.assign(1, {leader, Eigen::Vector2d::Zero(), 0.0});
+        std::size_t stay = 0;
+        for (const auto& one : std::span(left).subspan(1)) {
+            if (normal.dot(one.second) < oneNormal)
+                left[stay++] = one;
+            else
+                group.push_back({one.first, Eigen::Vector2d::Zero(), 0.0});
         }
+        left.resize(stay);
         if (group.size() > kFew) {
             markHull(contacts, group, worldFromBody, size, isKept);
         } else {

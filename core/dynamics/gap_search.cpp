@@ -265,7 +265,8 @@ void seek(World& world, double dt, bool isAgain, GapScratch& scratch)
             findNewGapPairs(world, scratch);
         else
             findGapPairs(world, scratch);
-        parallelFor(scratch.toAsk.size(), 32, [&](std::size_t begin, std::size_t end) {
+        const std::size_t grain = std::clamp<std::size_t>(scratch.toAsk.size() / 16, 1, 32);
+        parallelFor(scratch.toAsk.size(), grain, [&](std::size_t begin, std::size_t end) {
             thread_local std::vector<Question> questions;
             questions.clear();
             askPairs(world, dt, isAgain, std::span(scratch.toAsk).subspan(begin, end - begin),
