@@ -164,7 +164,8 @@ private:
     double samePlace_, sharpness_, reach_;
     bool isRound_;
     std::optional<GapContact> unsupported_;
-    std::optional<PlaceGrid> grid_;  // of contacts, in their order, as far as they have been asked for
+    std::optional<PlaceGrid>
+        grid_;  // of contacts, in their order, as far as they have been asked for
     std::vector<GapContact> elsewhere_;  // of round parts that touch at another place, if at all
 };
 

@@ -96,7 +96,8 @@ void keepOfGroups(std::vector<GapContact>& contacts, std::size_t first, const Ma
 {
     thread_local std::vector<char> isKept;
     thread_local std::vector<Place> group;
-    thread_local std::vector<std::pair<std::size_t, Vec3>> left;  // in no group yet, with its normal
+    thread_local std::vector<std::pair<std::size_t, Vec3>>
+        left;  // in no group yet, with its normal
     isKept.assign(contacts.size(), 0);
     left.clear();
     for (std::size_t i = first; i < contacts.size(); ++i) left.push_back({i, contacts[i].normal});

@@ -101,22 +101,44 @@ void findEightsNear(const FacingLanes& edge, const std::vector<SphereLanes>& sph
     }
 }
 
-/// Of the points of the first body that turn in the frame of the second [m]. Seen from there
-/// nothing else moves, so that no distance between the two changes faster. Of a plane only what is
-/// near the second matters.
-double leverOf(const RelativePair& pair)
+/// Whether the way of a pair is that of its second body as the first one sees it, and not the other
+/// way round. No distance between the two changes faster than the points of one move in the frame
+/// of the other, and the smaller one turns on the shorter lever: what spins on a large floor is far
+/// from the middle of that.
+bool isWayOfSecond(const RelativePair& pair)
 {
-    return pair.first.isPlane ? pair.second.boundingRadius + pair.translation.norm()
-                              : pair.first.boundingRadius;
+    return pair.first.isPlane ||
+           (!pair.second.isPlane && pair.second.boundingRadius < pair.first.boundingRadius);
 }
 
-/// What an odometer counts of a way, at the least: the points of the first body turn with the
-/// second on a longer lever than its own.
+/// Where that body is.
+Vec3 placeOnWay(const RelativePair& pair)
+{
+    return isWayOfSecond(pair) ? pair.reversed().translation : pair.translation;
+}
+
+/// Of the points that turn in the frame of the other body [m].
+double leverOf(const RelativePair& pair)
+{
+    return (isWayOfSecond(pair) ? pair.second : pair.first).boundingRadius;
+}
+
+/// What an odometer counts of a way, at the least: the points of the smaller body turn with the
+/// larger on a longer lever than that has itself. Planes have no edges that might cross.
 double countedOfWay(const RelativePair& pair)
 {
     if (pair.first.isPlane || pair.second.isPlane) return 1.0;
-    const double lever = pair.first.boundingRadius + pair.translation.norm();
-    return std::min(1.0, pair.second.boundingRadius / lever);
+    const auto [smaller, larger] =
+        std::minmax(pair.first.boundingRadius, pair.second.boundingRadius);
+    return std::min(1.0, larger / (smaller + pair.translation.norm()));
+}
+
+/// What the way of a pair may be at least, of one that has to take its edges `outside` of each
+/// other across: told of the points of the first, in the frame of which directions of the second
+/// turn. It matters no farther apart than twice `deepest` [m].
+double outsideShare(const RelativePair& pair, double deepest)
+{
+    return isWayOfSecond(pair) ? 1.0 / (1.0 + 2.0 * deepest / pair.second.boundingRadius) : 1.0;
 }
 
 /// Of places of both bodies in the frame of the second, told in single precision [m].
@@ -161,10 +183,11 @@ bool FeatureMemory::isStaleAt(const RelativePair& pair, double reach)
 {
     // The norm of what two rotations differ by is √2 times the chord of a point at unit distance.
     const double chord = (pair.rotation - rotation_).norm() / std::numbers::sqrt2;
-    pace_ = (pair.translation - translation_).norm() + chord * leverOf(pair);
+    const Vec3 place = placeOnWay(pair);
+    pace_ = (place - place_).norm() + chord * leverOf(pair);
     moved_ += pace_;
     rotation_ = pair.rotation;
-    translation_ = pair.translation;
+    place_ = place;
     return moved_ > window_ || reach + moved_ > clearance_;
 }
 
@@ -237,7 +260,7 @@ double FeatureMemory::look(const RelativePair& pair, const RelativePair& back, d
 {
     moved_ = 0.0;
     rotation_ = pair.rotation;
-    translation_ = pair.translation;
+    place_ = placeOnWay(pair);
     window_ = window;
     clearance_ = reach + window_;
     return std::min({lookAtCorners(pair, cornersOfA_), lookAtCorners(back, cornersOfB_),
@@ -251,6 +274,7 @@ void FeatureMemory::measureEdges(const RelativePair& pair, double reach,
     if (near.empty()) return;
     const double deepest = deepestEdges(pair);
     const double rounding = roundingOf(pair);
+    const FloatLanes outsideOfWay = floatLanesOf(outsideShare(pair, deepest));
     const std::vector<EdgeLine>& first = pair.first.features.lines();
     const std::vector<EdgeLine>& second = pair.second.features.lines();
     const RotationLanes rotation(pair.rotation);
@@ -267,7 +291,8 @@ void FeatureMemory::measureEdges(const RelativePair& pair, double reach,
         LineLanes a(ofFirst);
         a.place(rotation, translation);
         const EdgeGaps gaps = edgeGaps(a, LineLanes(ofSecond), deepest, reach, rounding);
-        const FloatLanes farUntil = moved + gaps.distance, outsideUntil = moved + gaps.outside;
+        const FloatLanes farUntil = moved + gaps.distance;
+        const FloatLanes outsideUntil = fma(gaps.outside, outsideOfWay, moved);
         const unsigned touching = bitsOf(gaps.mayTouch);
         for (std::size_t i = 0; i < filled; ++i) {
             const auto [eight, lane] = asked[i];

@@ -117,7 +117,7 @@ private:
     double window_ = 0.0;               // for which that is good [m]
     double clearance_ = 0.0;            // everything nearer was noted then [m]
     Mat3 rotation_ = Mat3::Identity();  // B from A, when last asked about
-    Vec3 translation_ = Vec3::Zero();
+    Vec3 place_ = Vec3::Zero();         // of the one whose way it is, seen from the other [m]
     std::vector<NearCorners> cornersOfA_, cornersOfB_;
     std::vector<NearEdges> edges_;
 };

@@ -33,7 +33,8 @@ void PlaceGrid::move(std::size_t i, const Vec3& place)
 std::size_t PlaceGrid::slotOf(const Cell& cell) const
 {
     const auto part = [](std::int64_t c) { return static_cast<std::uint64_t>(c); };
-    const std::uint64_t bits = mixBits(mixBits(mixBits(part(cell[0])) + part(cell[1])) + part(cell[2]));
+    const std::uint64_t bits =
+        mixBits(mixBits(mixBits(part(cell[0])) + part(cell[1])) + part(cell[2]));
     return bits & (first_.size() - 1);
 }
 

@@ -50,8 +50,11 @@ struct Walk {
         placed.worldFromA.position += step;
         placed.worldFromA.orientation = rotated(placed.worldFromA.orientation, turnA);
         placed.worldFromB.orientation = rotated(placed.worldFromB.orientation, turnB);
-        odometer += step.norm() + turnA.norm() * placed.shapeA->boundingRadius +
-                    turnB.norm() * placed.shapeB->boundingRadius;
+        const auto wayOfTurn = [](const Vec3& turn, const Shape& shape) {
+            return shape.isPlane ? 0.0 : turn.norm() * shape.boundingRadius;
+        };
+        odometer +=
+            step.norm() + wayOfTurn(turnA, *placed.shapeA) + wayOfTurn(turnB, *placed.shapeB);
         std::vector<GapContact> remembered, fresh;
         const bool isApart = reach + odometer < farUntil;
         if (!isApart) farUntil = odometer + remembering.findContacts(placed, reach, remembered);
@@ -87,6 +90,29 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
     }
     EXPECT_GT(contacts, 1000u);
     EXPECT_GT(skipped, 500u);
+}
+
+/// A ring that spins down onto a plane far from the middle of that, whichever is named first.
+/// Planes do not turn.
+TEST(NearFeatures, SoDoesWhatSpinsOnAPlaneFarFromItsMiddle)
+{
+    const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
+    const auto plane = buildPlaneShape("plane");
+    std::size_t contacts = 0, skipped = 0;
+    for (std::uint64_t run = 0; run < 40; ++run) {
+        const Pose tilted{Vec3(200.0, 0.5, 0.0) + 0.1 * signedUnits(run, 0),
+                          exponentialMap(0.1 * signedUnits(run, 3))};
+        const Vec3 fall(0.0, -0.005, 0.0), spin = 0.01 * signedUnits(run, 6);
+        Walk walk = run % 2 == 0
+                        ? Walk{{ring.get(), plane.get(), tilted, {}}, fall, spin, Vec3::Zero()}
+                        : Walk{{plane.get(), ring.get(), {}, tilted}, -fall, Vec3::Zero(), spin};
+        for (std::uint64_t i = 0; i < 60; ++i)
+            ASSERT_TRUE(walk.answersAsFresh(0.01)) << run << ' ' << i;
+        contacts += walk.contacts;
+        skipped += walk.skipped;
+    }
+    EXPECT_GT(contacts, 1000u);
+    EXPECT_GT(skipped, 300u);
 }
 
 /// Where a course is followed to the moment of touching, what is within some reach is asked about
