@@ -100,7 +100,7 @@ TEST(NearFeatures, SoDoesWhatSpinsOnAPlaneFarFromItsMiddle)
     const auto plane = buildPlaneShape("plane");
     std::size_t contacts = 0, skipped = 0;
     for (std::uint64_t run = 0; run < 40; ++run) {
-        const Pose tilted{Vec3(200.0, 0.5, 0.0) + 0.1 * signedUnits(run, 0),
+        const Pose tilted{Vec3(200.0, 1.5, 0.0) + 0.1 * signedUnits(run, 0),
                           exponentialMap(0.1 * signedUnits(run, 3))};
         const Vec3 fall(0.0, -0.005, 0.0), spin = 0.01 * signedUnits(run, 6);
         Walk walk = run % 2 == 0
