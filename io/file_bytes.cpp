@@ -30,6 +30,12 @@ std::string readFileBytes(const std::filesystem::path& path)
     return bytes;
 }
 
+bool isThere(const std::filesystem::path& path)
+{
+    std::error_code code;
+    return std::filesystem::exists(path, code);
+}
+
 std::string obstacleTo(const std::filesystem::path& path)
 {
     std::error_code code;

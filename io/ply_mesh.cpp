@@ -101,11 +101,6 @@ std::string encodePlyMesh(const TriMesh& mesh)
     return bytes;
 }
 
-void writePlyMesh(const std::filesystem::path& path, const TriMesh& mesh)
-{
-    writeFileBytes(path, encodePlyMesh(mesh));
-}
-
 TriMesh readPlyMesh(const std::filesystem::path& path)
 {
     const std::string bytes = readFileBytes(path);

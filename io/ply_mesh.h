@@ -14,11 +14,8 @@ namespace scree {
 /// The bytes of the file. Equal meshes give equal bytes.
 std::string encodePlyMesh(const TriMesh& mesh);
 
-/// Throws Error{cannotCreate} or Error{inputOutput}.
-void writePlyMesh(const std::filesystem::path& path, const TriMesh& mesh);
-
 /// The mesh that was written, bit for bit. Throws Error{missingInput} when there is no file, and
-/// Error{inputOutput} when it is cut short or otherwise not what writePlyMesh writes.
+/// Error{inputOutput} when it is cut short or otherwise not what encodePlyMesh makes.
 TriMesh readPlyMesh(const std::filesystem::path& path);
 
 }  // namespace scree

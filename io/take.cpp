@@ -16,6 +16,7 @@
 #include "io/file_bytes.h"
 #include "io/ply_mesh.h"
 #include "io/shot_difference.h"
+#include "io/take_removal.h"
 
 namespace scree {
 namespace {
@@ -36,14 +37,6 @@ std::optional<int> frameNumber(const std::string& name)
         digits.find_first_not_of("0123456789", firstDigit) != std::string::npos)
         return std::nullopt;
     return std::stoi(digits);
-}
-
-/// Whether something stands under that name. One that may not be looked at counts as absent: the
-/// folder cannot be written to either, and whoever tries says so.
-bool isThere(const fs::path& path)
-{
-    std::error_code code;
-    return fs::exists(path, code);
 }
 
 TriMesh meshOf(const SceneMesh& mesh)
@@ -200,18 +193,19 @@ TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& wo
     : shot_(shot), paths_{folder}, shotHash_(hashText(shot.resolvedText))
 {
     // Look at everything before anything is touched.
-    const bool hasInfo = isThere(paths_.info());
     if (branch) refuseBranchOffItself(*branch);
-    refuseToDisturb(hasInfo, existing);
-    const bool goesOn = hasInfo && existing == ExistingTake::resume;
+    refuseForeignFiles(paths_);
+    refuseToDisturb(existing);
+    const bool isTake = isThere(paths_.info()) || !listFrames(paths_).empty();
+    const bool goesOn = isTake && existing == ExistingTake::resume;
     TakeInfo info = describe(world, programVersion);
     if (branch && !goesOn) recordBranch(*branch, world, info);
 
     createFolder(folder);
     lock_ = lockFolder(folder);
     try {
-        if (existing == ExistingTake::overwrite) removeTake(hasInfo);
-        removeTemporaries();
+        removeTemporaries(paths_);
+        if (existing == ExistingTake::overwrite) removeTake(paths_);
         if (goesOn)
             resume(world, info, branch);
         else
@@ -227,16 +221,18 @@ TakeWriter::~TakeWriter()
     if (lock_ >= 0) ::close(lock_);
 }
 
-void TakeWriter::refuseToDisturb(bool hasInfo, ExistingTake existing) const
+void TakeWriter::refuseToDisturb(ExistingTake existing) const
 {
+    if (existing != ExistingTake::refuse) return;
     const std::vector<int> frames = listFrames(paths_);
     const std::string name = "\"" + paths_.root.string() + "\"";
-    if (!hasInfo && !frames.empty() && existing != ExistingTake::overwrite)
+    if (!isThere(paths_.info())) {
+        if (frames.empty()) return;
         throw Error(ErrorKind::inputOutput,
                     name +
-                        " has frames but no take.json: put the file back, choose another folder "
-                        "with -o, or begin again with --overwrite");
-    if (!hasInfo || existing != ExistingTake::refuse) return;
+                        " has frames but no take.json: --resume makes it again if they are of "
+                        "this shot, --overwrite begins again, -o writes elsewhere");
+    }
     const bool finished = !frames.empty() && frames.back() >= shot_.lastFrame;
     throw Error(ErrorKind::cannotCreate,
                 name + (finished ? " holds a finished take: --overwrite replaces it, -o writes "
@@ -283,7 +279,7 @@ void TakeWriter::start(const World& world, const TakeInfo& info)
     std::error_code ignored;
     for (const fs::path& path : {paths_.checkpoint(), paths_.stats()}) fs::remove(path, ignored);
     writeFileBytes(paths_.info(), encodeTakeInfo(info));
-    writeMissingShapes(world);
+    writeShapes(world);
     createFolder(paths_.frames());
     completeBranch(info);
 }
@@ -291,13 +287,14 @@ void TakeWriter::start(const World& world, const TakeInfo& info)
 void TakeWriter::resume(const World& world, const TakeInfo& now,
                         const std::optional<TakeBranch>& branch)
 {
-    TakeInfo info = decodeTakeInfo(readFileBytes(paths_.info()), paths_.info());
+    TakeInfo info = readInfo(world, now, branch);
     checkSameShot(info, now);
     if (branch) {
         checkSameBranch(info, *branch, paths_.root);
         info.branchTake = branch->take.string();
     }
-    writeMissingShapes(world);
+    for (const fs::path& damaged : writeShapes(world))
+        notices_.push_back("\"" + damaged.string() + "\" was damaged; it is written again");
     createFolder(paths_.frames());
     findWholeFrames(world);
     restoreBodies(now, info);
@@ -314,6 +311,36 @@ void TakeWriter::resume(const World& world, const TakeInfo& now,
                            std::to_string(untold) +
                            " frames that are there: whether their overlap broke a limit is no "
                            "longer known");
+}
+
+/// What take.json says. Lost or unreadable it is made again, if frame by frame up to the last that
+/// is there all say that they are of this shot: what might be missing between is not known to be
+/// this shot's to simulate.
+TakeInfo TakeWriter::readInfo(const World& world, TakeInfo now,
+                              const std::optional<TakeBranch>& branch)
+{
+    const bool isLost = !isThere(paths_.info());
+    const std::string text = isLost ? std::string() : readFileBytes(paths_.info());
+    if (isJson(text)) return decodeTakeInfo(text, paths_.info());
+    const std::string name = "\"" + paths_.info().string() + "\"";
+    const std::string found = isLost ? " is missing" : " is damaged";
+    int expected = shot_.firstFrame;
+    for (const int frame : listFrames(paths_)) {
+        const FrameState state = readFrameFile(paths_.frame(frame));
+        if (state.shotHash != shotHash_)
+            throw Error(ErrorKind::badInput, name + found + ", and frame " + std::to_string(frame) +
+                                                 " beside it is of another shot: -o writes "
+                                                 "elsewhere, --overwrite begins again");
+        if (frame != expected++)
+            throw Error(ErrorKind::inputOutput,
+                        name + found + ", and so is frame " + std::to_string(expected - 1) +
+                            ": put them back, or begin again with --overwrite");
+    }
+    if (branch) recordBranch(*branch, world, now);
+    writeFileBytes(paths_.info(), encodeTakeInfo(now));
+    notices_.push_back(name + (isLost ? " was missing" : " was damaged") +
+                       "; it is made again from the shot, which its frames are of");
+    return now;
 }
 
 void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
@@ -345,23 +372,37 @@ void TakeWriter::restoreBodies(const TakeInfo& now, TakeInfo& info)
         return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
                a.material == b.material && a.kind == b.kind;
     };
-    if (std::ranges::equal(info.bodies, now.bodies, isSame)) return;
+    const auto isSameMesh = [](const TakeShape& a, const TakeShape& b) {
+        return a.name == b.name && a.hash == b.hash;
+    };
+    if (std::ranges::equal(info.bodies, now.bodies, isSame) &&
+        std::ranges::equal(info.shapes, now.shapes, isSameMesh))
+        return;
     info.bodies = now.bodies;
     info.shapes = now.shapes;
     writeFileBytes(paths_.info(), encodeTakeInfo(info));
     notices_.push_back("\"" + paths_.info().string() +
-                       "\" named other bodies than its shot has; the list is put right");
+                       "\" named other bodies or meshes than its shot has; the list is put right");
 }
 
-void TakeWriter::writeMissingShapes(const World& world) const
+/// Those that are there already are compared: a name says nothing of what a file holds. Answers
+/// which held something else.
+std::vector<fs::path> TakeWriter::writeShapes(const World& world) const
 {
     createFolder(paths_.shapes());
     const SceneDescription scene = describeScene(shot_, world, 1.0);
     const TakeInfo info = makeTakeInfo(shot_, world, scene, "");
+    std::vector<fs::path> replaced;
     for (const SceneMesh* mesh : keptMeshes(scene, info)) {
         const fs::path path = paths_.shape(mesh->name);
-        if (!isThere(path)) writePlyMesh(path, meshOf(*mesh));
+        const std::string bytes = encodePlyMesh(meshOf(*mesh));
+        if (isThere(path)) {
+            if (readFileBytes(path) == bytes) continue;
+            replaced.push_back(path);
+        }
+        writeFileBytes(path, bytes);
     }
+    return replaced;
 }
 
 void TakeWriter::findWholeFrames(const World& world)
@@ -508,36 +549,6 @@ void TakeWriter::rewriteStats() const
     std::string text;
     for (const auto& [frame, line] : statsLines_) text += line + "\n";
     writeFileBytes(paths_.stats(), text);
-}
-
-/// Pictures and caches go with the take they were made from: left beside another they would be
-/// mixed with its own. In a folder that holds no take they are somebody else's.
-void TakeWriter::removeTake(bool hasInfo)
-{
-    std::vector<fs::path> doomed;
-    if (hasInfo) doomed = {paths_.images(), paths_.exports(), paths_.statsPage()};
-    // The description goes before the frames: from then on nobody takes the rest for a take.
-    doomed.insert(doomed.end(), {paths_.info(), paths_.frames(), paths_.shapes(), paths_.stats(),
-                                 paths_.checkpoint()});
-    for (const fs::path& path : doomed) {
-        std::error_code code;
-        fs::remove_all(path, code);
-        if (code)
-            throw Error(ErrorKind::cannotCreate,
-                        "cannot remove \"" + path.string() + "\": " + code.message());
-    }
-}
-
-void TakeWriter::removeTemporaries() const
-{
-    for (const fs::path& folder : {paths_.root, paths_.frames(), paths_.shapes()}) {
-        std::error_code code;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-            const std::string name = entry.path().filename().string();
-            std::error_code ignored;
-            if (name.starts_with('.') && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
-        }
-    }
 }
 
 }  // namespace scree

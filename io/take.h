@@ -66,7 +66,8 @@ class TakeWriter {
 public:
     /// `world`, built from `shot`, stands at time zero; `shot` must outlive the writer. Throws
     /// Error{cannotCreate} when the folder is taken and may not be touched, Error{badInput} when it
-    /// belongs to another shot, Error{inputOutput} when take.json is damaged.
+    /// belongs to another shot, Error{inputOutput} when take.json is lost or damaged and its frames
+    /// do not tell that they are of this shot.
     ///
     /// A new take with a `branch` begins with the frames of another (io/take_branch.h), which are
     /// looked at before anything in the folder is touched: throws as checkBranch does, and
@@ -107,21 +108,20 @@ public:
     std::vector<FrameSummary> summaries() const;
 
 private:
-    void refuseToDisturb(bool hasInfo, ExistingTake existing) const;
+    void refuseToDisturb(ExistingTake existing) const;
     TakeInfo describe(const World& world, const std::string& programVersion) const;
     void refuseBranchOffItself(const TakeBranch& branch) const;
     void recordBranch(const TakeBranch& branch, const World& world, TakeInfo& info) const;
     void start(const World& world, const TakeInfo& info);
     void resume(const World& world, const TakeInfo& now, const std::optional<TakeBranch>& branch);
+    TakeInfo readInfo(const World& world, TakeInfo now, const std::optional<TakeBranch>& branch);
     void checkSameShot(const TakeInfo& info, const TakeInfo& now);
     void findWholeFrames(const World& world);
     void restoreBodies(const TakeInfo& now, TakeInfo& info);
-    void writeMissingShapes(const World& world) const;
+    std::vector<std::filesystem::path> writeShapes(const World& world) const;
     void completeBranch(const TakeInfo& info);
     void copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing);
     void findCheckpoint(const World& world);
-    void removeTake(bool hasInfo);
-    void removeTemporaries() const;
     void appendStats(const FrameStats& stats, const World& world);
     void rewriteStats() const;
 

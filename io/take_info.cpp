@@ -339,7 +339,7 @@ std::string encodeTakeInfo(const TakeInfo& info)
     for (const TakeShape& shape : info.shapes)
         shapes.push_back({{"name", shape.name}, {"hash", toHex(shape.hash)}});
     Json json = {
-        {"format", "scree take"},
+        {"format", kTakeFormat},
         {"format_version", kTakeFormatVersion},
         {"program_version", info.programVersion},
         {"name", info.name},
@@ -369,6 +369,11 @@ std::string encodeTakeInfo(const TakeInfo& info)
     return json.dump(1) + "\n";
 }
 
+bool isJson(const std::string& text)
+{
+    return Json::accept(text);
+}
+
 TakeInfo decodeTakeInfo(const std::string& text, const std::filesystem::path& path)
 {
     const auto fail = [&](const std::string& why) {
@@ -378,7 +383,7 @@ TakeInfo decodeTakeInfo(const std::string& text, const std::filesystem::path& pa
     TakeInfo info;
     try {
         const Json json = Json::parse(text);
-        if (json.value("format", "") != "scree take") fail("not the description of a Scree take");
+        if (json.value("format", "") != kTakeFormat) fail("not the description of a Scree take");
         if (const int version = json.at("format_version"); version != kTakeFormatVersion)
             fail("take format " + std::to_string(version) + "; this program knows format " +
                  std::to_string(kTakeFormatVersion));

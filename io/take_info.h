@@ -13,6 +13,7 @@
 
 namespace scree {
 
+inline constexpr const char* kTakeFormat = "scree take";
 constexpr int kTakeFormatVersion = 1;
 
 /// A file that the shot was built from; the hash tells whether it has changed since.
@@ -70,6 +71,9 @@ TakeInfo makeTakeInfo(const Shot& shot, const World& world, const SceneDescripti
 
 /// The text of take.json.
 std::string encodeTakeInfo(const TakeInfo& info);
+
+/// Whether it is JSON at all, as what was cut or overwritten is not.
+bool isJson(const std::string& text);
 
 /// Throws Error{inputOutput} naming `path` when the text is damaged or of an unknown version.
 TakeInfo decodeTakeInfo(const std::string& text, const std::filesystem::path& path);

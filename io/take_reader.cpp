@@ -50,7 +50,8 @@ SceneDescription TakeReader::describe(PlaneSize planes) const
         const std::filesystem::path path = paths_.shape(shape.name);
         if (hashText(readFileBytes(path)) != shape.hash)
             throw Error(ErrorKind::inputOutput, {path.string(), 0, 0},
-                        "damaged: its hash is not the one in take.json");
+                        "damaged: its hash is not the one in take.json; scree sim with --resume "
+                        "writes it again");
         meshByName[shape.name] = scene.meshes.size();
         const TriMesh mesh = readPlyMesh(path);
         scene.meshes.push_back({shape.name, mesh.points, mesh.triangles, mesh.cornerUvs});

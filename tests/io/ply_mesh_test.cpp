@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "io/file_bytes.h"
 #include "tests/support/export_scene.h"
 #include "tests/support/refusal.h"
 #include "tests/support/support.h"
@@ -35,7 +36,7 @@ TEST(PlyMesh, ReadsBackEveryBit)
     const test::TemporaryFolder folder;
     for (const bool hasUvs : {false, true}) {
         const TriMesh written = smallMesh(hasUvs);
-        writePlyMesh(folder / "a.ply", written);
+        writeFileBytes(folder / "a.ply", encodePlyMesh(written));
         const TriMesh read = readPlyMesh(folder / "a.ply");
         EXPECT_EQ(read.points, written.points);
         EXPECT_EQ(read.triangles, written.triangles);
@@ -47,7 +48,7 @@ TEST(PlyMesh, ReadsBackEveryBit)
 TEST(PlyMesh, AnEmptyMeshIsAMesh)
 {
     const test::TemporaryFolder folder;
-    writePlyMesh(folder / "a.ply", {Points(3, 0), Triangles(3, 0)});
+    writeFileBytes(folder / "a.ply", encodePlyMesh({Points(3, 0), Triangles(3, 0)}));
     EXPECT_EQ(readPlyMesh(folder / "a.ply").points.cols(), 0);
 }
 
@@ -55,7 +56,7 @@ TEST(PlyMesh, CutAnywhereItIsDamaged)
 {
     const test::TemporaryFolder folder;
     for (const bool hasUvs : {false, true}) {
-        writePlyMesh(folder / "a.ply", smallMesh(hasUvs));
+        writeFileBytes(folder / "a.ply", encodePlyMesh(smallMesh(hasUvs)));
         const std::string bytes = contentOf(folder / "a.ply");
         for (std::size_t length = 0; length < bytes.size(); ++length) {
             expectDamaged(folder / "cut.ply", bytes.substr(0, length));
@@ -67,7 +68,7 @@ TEST(PlyMesh, CutAnywhereItIsDamaged)
 TEST(PlyMesh, CountsAndCornersThatCannotBeAreDamage)
 {
     const test::TemporaryFolder folder;
-    writePlyMesh(folder / "a.ply", smallMesh());
+    writeFileBytes(folder / "a.ply", encodePlyMesh(smallMesh()));
     const std::string bytes = contentOf(folder / "a.ply");
 
     std::string huge = bytes;
@@ -86,7 +87,7 @@ TEST(PlyMesh, CountsAndCornersThatCannotBeAreDamage)
 TEST(PlyMesh, TextureCoordinatesThatCannotBeAreDamage)
 {
     const test::TemporaryFolder folder;
-    writePlyMesh(folder / "a.ply", smallMesh(true));
+    writeFileBytes(folder / "a.ply", encodePlyMesh(smallMesh(true)));
     const std::string bytes = contentOf(folder / "a.ply");
 
     std::string count = bytes;
@@ -102,7 +103,7 @@ TEST(PlyMesh, AMeshWithoutTextureCoordinatesIsWrittenAsItEverWas)
 {
     // Takes are compared by the hashes of these files: those of before must still be equal.
     const test::TemporaryFolder folder;
-    writePlyMesh(folder / "a.ply", smallMesh());
+    writeFileBytes(folder / "a.ply", encodePlyMesh(smallMesh()));
     const std::string bytes = contentOf(folder / "a.ply");
     EXPECT_EQ(bytes.find("texcoord"), std::string::npos);
     EXPECT_EQ(bytes.size() - (bytes.find("end_header\n") + 11), 4 * 24 + 4 * 13u);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
@@ -393,23 +394,58 @@ TEST_F(TakeTest, ResumeRefusesAWorldThatBeginsElsewhere)
     EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }), ErrorKind::badInput);
 }
 
-TEST_F(TakeTest, DamagedTakeJsonIsAnErrorThatLeavesTheFrames)
+TEST_F(TakeTest, LostOrCutTakeJsonIsMadeAgainFromFramesOfTheShot)
 {
     writeWholeTake();
-    std::ofstream(folder / "take/take.json") << "{ \"format\": ";
-    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }),
-              ErrorKind::inputOutput);
-    EXPECT_EQ(test::kindThrownBy([&] { TakeReader(folder / "take"); }), ErrorKind::inputOutput);
-    EXPECT_EQ(listFrames({folder / "take"}).size(), 5u);
+    const std::string whole = readFileBytes(folder / "take/take.json");
+    for (const bool isCut : {false, true}) {
+        fs::remove(folder / "take/take.json");
+        if (isCut) writeFileBytes(folder / "take/take.json", whole.substr(0, 20));
+        EXPECT_NE(test::kindThrownBy([&] { TakeReader(folder / "take"); }), std::nullopt);
+        const TakeWriter take = open(ExistingTake::resume, shot);
+        EXPECT_EQ(take.notices().size(), 1u);
+        EXPECT_TRUE(take.hasFrame(1005));
+        EXPECT_EQ(readFileBytes(folder / "take/take.json"), whole);
+    }
 }
 
-TEST_F(TakeTest, LostTakeJsonIsAnErrorThatLeavesTheFrames)
+TEST_F(TakeTest, LostTakeJsonIsAnErrorBesideFramesOfAnotherShotOrWithAGap)
 {
     writeWholeTake();
     fs::remove(folder / "take/take.json");
+    const Shot other = parseShotText(shotText(), "two.toml", {"material.wood.friction=0.9"});
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, other); }), ErrorKind::badInput);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::refuse, shot); }),
+              ErrorKind::inputOutput);
+    fs::remove(folder / "take/frames/frame.001003.scree");
     EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }),
               ErrorKind::inputOutput);
-    EXPECT_EQ(listFrames({folder / "take"}).size(), 5u);
+    EXPECT_EQ(listFrames({folder / "take"}).size(), 4u);
+}
+
+TEST_F(TakeTest, OverwritingLeavesWhatIsSomebodyElses)
+{
+    writeWholeTake();
+    const std::array mine = {folder / "take/frames/beauty.1001.exr",
+                             folder / "take/shapes/hero.ply"};
+    for (const fs::path& file : mine) writeFileBytes(file, "mine");
+    open(ExistingTake::overwrite, shot);
+    for (const fs::path& file : mine) EXPECT_TRUE(fs::exists(file)) << file;
+}
+
+TEST_F(TakeTest, AFolderWithADescriptionOrStatisticsOfSomethingElseIsRefused)
+{
+    fs::create_directories(folder / "take/images");
+    for (const char* name : {"take.json", "stats.jsonl"}) {
+        const fs::path file = folder / "take" / name;
+        writeFileBytes(file, "{\"foo\": 1}\n");
+        for (const auto existing :
+             {ExistingTake::refuse, ExistingTake::resume, ExistingTake::overwrite}) {
+            EXPECT_EQ(test::kindThrownBy([&] { open(existing, shot); }), ErrorKind::cannotCreate);
+        }
+        EXPECT_TRUE(fs::exists(folder / "take/images"));
+        fs::remove(file);
+    }
 }
 
 TEST_F(TakeTest, DamagedMeshIsNoticedByItsHash)
@@ -419,6 +455,17 @@ TEST_F(TakeTest, DamagedMeshIsNoticedByItsHash)
     flipByte(mesh, readFileBytes(mesh).size() - 1);
     EXPECT_EQ(test::kindThrownBy([&] { TakeReader(folder / "take").describe(); }),
               ErrorKind::inputOutput);
+    EXPECT_EQ(open(ExistingTake::resume, shot).notices().size(), 1u);
+    EXPECT_NO_THROW(TakeReader(folder / "take").describe());
+}
+
+// A folder of shapes was there before: a name was taken for the mesh.
+TEST_F(TakeTest, AMeshOfAnotherTakeIsNotTakenForTheShots)
+{
+    fs::create_directories(folder / "take/shapes");
+    writeFileBytes(folder / "take/shapes/block.ply", "ply");
+    open(ExistingTake::refuse, shot);
+    EXPECT_NO_THROW(TakeReader(folder / "take").describe());
 }
 
 TEST_F(TakeTest, DamagedFrameIsReportedAndOpenAgainWhileOthersStay)

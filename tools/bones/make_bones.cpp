@@ -31,7 +31,7 @@ constexpr double kDrawnRim = 3.4, kRim = 7.0;
 const Vec3 kDrawnWall(7.0, 4.5, 0.5);
 constexpr double kWallTop = 7.25;
 
-/// As a binary PLY in single precision: half of what writePlyMesh takes, and imports read no more.
+/// As a binary PLY in single precision: half of what a take keeps, and imports read no more.
 void writeSmallPly(const std::filesystem::path& path, const TriMesh& mesh)
 {
     std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +

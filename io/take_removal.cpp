@@ -1,0 +1,86 @@
+#include "io/take_removal.h"
+
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "core/base/error.h"
+#include "io/file_bytes.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuseForeign(const fs::path& file, const std::string& what)
+{
+    throw Error(ErrorKind::cannotCreate, "\"" + file.string() + "\" is not " + what +
+                                             ": move it away, or choose another folder with -o");
+}
+
+/// Meshes that the take says it keeps; none where it is damaged.
+std::vector<fs::path> shapeFiles(const TakePaths& paths)
+{
+    std::vector<fs::path> files;
+    try {
+        const TakeInfo info = decodeTakeInfo(readFileBytes(paths.info()), paths.info());
+        for (const TakeShape& shape : info.shapes) files.push_back(paths.shape(shape.name));
+    } catch (const Error&) {
+        // What is left is written over where it has the name of a shape of the next take.
+    }
+    return files;
+}
+
+void removeWhole(const fs::path& path)
+{
+    std::error_code code;
+    fs::remove_all(path, code);
+    if (code)
+        throw Error(ErrorKind::cannotCreate,
+                    "cannot remove \"" + path.string() + "\": " + code.message());
+}
+
+}  // namespace
+
+void refuseForeignFiles(const TakePaths& paths)
+{
+    // A damaged take.json may say nothing any more, but has frames beside it.
+    const bool isOfTake = !isThere(paths.info()) || !listFrames(paths).empty() ||
+                          readFileBytes(paths.info()).find(kTakeFormat) != std::string::npos;
+    if (!isOfTake) refuseForeign(paths.info(), "the description of a take");
+    const bool areFigures = !isThere(paths.stats()) || readFileBytes(paths.stats()).empty() ||
+                            !readStats(paths.stats()).empty();
+    if (!areFigures) refuseForeign(paths.stats(), "the statistics of a take");
+}
+
+void removeTake(const TakePaths& paths)
+{
+    const std::vector<fs::path> shapes = shapeFiles(paths);
+    if (isThere(paths.info())) {
+        for (const fs::path& made : {paths.images(), paths.exports(), paths.statsPage()})
+            removeWhole(made);
+    }
+    // The description goes before the frames: from then on nobody takes the rest for a take.
+    removeWhole(paths.info());
+    for (const int frame : listFrames(paths)) removeWhole(paths.frame(frame));
+    for (const fs::path& shape : shapes) removeWhole(shape);
+    for (const fs::path& file : {paths.stats(), paths.checkpoint()}) removeWhole(file);
+    for (const fs::path& folder : {paths.frames(), paths.shapes()}) {
+        std::error_code isNotEmpty;
+        fs::remove(folder, isNotEmpty);
+    }
+}
+
+void removeTemporaries(const TakePaths& paths)
+{
+    for (const fs::path& folder : {paths.root, paths.frames(), paths.shapes()}) {
+        std::error_code code;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+            const std::string name = entry.path().filename().string();
+            std::error_code ignored;
+            if (name.starts_with('.') && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
+        }
+    }
+}
+
+}  // namespace scree

@@ -1,0 +1,20 @@
+// What may be removed from a folder that is to hold a take: what scree itself has written there.
+// Folders called "frames" or "images" are common, and what else stands in them is somebody's.
+#pragma once
+
+#include "io/take.h"
+
+namespace scree {
+
+/// Throws Error{cannotCreate} when the folder has a take.json or statistics that are no take's.
+void refuseForeignFiles(const TakePaths& paths);
+
+/// Removes a take, and with it the pictures and caches that were made from it: left beside another
+/// they would be mixed with its own. Where there is no take.json those are somebody else's, and
+/// only what has a name that frames have goes. Throws Error{cannotCreate}.
+void removeTake(const TakePaths& paths);
+
+/// Removes what a killed writer has left half written.
+void removeTemporaries(const TakePaths& paths);
+
+}  // namespace scree
