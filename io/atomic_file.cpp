@@ -52,14 +52,15 @@ fs::path resolveTarget(const fs::path& target)
     return resolved;
 }
 
-/// Makes a finished rename survive a power cut. A file system that cannot sync a folder has no
-/// better promise to give, so its refusal is not an error.
-void syncFolder(const fs::path& folder)
+/// Makes a finished rename survive a power cut; answers 0, or the number of the error. A file
+/// system that cannot sync a folder has no better promise to give, so its refusal is none.
+int syncFolder(const fs::path& folder)
 {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::fsync(descriptor);
+    if (descriptor < 0) return 0;
+    const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
     ::close(descriptor);
+    return reason == EIO || reason == ENOSPC || reason == EDQUOT ? reason : 0;
 }
 
 struct TemporaryName {
@@ -154,7 +155,8 @@ void AtomicFile::commit()
         ::unlink(temporary_.c_str());
         fail(closed ? "renaming the finished file to" : "writing", reason);
     }
-    syncFolder(folderOf(target_));
+    if (const int reason = syncFolder(folderOf(target_)); reason != 0)
+        fail("making durable the name of", reason);
 }
 
 void AtomicFile::flush()

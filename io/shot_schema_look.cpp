@@ -6,6 +6,9 @@ namespace {
 
 using enum KeyType;
 
+/// Farther out single precision, in which rays are cast, has no directions any more.
+constexpr double kFarthestEye = 1e15;
+
 const std::vector<ShotKey> kLookKeys = {
     {.path = "camera",
      .type = tableList,
@@ -53,12 +56,16 @@ const std::vector<ShotKey> kLookKeys = {
     {.path = "camera.eye",
      .type = numbers,
      .unit = "shot's unit of length",
+     .min = -kFarthestEye,
+     .max = kFarthestEye,
      .excludes = "keys|orbit|file",
      .help = "Where it stands. A camera that moves has keys or an orbit instead."},
     {.path = "camera.target",
      .type = numbers,
      .unit = "shot's unit of length",
      .byDefault = "[0.0, 0.0, 0.0]",
+     .min = -kFarthestEye,
+     .max = kFarthestEye,
      .excludes = "file",
      .help = "What it looks at: the middle of the picture."},
     {.path = "camera.fov",

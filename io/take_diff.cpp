@@ -175,7 +175,8 @@ void noteSettings(const TakeReader& a, const TakeReader& b, TakeComparison& comp
         comparison.notes.push_back("made by scree " + a.info().programVersion + " and " +
                                    b.info().programVersion);
     }
-    if (a.frames() != b.frames()) {
+    comparison.holdSameFrames = a.frames() == b.frames();
+    if (!comparison.holdSameFrames) {
         comparison.notes.push_back("they hold " + std::to_string(a.frames().size()) + " and " +
                                    std::to_string(b.frames().size()) + " frames");
     }

@@ -24,10 +24,12 @@ struct TakeDifference {
 };
 
 struct TakeComparison {
-    std::vector<std::string> notes;  ///< what else differs: frames, settings, missing files
+    std::vector<std::string> notes;  ///< what else differs: frames, settings, program
+    bool holdSameFrames = true;
     int framesCompared = 0;
     std::optional<TakeDifference> difference;  ///< of the states, to the last bit
-    bool isSame() const { return notes.empty() && !difference; }
+    /// What shots ask for besides, as pictures and sub-frames, makes no other motion.
+    bool isSame() const { return holdSameFrames && !difference; }
 };
 
 /// Compares the state of every frame that both takes hold, in order, up to the first that differs.

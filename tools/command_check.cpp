@@ -200,9 +200,9 @@ void printCache(const ShapeCache& cache)
 void printText(const Shot& shot, const World& world, const ShotReport& report,
                const ShapeCache& cache, bool allShapes)
 {
-    std::printf("%s: frames %d-%d at %g a second, %zu bodies, %zu of them movable\n\n",
+    std::printf("%s: frames %d-%d at %g a second, %zu %s, %zu of them movable\n\n",
                 shot.name.c_str(), shot.firstFrame, shot.lastFrame, shot.framesPerSecond,
-                report.bodies, report.movable);
+                report.bodies, report.bodies == 1 ? "body" : "bodies", report.movable);
     if (allShapes || report.shapes.size() <= kMostShapesPrinted) {
         for (const auto& [name, use] : report.shapes) printShape(name, use);
     } else {

@@ -76,7 +76,9 @@ Command addDiffCommand(CLI::App& program)
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand(
-        "diff", "Say in which frame and body two takes differ; ends with 1 when they do");
+        "diff",
+        "Say in which frame and body two takes differ; ends with 1 when they do, or hold other "
+        "frames");
     command->add_option("A", options->a, "A take directory")->required();
     command->add_option("B", options->b, "Another")->required();
     command->add_flag("--json", options->json, "As one JSON object");

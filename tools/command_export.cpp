@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "io/frame_pattern.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
@@ -21,7 +22,9 @@ int runExport(const ExportOptions& options, Console& console)
     const TakeReader take(options.take);
     const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
     if (!exportTake(take, chosen.frames, options.output, console, progress))
-        throw Stopped{"\"" + options.output + "\" was not written"};
+        throw Stopped{hasFramePattern(options.output)
+                          ? "of \"" + options.output + "\" the first frames were written"
+                          : "\"" + options.output + "\" was not written"};
     std::printf("%s\n", options.output.c_str());
     return finishTakeFrames(chosen, options.output, console);
 }

@@ -23,6 +23,8 @@ namespace {
 /// More frames than any shot has: a slip of the keyboard, not a wish.
 constexpr long kMostFrames = 1000000;
 
+constexpr int kMostThreads = 1 << 16;
+
 /// A flag that changes what an asset may hold.
 struct LimitFlag {
     const char* flag;
@@ -191,6 +193,9 @@ std::string describeFrames(const std::vector<int>& frames)
 int threadsToUse(std::optional<int> asked)
 {
     if (asked && *asked < 1) throw Error(ErrorKind::usage, "--threads must be at least 1");
+    if (asked && *asked > kMostThreads)
+        throw Error(ErrorKind::usage,
+                    "--threads " + std::to_string(*asked) + ": no machine has so many processors");
     if (asked) return *asked;
     if (const auto slurm = positiveNumber(std::getenv("SLURM_CPUS_PER_TASK"))) return *slurm;
     const auto quota = processorQuota("/sys/fs/cgroup", "/proc/self/cgroup");

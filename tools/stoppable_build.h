@@ -11,7 +11,8 @@ namespace scree {
 void heedEarlySignals(Console& console);
 
 /// The world of a shot, with shapes from `cache`; what keeps that from its work is warned of.
-/// Signals are heeded before and after each solid and distance field, and at the end.
+/// Signals are heeded before and after each solid and distance field, and at the end; one to stop
+/// within seconds also inside of one, by ending the program. What takes long is told now and then.
 World buildStoppably(const Shot& shot, ShapeCache& cache, Console& console);
 
 }  // namespace scree

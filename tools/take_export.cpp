@@ -11,6 +11,12 @@
 #include "tools/take_painter.h"
 
 namespace scree {
+namespace {
+
+/// Where no progress is shown: a farm takes a minute of silence for a hang.
+constexpr std::chrono::seconds kBetweenWords{45};
+
+}  // namespace
 
 bool exportTake(const TakeReader& take, const std::vector<int>& frames,
                 const std::filesystem::path& output, Console& console, ProgressMode progress)
@@ -31,6 +37,7 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
     for (const std::string& loss : writer->losses(scene))
         console.warning("\"" + output.string() + "\": " + loss);
     Progress shown(console, progress, "export", frameCount);
+    auto lastWord = std::chrono::steady_clock::now();
     const bool withSubframes = writer->holdsSubframes();
     writer->begin(scene, frames.front(), frameCount,
                   withSubframes ? take.offsets() : std::vector<double>{0.0});
@@ -43,6 +50,10 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
             writer->write(take.readFrame(frame));
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
         shown.frameDone(frame, taken.count());
+        if (progress != ProgressMode::none || started - lastWord < kBetweenWords) continue;
+        lastWord = started;
+        console.info("still writing " + output.string() + ": frame " + std::to_string(frame) +
+                     " of " + describeFrames(frames));
     }
     writer->finish();
     return true;

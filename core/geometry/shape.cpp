@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kSharpEdge = 40.0 * kPi / 180.0;  // [A6]
 constexpr int kLeastResolution = 48;               // [A4]
-constexpr int kMostResolution = 512;
+constexpr int kLeastVoxels = 8, kMostResolution = 512;
 constexpr double kVoxelsPerThickness = 12.0;
 constexpr int kMarginCells = 4;                // around the mesh
 constexpr int kRepairResolution = 64;          // of the lattice of a wrap, unless the shot says
@@ -114,8 +114,16 @@ double chooseSpacing(const std::string& name, const ShapeSettings& settings, con
     if (settings.enoughNodes && !settings.resolution && !settings.voxel)
         return coarsened(spacing, box, *settings.enoughNodes);
     const double resolution = longest / spacing;
+    char text[320];
+    if (settings.voxel &&
+        !(resolution > kLeastVoxels - 0.5 && resolution < kMostResolution + 0.5)) {
+        std::snprintf(text, sizeof text,
+                      "shape '%s': a voxel of %.4g m makes %.3g of them along its longest edge of "
+                      "%.4g m; a field has %d to %d",
+                      name.c_str(), spacing, resolution, longest, kLeastVoxels, kMostResolution);
+        throw Error(ErrorKind::badInput, text);
+    }
     if (resolution > kMostResolution + 0.5) {
-        char text[320];
         std::snprintf(
             text, sizeof text,
             "shape '%s': its thinnest wall of %.4g m needs a field of %.0f voxels along "

@@ -192,6 +192,25 @@ TEST(BuildWorld, AssetErrorsAreLocatedAtTheShapeAndSaidOnce)
     EXPECT_EQ(refusal.kind, ErrorKind::badInput);
 }
 
+// In centimetres instead of metres a voxel was larger than its shape, and bodies fell through it.
+TEST(BuildWorld, AVoxelThatLeavesNothingOfAShapeIsRefusedAsAResolutionIs)
+{
+    const auto refusalOf = [](const char* voxel) {
+        return test::refusalBy([&] {
+            buildWorld(parseShotText(
+                std::string(kHead) +
+                    "[shape.b]\nbox = { size = [1, 1, 1] }\nsdf = { voxel = " + voxel +
+                    " }\n[[body]]\nname = \"b\"\nshape = \"b\"\n"
+                    "material = \"wood\"\n",
+                "s.toml"));
+        });
+    };
+    EXPECT_TRUE(refusalOf("5").mentions("s.toml:7:8: shape 'b': a voxel of 5 m makes 0.2"));
+    EXPECT_TRUE(refusalOf("0.2").mentions("a field has 8 to 512"));
+    EXPECT_TRUE(refusalOf("1e-9").mentions("a field has 8 to 512"));
+    EXPECT_FALSE(refusalOf("0.1").kind) << refusalOf("0.1").message;
+}
+
 // Of four hundred shards each is too small to be shared out among many threads.
 TEST(BuildWorld, ShapesMadeSideBySideAreThoseMadeOneAfterAnother)
 {

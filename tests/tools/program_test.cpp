@@ -491,6 +491,41 @@ TEST_F(ProgramTest, SignalsAreHeededWhileTheWorldIsBuilt)
     }
 }
 
+// One field takes half a minute, and asked nobody meanwhile: a farm kills what does not stop.
+TEST_F(ProgramTest, AStopIsHeededWithinSecondsInsideOfOneField)
+{
+    std::ofstream(take("slow.toml")) << test::shotTextOf(
+        {.name = "slow", .frames = "1001-1002"},
+        "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = [512, 512] }\n"
+        "sdf = { resolution = 512 }\n" +
+            test::bodyText("ring", "position = [0, 3, 0]", "ring"));
+    const auto begun = std::chrono::steady_clock::now();
+    Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache", "--threads", "1"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(4000));
+    program.signal(SIGTERM);
+    const Outcome outcome = program.wait();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
+    EXPECT_EQ(outcome.code, 75) << outcome.err;
+    EXPECT_NE(outcome.err.find("making the shapes of the shot\n"), std::string::npos)
+        << outcome.err;
+    EXPECT_LT(taken.count(), 15.0);
+    EXPECT_FALSE(fs::exists(take("slow")));
+}
+
+TEST_F(ProgramTest, TakesOfOneMotionAreTheSameWhateverElseTheirShotsAskFor)
+{
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("a"), "--frames", "1003"}).code, 0);
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("b"), "--frames", "1003", "--set",
+                        "output.contacts=true"})
+                  .code,
+              0);
+    ASSERT_EQ(runScree({"sim", shot(), "-o", take("c"), "--frames", "1002"}).code, 0);
+    const Outcome other = runScree({"diff", take("a"), take("b")});
+    EXPECT_EQ(other.code, 0) << other.out;
+    EXPECT_NE(other.out.find("output.contacts"), std::string::npos) << other.out;
+    EXPECT_EQ(runScree({"diff", take("a"), take("c")}).code, 1) << "a frame less";
+}
+
 TEST_F(ProgramTest, AFullDiskBehindStdoutExitsWith74)
 {
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("t"), "--frames", "1002"}).code, 0);
