@@ -7,7 +7,7 @@ namespace {
 using enum KeyType;
 
 /// Farther out single precision, in which rays are cast, has no directions any more.
-constexpr double kFarthestEye = 1e15;
+constexpr double kFarthestEye = 1e9;
 
 const std::vector<ShotKey> kLookKeys = {
     {.path = "camera",
