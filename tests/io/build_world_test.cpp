@@ -205,7 +205,7 @@ TEST(BuildWorld, AVoxelThatLeavesNothingOfAShapeIsRefusedAsAResolutionIs)
                 "s.toml"));
         });
     };
-    EXPECT_TRUE(refusalOf("5").mentions(": shape 'b': a voxel of 5 m makes 0.2"));
+    EXPECT_TRUE(refusalOf("5").mentions("makes 0.2 of them along")) << refusalOf("5").message;
     EXPECT_TRUE(refusalOf("0.2").mentions("a field has 8 to 512"));
     EXPECT_TRUE(refusalOf("1e-9").mentions("a field has 8 to 512"));
     EXPECT_FALSE(refusalOf("0.1").kind) << refusalOf("0.1").message;
