@@ -233,10 +233,10 @@ const std::vector<ShotKey> kSolverKeys = {
      .min = 0,
      .max = 360,
      .isOpen = true,
-     .help =
-         "How far a body may turn in one step at safety 1; what is round does not count as turning "
-         "about its own axis. Large values let spinning corners "
-         "skip through what they should hit."},
+     .help = "How far a body may turn in one step, whatever safety is; what is round does not "
+             "count as turning "
+             "about its own axis. Large values let spinning corners "
+             "skip through what they should hit."},
     {.path = "solver.hover",
      .unit = "of the inner thickness",
      .byDefault = "0.0005",

@@ -6,7 +6,7 @@ GapContact movedAlong(const GapContact& contact, const PairMove& move)
 {
     const Vec3 half = 0.5 * contact.gap * contact.normal;
     const Vec3 onA = move.turnA * (contact.rA + half);
-    const Vec3 onB = move.turnB * (contact.rA - half - move.bFromABefore) + move.bFromA;
+    const Vec3 onB = move.turnB * (contact.rA - half - move.fromAToBBefore) + move.fromAToB;
     const Vec3 withA = move.turnA * contact.normal, withB = move.turnB * contact.normal;
     const FeatureKind kind = kindOf(contact.feature);
     GapContact moved{contact.feature, Vec3::Zero(),

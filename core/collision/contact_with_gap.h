@@ -39,7 +39,7 @@ struct GapContact {
 /// How the surfaces of two bodies have moved, seen from A's centre of mass.
 struct PairMove {
     Mat3 turnA, turnB;
-    Vec3 bFromABefore, bFromA;  ///< centre of B from that of A [m]
+    Vec3 fromAToBBefore, fromAToB;  ///< between their centres [m]
 };
 
 /// The contact after its bodies have moved. A corner is a point of its body and a face a plane of

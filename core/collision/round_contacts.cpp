@@ -84,12 +84,12 @@ std::optional<double> tubeAt(const Shape& shape, const ConvexEdge& edge)
 }
 
 /// One body of a contact, seen from the second.
-class Side {
+class TouchingBody {
 public:
     /// `near` is a place of the contact; `outward` points at the other body. Both in the frame of
     /// the second shape, like all that comes out.
-    Side(const Shape& shape, ContactPart part, const Mat3& rotation, const Vec3& translation,
-         const Vec3& near, const Vec3& outward)
+    TouchingBody(const Shape& shape, ContactPart part, const Mat3& rotation,
+                 const Vec3& translation, const Vec3& near, const Vec3& outward)
         : shape_(shape), part_(part), rotation_(rotation), translation_(translation)
     {
         if (part.kind == Kind::ball) {
@@ -272,15 +272,17 @@ bool isOnFace(const Shape& shape, const Vec3& place, const Vec3& normal, double 
 }
 
 /// A round body on a flat one: the flat one gives the normal.
-Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const FeatureContact& contact)
+Rounding onFlat(const RelativePair& pair, TouchingBody& first, TouchingBody& second,
+                const FeatureContact& contact)
 {
     const Vec3& n = contact.normal;
-    Side& round = first.isRound() ? first : second;
+    TouchingBody& round = first.isRound() ? first : second;
     const Search search = round.turnTo(first.isRound() ? Vec3(-n) : n);
     if (search == Search::notRound || search == Search::onSide) return {};
     if (search == Search::elsewhere) return {Result::elsewhere};
     const RoundPlace& place = round.place();
-    const Vec3 onFlat = first.isRound() ? Vec3(contact.point - contact.gap * n) : contact.point;
+    const Vec3 placeOnFlat =
+        first.isRound() ? Vec3(contact.point - contact.gap * n) : contact.point;
     const Shape& flat = first.isRound() ? pair.second : pair.first;
     const auto inFlat = [&](const Vec3& at) {
         return first.isRound() ? at : Vec3(pair.rotation.transpose() * (at - pair.translation));
@@ -290,9 +292,9 @@ Rounding onFlat(const RelativePair& pair, Side& first, Side& second, const Featu
         return isOnFace(flat, inFlat(at), outOfFlat,
                         kSharpness * smallerRadius(pair.first, pair.second));
     };
-    if (!isOnFlat(onFlat)) return {Result::elsewhere};
+    if (!isOnFlat(placeOnFlat)) return {Result::elsewhere};
     const double side = first.isRound() ? 1.0 : -1.0;
-    const double gap = side * n.dot(place.point - onFlat) - place.bulge;
+    const double gap = side * n.dot(place.point - placeOnFlat) - place.bulge;
     const Vec3 smooth = place.point - side * place.bulge * n;
     const Vec3 foot = smooth - side * gap * n;
     if (!isOnFlat(foot)) return {Result::elsewhere};
@@ -310,7 +312,8 @@ bool isAboveCorner(const RelativePair& pair, const FeatureContact& corner, const
 /// A round body beside a sharp edge, on one of its faces: no corner of the round one need be near
 /// that. Where a coin leans on the side of another that edge spoke with its facets, in one step but
 /// not the next, 2e-3 of the coin apart.
-Rounding besideEdge(const RelativePair& pair, Side& first, Side& second, const Vec3& n)
+Rounding besideEdge(const RelativePair& pair, TouchingBody& first, TouchingBody& second,
+                    const Vec3& n)
 {
     if (const auto face = second.faceBeside(n))
         return onFlat(pair, first, second, {face->place, face->normal, 0.0});
@@ -321,9 +324,9 @@ Rounding besideEdge(const RelativePair& pair, Side& first, Side& second, const V
 
 /// Two sides that cross, or what is round about an axis and an edge: n is across both axes. That an
 /// edge is met from there has been seen: those of the facets are all along that axis.
-Rounding betweenSides(Side& first, Side& second, const FeatureContact& contact)
+Rounding betweenSides(TouchingBody& first, TouchingBody& second, const FeatureContact& contact)
 {
-    const auto isThere = [](const Side& side, const Vec3& outward, const Vec3& other) {
+    const auto isThere = [](const TouchingBody& side, const Vec3& outward, const Vec3& other) {
         return side.isEdge() ? side.isAlongEdge(other) : side.isNearest(outward, other);
     };
     const Vec3 &a = *first.axis(), &b = *second.axis();
@@ -349,12 +352,13 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
                       const FeatureContact& contact)
 {
     Vec3 n = contact.normal;
-    Side first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
-    Side second(pair.second, ofSecond, kUnturned, kUnmoved, contact.point - contact.gap * n, n);
-    const auto rolls = [](const Side& side) {
+    TouchingBody first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
+    TouchingBody second(pair.second, ofSecond, kUnturned, kUnmoved, contact.point - contact.gap * n,
+                        n);
+    const auto rolls = [](const TouchingBody& side) {
         return side.tube() || (side.isSide() && side.isRoundMesh());
     };
-    const auto crosses = [](const Side& side, const Shape& other) {
+    const auto crosses = [](const TouchingBody& side, const Shape& other) {
         return side.tube() || side.isSide() || side.isRolledOver(other);
     };
     if ((rolls(first) && crosses(second, pair.first)) ||

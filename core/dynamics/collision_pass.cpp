@@ -9,7 +9,6 @@
 // bounce.  [A26]
 #include "core/dynamics/collision_pass.h"
 
-
 #include "core/base/parallel.h"
 #include "core/dynamics/contact_point.h"
 
@@ -83,7 +82,7 @@ void resolveLagged(World& world, const StepSettings& settings, double dt, PairRe
                      pair.restitution, tally.impulses);
         isMoved = true;
     }
-    if (isMoved) noteImpulse(world, settings, dt, pair.bodies, scratch);
+    if (isMoved) predictAfterImpulse(world, settings, dt, pair.bodies, scratch);
 }
 
 /// Re-evolves the pair after every impulse until nothing is both interfering and approaching. [A24]
@@ -97,7 +96,7 @@ void resolveReevolving(World& world, const StepSettings& settings, double dt, Pa
             applyDeepest(world, settings, pair, {visit.placed, visit.now, visit.placed},
                          visit.inertia, pair.restitution, dt, tally.impulses);
         if (!applied) return;
-        noteImpulse(world, settings, dt, pair.bodies, scratch);
+        predictAfterImpulse(world, settings, dt, pair.bodies, scratch);
     }
     ++tally.loopsAtTheirCap;
 }

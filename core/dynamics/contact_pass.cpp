@@ -44,7 +44,7 @@ void resolvePair(World& world, const StepSettings& settings, double dt, int leve
             pair.quiet = stampOf(pair, scratch);
             return;
         }
-        noteImpulse(world, settings, dt, pair.bodies, scratch);
+        predictAfterImpulse(world, settings, dt, pair.bodies, scratch);
     }
     ++tally.loopsAtTheirCap;
 }

@@ -206,7 +206,7 @@ void applyContact(World& world, const StepSettings& settings, PairRecord& pair,
                        world.info[contact.fieldBody].name + ": an impulse changed their momentum");
     countImpulse(counts, j.kind);
     if (pair.isWatched)
-        noteImpulse(pair, contact.sample, ownedByA, seenAt(pair, contact, frames, applied.impulse));
+        showImpulse(pair, contact.sample, ownedByA, seenAt(pair, contact, frames, applied.impulse));
 }
 
 bool applyDeepest(World& world, const StepSettings& settings, PairRecord& pair,

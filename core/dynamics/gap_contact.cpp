@@ -106,6 +106,9 @@ constexpr std::size_t kRowsOfABodyOrTwo = 8;
 constexpr int kSpan = 32;
 constexpr double kNowhere = 1e-3, kShrinks = 0.7;
 
+/// What rounding leaves of speeds, where nothing pulls [m/s].
+constexpr double kRounding = 1e-15;
+
 /// What closes, or has borne, less than this share of what gravity does in a step stops nothing: of
 /// boxes that had been thrown up together the one bore the other by rounding, and for that both
 /// fell a little too far, on the lift that they had just left.
@@ -243,7 +246,7 @@ double rub(GapRow& row, double ut, double us)
 /// Whether sweeps go nowhere any more.
 class Progress {
 public:
-    explicit Progress(double gravity) : nowhere_(kNowhere * gravity) {}
+    explicit Progress(double speedOfFall) : nowhere_(kNowhere * speedOfFall) {}
 
     bool hasEnded(double residual)
     {
@@ -307,20 +310,20 @@ int sweepsWhileWrong(const World& world, double dt, const GapScratch& scratch,
 void solve(const World& world, const StepSettings& settings, double dt, const GapScratch& scratch,
            const GapIsland& island, GapLanes& rows)
 {
-    const double gravity = settings.gravity.norm() * dt;
-    double enough = std::max(kEnough * gravity, 1e-15);
+    const double speedOfFall = settings.gravity.norm() * dt;
+    double enough = std::max(kEnough * speedOfFall, kRounding);
     auto [most, mostAtRest, left, ofSpeed] = sweepLimits(world, settings, scratch, island);
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
     const auto shareOfWay = isHeap(settings, island) ? shareInAHeap : shareOfLastWay;
-    Progress progress(gravity);
+    Progress progress(speedOfFall);
     double energy = 0.0, mayBeWrong = kMuchIsWrong;
     for (int done = 1;; ++done) {
         const GapSweep swept = rows.sweep();
         if (done == 1) {
             enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
             const bool isNew = !island.isRemembered && !isHeap(settings, island);
-            if (isNew || swept.fastest < kAtRest * gravity) most = std::max(most, mostAtRest);
+            if (isNew || swept.fastest < kAtRest * speedOfFall) most = std::max(most, mostAtRest);
         }
         if (swept.residual <= enough) return;
         if (progress.hasEnded(swept.residual)) most = std::min(most, done);

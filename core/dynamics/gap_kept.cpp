@@ -79,7 +79,7 @@ bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& islan
     return std::ranges::all_of(island.pairs, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
         return before[i] && before[i]->island == any->island &&
-               scratch.nearPairs[pair.near].soughtIn != scratch.attempt &&
+               scratch.nearPairs[pair.nearPair].soughtIn != scratch.attempt &&
                isMovableAsBefore(pair.bodies.a) && isMovableAsBefore(pair.bodies.b);
     });
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/parallel.h"
 
@@ -47,11 +46,9 @@ void followBodies(const World& world, GapScratch& scratch)
             const Quat turn = pose.orientation * then.orientation.conjugate();
             // The chord of a point at unit distance.
             const double turned = 2.0 * turn.vec().norm();
-            const double farthest =
-                shape.isPlane ? std::numeric_limits<double>::infinity() : shape.boundingRadius;
             move.turn = turn.toRotationMatrix();
             move.shift = pose.position - then.position;
-            const double byTurn = turned > 0.0 ? turned * farthest : 0.0;
+            const double byTurn = turned * shape.boundingRadius;
             move.way = move.shift.norm() + byTurn;
             scratch.turned[i] += byTurn;
         }
@@ -100,8 +97,9 @@ bool takeContactsAlong(const World& world, const GapScratch& scratch, double rea
     if (!(reach + way <= pair.foundWithin)) return false;
     if (way > kMostWay * smallerRadius(world, pair.bodies.a, pair.bodies.b)) return false;
     if (std::any_of(pair.contacts.begin(), pair.contacts.end(), isRound)) return false;
-    const Vec3 bFromA = world.motion[pair.bodies.b].position - world.motion[pair.bodies.a].position;
-    const PairMove move{a.turn, b.turn, bFromA - b.shift + a.shift, bFromA};
+    const Vec3 fromAToB =
+        world.motion[pair.bodies.b].position - world.motion[pair.bodies.a].position;
+    const PairMove move{a.turn, b.turn, fromAToB - b.shift + a.shift, fromAToB};
     for (GapContact& contact : pair.contacts) contact = movedAlong(contact, move);
     pair.foundWithin -= way;
     pair.isLagged = true;

@@ -198,7 +198,7 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane, Secti
     };
     place(batch.a, scratch.bodies[from->a], from->movesA);
     place(batch.b, scratch.bodies[from->b], from->movesB);
-    batch.aFromB.set(lane, from->rB - from->rA);
+    batch.bFromA.set(lane, from->rB - from->rA);
     batch.squeeze[lane] = from->squeeze;
     for (std::size_t r = batch.begin; r < batch.end; ++r, ++from) {
         Row& row = section.rows[r];
@@ -240,7 +240,7 @@ inline void GapLanes::apply(const Row& row, const Batch& batch, const Lanes3& ch
     motion.vA = fma(batch.a.inverseMass, j, motion.vA);
     motion.wA += batch.a.inverseInertia * cross(row.rA, j);
     motion.vB = fnma(batch.b.inverseMass, j, motion.vB);
-    motion.wB -= batch.b.inverseInertia * cross(row.rA + batch.aFromB, j);
+    motion.wB -= batch.b.inverseInertia * cross(row.rA + batch.bFromA, j);
 }
 
 inline void GapLanes::applyCouple(const Batch& batch, const Lanes3& couple, Motion& motion)
@@ -252,7 +252,7 @@ inline void GapLanes::applyCouple(const Batch& batch, const Lanes3& couple, Moti
 inline Lanes3 GapLanes::velocityAt(const Row& row, const Batch& batch, const Motion& motion)
 {
     return motion.vA + cross(motion.wA, row.rA) - motion.vB -
-           cross(motion.wB, row.rA + batch.aFromB);
+           cross(motion.wB, row.rA + batch.bFromA);
 }
 
 /// resistSpin of the plain twin without branches.

@@ -98,7 +98,7 @@ private:
     /// Up to kRowsTogether rows each of up to kLanes pairs that share no movable body.
     struct Batch {
         Side a, b;
-        Lanes3 aFromB;              // centres: what turns rA into rB
+        Lanes3 bFromA;              // centres: what turns rA into rB
         Lanes squeeze = kNoLanes;   // of each row
         std::int32_t from[kLanes];  // the first row of each in GapScratch::rows
         int lanesUsed = 0;

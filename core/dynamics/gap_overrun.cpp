@@ -36,7 +36,8 @@ bool endOverrunsOf(const GapPair& pair, double visible, double dt, GapScratch& s
     const bool bounces = std::ranges::any_of(rows, &GapRow::wasHit);
     bool isChanged = false;
     for (const GapRow& row : rows) {
-        if (overrun(row, a, b, bounces, dt) <= visible) continue;
+        // Not the other way round: of what is no number nothing is taken back, for ever.
+        if (!(overrun(row, a, b, bounces, dt) > visible)) continue;
         const double ofA = row.normal.dot(a.shift + a.turn.cross(row.rA));
         const double ofB = -row.normal.dot(b.shift + b.turn.cross(row.rB));
         if (ofA < 0.0) moveFromTheStart(a);

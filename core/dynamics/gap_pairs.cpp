@@ -34,7 +34,8 @@ void collectPairs(const World& world, GapScratch& scratch)
             near.depth = 0.0;
             continue;
         }
-        scratch.pairs.push_back({.bodies = near.bodies, .near = i, .end = near.contacts.size()});
+        scratch.pairs.push_back(
+            {.bodies = near.bodies, .nearPair = i, .end = near.contacts.size()});
         scratch.rowCount += near.contacts.size();
     }
 }
@@ -139,24 +140,13 @@ void cutInTwo(const GapIsland& island, GapScratch& scratch)
     }
 }
 
-/// Large islands are cut, small ones belong to one half as a whole.
-void shareOut(GapScratch& scratch)
+void cutLargeIslands(GapScratch& scratch)
 {
-    if (scratch.rowCount < kRowsWorthACut) return;
     const std::vector<std::size_t>& islands = scratch.openIslands;
-    const auto isLarge = [](const GapIsland& island) { return island.rowCount >= kRowsWorthACut; };
     forEach(islands.size(), 1, [&](std::size_t n) {
         const GapIsland& island = scratch.islands[islands[n]];
-        if (isLarge(island)) cutInTwo(island, scratch);
+        if (island.rowCount >= kRowsWorthACut) cutInTwo(island, scratch);
     });
-    std::array<std::size_t, 2> rows{};
-    for (const std::size_t i : islands) {
-        const GapIsland& island = scratch.islands[i];
-        if (isLarge(island)) continue;
-        const int lighter = rows[1] < rows[0] ? 1 : 0;
-        rows[lighter] += island.rowCount;
-        for (const std::size_t p : island.pairs) scratch.pairs[p].part = lighter;
-    }
 }
 
 }  // namespace
@@ -170,7 +160,7 @@ void layPairs(const World& world, GapScratch& scratch)
 void orderPairs(const World& world, const StepSettings& settings, GapScratch& scratch)
 {
     orderByHeight(world, -settings.gravity, scratch);
-    shareOut(scratch);
+    cutLargeIslands(scratch);
     // What one island needs is in the cache until it is done with.
     scratch.order.clear();
     for (const GapIsland& island : scratch.islands)

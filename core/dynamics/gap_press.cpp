@@ -88,7 +88,7 @@ void gripSqueezed(const World& world, const StepSettings& settings, double dt,
     const double gravity = std::max(kLeastGravity, settings.gravity.norm());
     const auto excessOf = [&](const GapPair& pair) {
         const double smaller = smallerRadius(world, pair.bodies.a, pair.bodies.b);
-        return scratch.nearPairs[pair.near].depth / smaller - kSqueezed;
+        return scratch.nearPairs[pair.nearPair].depth / smaller - kSqueezed;
     };
     const auto isKeyed = [&](BodyId body) { return world.info[body].kind == BodyKind::keyed; };
     thread_local std::vector<std::size_t> squeezed;  // islands

@@ -100,7 +100,7 @@ bool DeepPass::isDeep(BodyPair pair, double depth) const
 void DeepPass::findDeepPairs()
 {
     for (const GapPair& pair : scratch_.pairs) {
-        if (!isDeep(pair.bodies, scratch_.nearPairs[pair.near].depth)) continue;
+        if (!isDeep(pair.bodies, scratch_.nearPairs[pair.nearPair].depth)) continue;
         double deepest = 0.0;
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             const GapRow& row = scratch_.rows[r];
@@ -109,14 +109,14 @@ void DeepPass::findDeepPairs()
             const double depth = -row.gap - std::max(opened, 0.0);
             if (!isDeep(pair.bodies, depth) || (!row.movesA && !row.movesB)) continue;
             isLookedAt_.resize(scratch_.nearPairs.size(), 0);
-            isLookedAt_[pair.near] = 1;
+            isLookedAt_[pair.nearPair] = 1;
             reach_ = std::max(reach_, depth);
             deepest = std::max(deepest, depth);
         }
         if (deepest == 0.0) continue;
         left_.resize(scratch_.nearPairs.size(), kDeep);
         const double share = deepest / smallerRadius(world_, pair.bodies.a, pair.bodies.b);
-        left_[pair.near] =
+        left_[pair.nearPair] =
             std::clamp(kDeep * (kWhollyDeep - share) / (kWhollyDeep - kDeep), kSlop, kDeep);
     }
 }
@@ -186,7 +186,7 @@ double DeepPass::depthShare(const NearPair& pair) const
 double DeepPass::look(NearPair& pair, double reach)
 {
     contacts_.clear();
-    pair.near.findContacts(placePair(world_, pair.bodies), reach, contacts_);
+    pair.features.findContacts(placePair(world_, pair.bodies), reach, contacts_);
     return deepestOf(contacts_);
 }
 
@@ -195,7 +195,7 @@ bool DeepPass::holdBack(const GapIsland& island)
 {
     double share = 1.0;
     for (const std::size_t i : island.pairs) {
-        if (depthShare(scratch_.nearPairs[scratch_.pairs[i].near]) >= kSlight) return false;
+        if (depthShare(scratch_.nearPairs[scratch_.pairs[i].nearPair]) >= kSlight) return false;
     }
     for (const BodyId body : island.movers) {
         const PushedBody& pushed = bodies_[body];

@@ -22,7 +22,7 @@ public:
     /// Whether the rows of a pair have been dealt with.
     bool isLookedAt(const GapPair& pair) const
     {
-        return !isLookedAt_.empty() && isLookedAt_[pair.near] != 0;
+        return !isLookedAt_.empty() && isLookedAt_[pair.nearPair] != 0;
     }
 
 private:

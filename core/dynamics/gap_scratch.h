@@ -29,7 +29,7 @@ struct SeenApart {
 /// anew.
 struct NearPair {
     BodyPair bodies;
-    NearFeatures near;
+    NearFeatures features;
     std::vector<GapContact> contacts;
     double foundWithin = -1.0;  ///< the reach of these [m]; negative: they are not known
     SeenApart seen;             ///< when contacts were last sought
@@ -41,13 +41,13 @@ struct NearPair {
 /// The few of these that have rows.
 struct GapPair {
     BodyPair bodies;
-    std::size_t near;                     ///< index into GapScratch::nearPairs
+    std::size_t nearPair;                 ///< index into GapScratch::nearPairs
     std::size_t begin = 0, end = 0;       ///< its rows
     std::size_t bearing = 0;              ///< how many of them have an impulse, once solved
     bool isCarried = false;               ///< it had an impulse in the last step
     double fallOnB = 0.0, fallOnA = 0.0;  ///< share of its fall that takes the other into it
     std::size_t island = 0;               ///< index into GapScratch::islands
-    int part = 0;                         ///< gap_pairs.h
+    int part = 0;                         ///< of a large island: of which half, 2: it joins both
     bool isLetPass = false;               ///< by gap_foresight.h, although rows would stop it
     std::size_t place = 0;                ///< in the pairs of its block
 };
@@ -165,7 +165,7 @@ struct GapScratch {
 
     const std::vector<GapContact>& contactsOf(const GapPair& pair) const
     {
-        return nearPairs[pair.near].contacts;
+        return nearPairs[pair.nearPair].contacts;
     }
 };
 

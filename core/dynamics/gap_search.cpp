@@ -27,6 +27,10 @@ constexpr double kCommonWay = 1e-3;
 /// Near pairs that one thread lays out together.
 constexpr std::size_t kPairsTogether = 512;
 
+/// Pairs that one thread asks about together: many where there are many, most of them far, and one
+/// of few: a fine nut on its bolt takes milliseconds.
+constexpr std::size_t kPairsAskedTogether = 32, kAsksToShare = 16;
+
 /// How many pairs ahead contacts are fetched. Only time depends on it.
 constexpr std::size_t kPairsAhead = 6;
 
@@ -193,11 +197,12 @@ struct Question {
     double reach;
 };
 
-/// Whether the pair is known to have no contacts within the step, be it by what has been remembered
-/// of it longer than a checkpoint remembers: that tells nothing else, and nothing else may depend
-/// on it. Most pairs are so far apart that nobody needs to know how they approach.
-bool isFar(const World& world, const GapScratch& scratch, double besides, double ahead, double dt,
-           NearPair& pair)
+/// Whether the pair is known to have no contacts within the step, which is noted then, be it by
+/// what has been remembered of it longer than a checkpoint remembers: that tells nothing else, and
+/// nothing else may depend on it. Most pairs are so far apart that nobody needs to know how they
+/// approach.
+bool noteIfFar(const World& world, const GapScratch& scratch, double besides, double ahead,
+               double dt, NearPair& pair)
 {
     if (!pair.contacts.empty()) return false;
     const double reach = besides + approachAnywhere(scratch, pair.bodies, dt) + ahead;
@@ -206,11 +211,21 @@ bool isFar(const World& world, const GapScratch& scratch, double besides, double
     return true;
 }
 
+/// Whether the contacts that are known of a pair serve this look too, which reaches for `reach`,
+/// and has to for `least` [m]. They go along with their bodies where that is all they need.
+bool contactsServe(const World& world, const GapScratch& scratch, double least, double reach,
+                   bool hasMoved, NearPair& pair)
+{
+    if (pair.contacts.empty()) return !hasMoved && reach <= pair.foundWithin;
+    if (isSoughtAnewAt(world.clock))
+        return !hasMoved && !pair.isLagged && reach == pair.foundWithin;
+    return hasMoved ? takeContactsAlong(world, scratch, least, pair) : least <= pair.foundWithin;
+}
+
 /// Notes the pairs whose contacts are not known, of those to ask.
 void askPairs(const World& world, double dt, bool isAgain, std::span<const std::size_t> toAsk,
               GapScratch& scratch, std::vector<Question>& questions)
 {
-    const bool isAnew = isSoughtAnewAt(world.clock);
     for (std::size_t i = 0; i < toAsk.size(); ++i) {
         if (i + kPairsAhead < toAsk.size())
             fetchItems(scratch.nearPairs[toAsk[i + kPairsAhead]].contacts);
@@ -218,15 +233,11 @@ void askPairs(const World& world, double dt, bool isAgain, std::span<const std::
         const auto [a, b] = pair.bodies;
         const double besides = reachBesides(world, scratch, pair.bodies, dt);
         const double ahead = lookAheadToLag(world, scratch, pair.bodies, dt);
-        if (isFar(world, scratch, besides, ahead, dt, pair)) continue;
+        if (noteIfFar(world, scratch, besides, ahead, dt, pair)) continue;
         const double least = besides + approachOf(world, scratch, pair.bodies, dt);
         const double reach = least + ahead;
         const bool hasMoved = !isAgain && (scratch.moves[a].hasMoved || scratch.moves[b].hasMoved);
-        const bool isKnown = pair.contacts.empty() ? !hasMoved && reach <= pair.foundWithin
-                             : isAnew   ? !hasMoved && !pair.isLagged && reach == pair.foundWithin
-                             : hasMoved ? takeContactsAlong(world, scratch, least, pair)
-                                        : least <= pair.foundWithin;
-        if (isKnown) continue;
+        if (contactsServe(world, scratch, least, reach, hasMoved, pair)) continue;
         pair.soughtIn = scratch.attempt;
         pair.contacts.clear();
         pair.foundWithin = reach;
@@ -242,11 +253,12 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
 {
     thread_local std::vector<GapContact> found;
     for (std::size_t i = 0; i < questions.size(); ++i) {
-        if (i + 2 < questions.size()) questions[i + 2].pair->near.prefetch();
-        if (i + 1 < questions.size()) questions[i + 1].pair->near.prefetchLists();
+        if (i + 2 < questions.size()) questions[i + 2].pair->features.prefetch();
+        if (i + 1 < questions.size()) questions[i + 1].pair->features.prefetchLists();
         auto& [pair, reach] = questions[i];
         found.clear();
-        const double apart = pair->near.findContacts(placePair(world, pair->bodies), reach, found);
+        const double apart =
+            pair->features.findContacts(placePair(world, pair->bodies), reach, found);
         seeApart(world, scratch, apart, *pair);
         pair->contacts.assign(found.begin(), found.end());
         if (found.empty()) pair->contacts.shrink_to_fit();
@@ -265,7 +277,8 @@ void seek(World& world, double dt, bool isAgain, GapScratch& scratch)
             findNewGapPairs(world, scratch);
         else
             findGapPairs(world, scratch);
-        const std::size_t grain = std::clamp<std::size_t>(scratch.toAsk.size() / 16, 1, 32);
+        const std::size_t most = scratch.toAsk.size() / kAsksToShare;
+        const std::size_t grain = std::clamp<std::size_t>(most, 1, kPairsAskedTogether);
         parallelFor(scratch.toAsk.size(), grain, [&](std::size_t begin, std::size_t end) {
             thread_local std::vector<Question> questions;
             questions.clear();

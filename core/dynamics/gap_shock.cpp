@@ -34,27 +34,19 @@ constexpr double kMostOfWeight = 10.0;
 /// The bodies of a level's rows that its solve must not move, as they were.
 class PinnedBodies {
 public:
-    explicit PinnedBodies(GapScratch& scratch) : scratch_(scratch), isPinned_(flags())
-    {
-        if (isPinned_.size() < scratch.bodies.size()) isPinned_.resize(scratch.bodies.size(), 0);
-    }
-    bool isPinned(BodyId body) const { return isPinned_[body] != 0; }
-    /// What cannot be moved needs no pin; other threads look at it too.
+    explicit PinnedBodies(GapScratch& scratch) : scratch_(scratch) {}
+    /// What cannot be moved, or no more, needs no pin; other threads look at it too.
     void pin(BodyId body)
     {
         GapBody& b = scratch_.bodies[body];
-        if (isPinned_[body] || b.inverseMass == 0.0) return;
-        isPinned_[body] = 1;
+        if (b.inverseMass == 0.0) return;
         pinned_.push_back({body, b});
         b.inverseMass = 0.0;
         b.inverseInertia.setZero();
     }
     void release()
     {
-        for (const Pinned& pinned : pinned_) {
-            scratch_.bodies[pinned.body] = pinned.before;
-            isPinned_[pinned.body] = 0;
-        }
+        for (const Pinned& pinned : pinned_) scratch_.bodies[pinned.body] = pinned.before;
         pinned_.clear();
     }
 
@@ -63,15 +55,8 @@ private:
         BodyId body;
         GapBody before;
     };
-    /// Of this thread, all clear between two uses: most islands pin few of many bodies.
-    static std::vector<char>& flags()
-    {
-        thread_local std::vector<char> flags;
-        return flags;
-    }
     GapScratch& scratch_;
     std::vector<Pinned> pinned_;
-    std::vector<char>& isPinned_;
 };
 
 /// The motion that bodies had before a solve, so that it can be undone.
@@ -221,8 +206,8 @@ bool closesVisibly(const World& world, const StepSettings& settings, double dt,
 }
 
 /// The pairs of those islands of a block of which a row still closes visibly.
-std::vector<std::size_t> pairsToShake(const World& world, const StepSettings& settings, double dt,
-                                      const GapBlock& block, const GapScratch& scratch)
+std::vector<std::size_t> pairsForShock(const World& world, const StepSettings& settings, double dt,
+                                       const GapBlock& block, const GapScratch& scratch)
 {
     std::vector<char> pairCloses(block.pairs.size());
     forPairs(block, [&](std::size_t i) {
@@ -271,8 +256,8 @@ void groupByLevel(const GapScratch& scratch, std::span<const std::size_t> pairs,
 /// on three of which each goes its own way, pinned, cannot obey all of them: it turned, and those
 /// above it turned more. In 18 layers with a thousandth of a millimetre of air in each, 0.14 mm/s
 /// at the lowest became 40 at the top.
-bool shake(const World& world, const StepSettings& settings, double dt,
-           std::span<const std::size_t> pairs, GapScratch& scratch)
+bool shockCluster(const World& world, const StepSettings& settings, double dt,
+                  std::span<const std::size_t> pairs, GapScratch& scratch)
 {
     struct Remembered {
         Vec3 impulse, couple;
@@ -324,6 +309,54 @@ double weightOf(const GapScratch& scratch, const GapIsland& island, double dt)
     return weight;
 }
 
+/// Solves the rows of a level beside bodies that belong to others: pinned, as they were before
+/// anything pulled at them.
+void solveFromAbove(const StepSettings& settings, double dt, std::size_t level,
+                    const std::vector<std::size_t>& rows, GapScratch& scratch)
+{
+    PinnedBodies pinned(scratch);
+    const auto pin = [&](BodyId body) {
+        GapBody& b = scratch.bodies[body];
+        if (b.inverseMass == 0.0 || scratch.levels.level[body] == static_cast<int>(level)) return;
+        pinned.pin(body);
+        b.velocity = b.velocityBefore;
+        b.spin = b.spinBefore;
+    };
+    for (const std::size_t r : rows) {
+        pin(scratch.rows[r].a);
+        pin(scratch.rows[r].b);
+    }
+    for (const std::size_t r : rows) {
+        scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
+        prepareRow(scratch.bodies, scratch.rows[r]);
+    }
+    // Friction would hold what the first of many corners turns before the others have carried
+    // anything, and hand that down too: in a tower of bricks all of it slid, to keep a balance
+    // that needed none.
+    solveNormals(scratch, rows, kWeightSweeps, solvedEnough(settings, dt));
+    solveRows(scratch, rows, kWeightSweeps, solvedEnough(settings, dt));
+    pinned.release();
+}
+
+/// Gives the bodies of other levels what the rows of this one bear.
+void handOn(std::size_t level, const std::vector<std::size_t>& rows, GapScratch& scratch)
+{
+    const auto isOfOther = [&](BodyId body) {
+        return scratch.levels.level[body] != static_cast<int>(level);
+    };
+    for (const std::size_t r : rows) {
+        GapRow& row = scratch.rows[r];
+        prepareRow(scratch.bodies, row);
+        const Vec3 impulse = row.worldImpulse();
+        const auto hand = [&](BodyId body, const Vec3& arm, const Vec3& j, const Vec3& couple) {
+            applyTo(scratch.bodies[body], arm, j);
+            applyCoupleTo(scratch.bodies[body], couple);
+        };
+        if (row.movesA && isOfOther(row.a)) hand(row.a, row.rA, impulse, row.couple);
+        if (row.movesB && isOfOther(row.b)) hand(row.b, row.rB, -impulse, -row.couple);
+    }
+}
+
 void handWeightDown(const StepSettings& settings, double dt, const GapIsland& island,
                     GapScratch& scratch)
 {
@@ -331,50 +364,11 @@ void handWeightDown(const StepSettings& settings, double dt, const GapIsland& is
     const double most = kMostOfWeight * weightOf(scratch, island, dt);
     thread_local Groups byLevel;
     groupByLevel(scratch, island.pairs, byLevel);
-    PinnedBodies pinned(scratch);
     thread_local std::vector<std::size_t> rows;
-    thread_local std::vector<char> wasPinnedA, wasPinnedB;
     for (std::size_t level = byLevel.size(); level-- > 0;) {
         collectRows(scratch, byLevel[level], rows);
-        const auto pin = [&](BodyId body) {
-            GapBody& b = scratch.bodies[body];
-            if (b.inverseMass == 0.0 || scratch.levels.level[body] == static_cast<int>(level))
-                return;
-            pinned.pin(body);
-            b.velocity = b.velocityBefore;
-            b.spin = b.spinBefore;
-        };
-        for (std::size_t r : rows) {
-            pin(scratch.rows[r].a);
-            pin(scratch.rows[r].b);
-        }
-        for (std::size_t r : rows) {
-            scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
-            prepareRow(scratch.bodies, scratch.rows[r]);
-        }
-        // Friction would hold what the first of many corners turns before the others have carried
-        // anything, and hand that down too: in a tower of bricks all of it slid, to keep a balance
-        // that needed none.
-        solveNormals(scratch, rows, kWeightSweeps, solvedEnough(settings, dt));
-        solveRows(scratch, rows, kWeightSweeps, solvedEnough(settings, dt));
-        wasPinnedA.clear();
-        wasPinnedB.clear();
-        for (std::size_t r : rows) {
-            wasPinnedA.push_back(pinned.isPinned(scratch.rows[r].a));
-            wasPinnedB.push_back(pinned.isPinned(scratch.rows[r].b));
-        }
-        pinned.release();
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            GapRow& row = scratch.rows[rows[i]];
-            prepareRow(scratch.bodies, row);
-            const Vec3 impulse = row.worldImpulse();
-            const auto hand = [&](BodyId body, const Vec3& r, const Vec3& j, const Vec3& couple) {
-                applyTo(scratch.bodies[body], r, j);
-                applyCoupleTo(scratch.bodies[body], couple);
-            };
-            if (wasPinnedA[i] && row.movesA) hand(row.a, row.rA, impulse, row.couple);
-            if (wasPinnedB[i] && row.movesB) hand(row.b, row.rB, -impulse, -row.couple);
-        }
+        solveFromAbove(settings, dt, level, rows, scratch);
+        handOn(level, rows, scratch);
         const bool isWeight = std::ranges::all_of(
             rows, [&](std::size_t r) { return scratch.rows[r].impulse.x() <= most; });
         if (isWeight) continue;
@@ -401,9 +395,9 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
                       const GapBlock& block, GapScratch& scratch)
 {
     Groups byLevel, clusters;
-    groupByLevel(scratch, pairsToShake(world, settings, dt, block, scratch), byLevel);
+    groupByLevel(scratch, pairsForShock(world, settings, dt, block, scratch), byLevel);
     PinnedBodies pinned(scratch);
-    std::vector<char> isShaken;
+    std::vector<char> isShocked;
     for (std::size_t level = 0; level < byLevel.size(); ++level) {
         for (const std::size_t i : byLevel[level]) {
             for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
@@ -413,13 +407,13 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
             }
         }
         groupByBodies(scratch, byLevel[level], clusters);
-        isShaken.assign(clusters.size(), 0);
+        isShocked.assign(clusters.size(), 0);
         forEach(clusters.size(), 4, [&](std::size_t c) {
-            isShaken[c] = shake(world, settings, dt, clusters[c], scratch);
+            isShocked[c] = shockCluster(world, settings, dt, clusters[c], scratch);
         });
         pinned.release();
         for (std::size_t c = 0; c < clusters.size(); ++c) {
-            if (!isShaken[c]) continue;
+            if (!isShocked[c]) continue;
             forRows(scratch, clusters[c],
                     [&](std::size_t r) { prepareRow(scratch.bodies, scratch.rows[r]); });
         }

@@ -145,7 +145,7 @@ void findUnseenAmongNear(const World& world, double dt, GapScratch& scratch)
             return;
         const double least = apartAtLeast(world, scratch, pair);
         unseen.isMet[i] =
-            runsIntoUnseen(world, scratch, pair.bodies, dt, pair.foundWithin, least, pair.near);
+            runsIntoUnseen(world, scratch, pair.bodies, dt, pair.foundWithin, least, pair.features);
     });
     for (std::size_t i = 0; i < near.size(); ++i) {
         if (unseen.isMet[i]) unseen.pairs.push_back(near[i].bodies);
@@ -174,7 +174,7 @@ void findDiverted(const World& world, double dt, GapScratch& scratch)
                                 poseAfter(world, scratch, a, dt), poseAfter(world, scratch, b, dt)};
         thread_local std::vector<GapContact> contacts;
         contacts.clear();
-        scratch.nearPairs[pair.near].near.findContacts(placed, 0.0, contacts);
+        scratch.nearPairs[pair.nearPair].features.findContacts(placed, 0.0, contacts);
         unseen.isMet[i] = deepestOf(contacts) > visibleTo(world, pair.bodies);
     });
     for (std::size_t i = 0; i < scratch.pairs.size(); ++i) {

@@ -216,8 +216,8 @@ void widenPairs(const World& world, const StepSettings& settings, double dt, Ste
     sortPairs(world, scratch);
 }
 
-void noteImpulse(const World& world, const StepSettings& settings, double dt, BodyPair bodies,
-                 StepScratch& scratch)
+void predictAfterImpulse(const World& world, const StepSettings& settings, double dt,
+                         BodyPair bodies, StepScratch& scratch)
 {
     for (const BodyId body : {bodies.a, bodies.b}) {
         // A body that cannot be moved is shared by threads: it is not even written to.

@@ -98,8 +98,8 @@ inline SkipStamp stampOf(const PairRecord& pair, const StepScratch& scratch)
 }
 
 /// After an impulse between the pair: predicts both bodies and lets their stamps be known as old.
-void noteImpulse(const World& world, const StepSettings& settings, double dt, BodyPair bodies,
-                 StepScratch& scratch);
+void predictAfterImpulse(const World& world, const StepSettings& settings, double dt,
+                         BodyPair bodies, StepScratch& scratch);
 
 /// The two bodies of a pair elsewhere than they are.
 inline PlacedPair placePair(const World& world, const PairRecord& pair, const Pose& worldFromA,

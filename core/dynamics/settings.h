@@ -41,10 +41,9 @@ enum class Method {
     scree,  ///< the same pipeline on gaps: contacts known before they touch, impulses remembered
 };
 
-/// How hard each phase works. Defaults follow [GBF03].
+/// How hard each phase works. Defaults follow [GBF03], but for the orientation.
 struct StepSettings {
     Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
-    std::uint64_t seed = 1;            ///< of the order of processing
     Method method = Method::paper;
     int collisionIterations = 5;     ///< sweeps over pairs [-]; too few: fast heaps overlap
     int collisionPairImpulses = 20;  ///< per visit of a pair [-]
@@ -54,6 +53,24 @@ struct StepSettings {
     OrientationUpdate orientation = OrientationUpdate::symplectic;
     CombineRule frictionRule = CombineRule::maximum;     ///< of a pair, from its materials  [A27]
     CombineRule restitutionRule = CombineRule::minimum;  ///< likewise
+
+    SubstepLimits substeps;
+    double maximumSpinPerStep =
+        0.3;  ///< rotation in one step, whatever safety is [rad]  [A16 beta]
+
+    // Of method `scree` alone.
+    bool sleep = true;   ///< what no step moves is not stepped
+    int gapSweeps = 12;  ///< over all contacts of a large heap [-]; too few: it sinks
+
+    // Of method `paper` alone.
+    std::uint64_t seed = 1;       ///< of the order of processing
+    int contactIterations = 10;   ///< sweeps over levels [-]; 0 makes bodies weightless to others
+    int levelIterations = 2;      ///< per level and sweep [-]
+    int pairImpulses = 20;        ///< per visit of a pair in contact [-]; too few: bodies rock
+    int shockPairImpulses = 10;   ///< per visit of a pair in the shock sweep [-]
+    int pushOutPairImpulses = 5;  ///< per visit of a pair [-]
+    CollisionVariant collision = CollisionVariant::reevolve;
+    double hoverLimit = 5e-4;        ///< resting gap as a fraction of the inner thickness [-]
     bool freezeUnsupported = false;  ///< shock also freezes what rests on nothing fixed: the
                                      ///< paper's, and it makes momentum out of nothing  [A47]
     FrictionFallback frictionFallback = FrictionFallback::blend;
@@ -62,22 +79,6 @@ struct StepSettings {
     /// body is braked.  [A40]
     bool slideSmoothSamples = true;
     bool curvatureScaling = true;  ///< rolling resistance grows where curvature is low  [A50]
-
-    SubstepLimits substeps;
-    double maximumSpinPerStep = 0.3;  ///< rotation in one step at safety 1 … [rad]  [A16 beta]
-
-    // Of method `scree` alone.
-    bool sleep = true;   ///< what no step moves is not stepped
-    int gapSweeps = 12;  ///< over all contacts of a large heap [-]; too few: it sinks
-
-    // Of method `paper` alone.
-    int contactIterations = 10;   ///< sweeps over levels [-]; 0 makes bodies weightless to others
-    int levelIterations = 2;      ///< per level and sweep [-]
-    int pairImpulses = 20;        ///< per visit of a pair in contact [-]; too few: bodies rock
-    int shockPairImpulses = 10;   ///< per visit of a pair in the shock sweep [-]
-    int pushOutPairImpulses = 5;  ///< per visit of a pair [-]
-    CollisionVariant collision = CollisionVariant::reevolve;
-    double hoverLimit = 5e-4;  ///< resting gap as a fraction of the inner thickness [-]
 };
 
 /// The paper without the repairs documented beside it; shapes want FieldMode::grid with it.  [A60]

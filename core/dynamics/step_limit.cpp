@@ -299,8 +299,13 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
     };
     StepLength limit = limitFor(Limit::forSight);
     const double seen = settings.substeps.safety * frameDuration / kStepsSeen;
-    if (settings.method == Method::scree && limit.dt < seen)
-        limit.dt = std::min(seen, limitFor(Limit::forBlur).dt);
+    if (settings.method == Method::scree && limit.dt < seen) {
+        const StepLength blur = limitFor(Limit::forBlur);
+        if (blur.dt < seen)
+            limit = blur;
+        else
+            limit.dt = seen;
+    }
 
     const double shortest = frameDuration / settings.substeps.max;
     if (limit.dt < shortest) {

@@ -13,7 +13,7 @@ void deepen(StepSeen& step, BodyId a, BodyId b, double depth)
 
 }  // namespace
 
-void noteImpulse(PairRecord& pair, std::int32_t sample, bool sampleOnA, const ContactSeen& seen)
+void showImpulse(PairRecord& pair, std::int32_t sample, bool sampleOnA, const ContactSeen& seen)
 {
     const auto known = std::find_if(
         pair.impulses.begin(), pair.impulses.end(), [&](const PairRecord::NotedImpulse& noted) {

@@ -10,7 +10,7 @@ namespace scree {
 
 /// Notes an impulse of one visit. Visits of the same sample add up: the passes come to a contact
 /// many times. Only its pair's worker calls it, so the order is that of the pair's own visits.
-void noteImpulse(PairRecord& pair, std::int32_t sample, bool sampleOnA, const ContactSeen& seen);
+void showImpulse(PairRecord& pair, std::int32_t sample, bool sampleOnA, const ContactSeen& seen);
 
 /// Method `paper`, after push-out.
 StepSeen seePairs(const StepScratch& scratch, const GraphLevels& levels, double dt);

@@ -270,9 +270,9 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
         world.assignKinds();
         const double remaining = frameDuration - world.clock.frameTimeDone;
         StepLength length;
-        StepReport limitReport;
+        PhaseSeconds limitSeconds{};
         {
-            const PhaseTimer timer(limitReport.seconds, Phase::stepLimit);
+            const PhaseTimer timer(limitSeconds, Phase::stepLimit);
             if (settings_.method == Method::scree) {
                 findForces(world, settings_, remaining, scratch_->forces);
                 // Before pairs are looked for, of which only those with somebody awake are found.
@@ -287,7 +287,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
                                                               : stepFoundPairs(world, length.dt);
         report.limitedBy = length.limitedBy;
         report.seconds[static_cast<int>(Phase::stepLimit)] +=
-            limitReport.seconds[static_cast<int>(Phase::stepLimit)];
+            limitSeconds[static_cast<int>(Phase::stepLimit)];
         if (frame.steps == 0 || length.dt < frame.shortestStep) frame.fastestBody = length.body;
         frame.substepCapReached = frame.substepCapReached || length.capReached;
         addStep(report, frame);
