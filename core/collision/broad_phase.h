@@ -14,15 +14,9 @@
 
 #include "core/math/aabb.h"
 #include "core/scene/body.h"
+#include "core/scene/body_pair.h"
 
 namespace scree {
-
-/// Always a < b.
-struct BodyPair {
-    BodyId a = 0, b = 0;
-    friend bool operator==(const BodyPair&, const BodyPair&) = default;
-    friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
-};
 
 class BroadPhase {
 public:

@@ -1,6 +1,15 @@
 #include "core/collision/contact_with_gap.h"
 
+#include <algorithm>
+
 namespace scree {
+
+double deepestOf(const std::vector<GapContact>& contacts)
+{
+    double deepest = 0.0;
+    for (const GapContact& contact : contacts) deepest = std::max(deepest, -contact.gap);
+    return deepest;
+}
 
 GapContact movedAlong(const GapContact& contact, const PairMove& move)
 {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/math/types.h"
 
 namespace scree {
 
-/// What found a contact. A pair that has a ball in it has no other features.
+/// What found a contact. What is round, the solid or the surface that facets stand for, has places
+/// of its own.
 enum class FeatureKind : std::uint64_t {
     cornerOfA = 0,
     cornerOfB = 1,
@@ -35,6 +37,9 @@ struct GapContact {
     Vec3 normal;  ///< world
     double gap;   ///< [m], negative when they overlap
 };
+
+/// Depth of the deepest overlap; 0 when all are apart [m].
+double deepestOf(const std::vector<GapContact>& contacts);
 
 /// How the surfaces of two bodies have moved, seen from A's centre of mass.
 struct PairMove {

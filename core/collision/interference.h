@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/collision/placed_pair.h"
 #include "core/collision/relative_pose.h"
 #include "core/geometry/known_field.h"
 #include "core/geometry/shape.h"
@@ -34,13 +35,6 @@ inline bool isDeeper(const Touch& p, const Touch& q)
     if (p.sampleOnA != q.sampleOnA) return p.sampleOnA;
     return p.sample < q.sample;
 }
-
-/// Two bodies, placed. Pointers only borrow.
-struct PlacedPair {
-    const Shape* shapeA;
-    const Shape* shapeB;
-    Pose worldFromA, worldFromB;
-};
 
 /// One direction of a pair: the samples of one body in the field of the other.
 struct OneWay {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/collision/contact_with_gap.h"
-#include "core/collision/interference.h"
+#include "core/collision/placed_pair.h"
 
 namespace scree {
 

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "core/collision/broad_phase.h"
-#include "core/collision/interference.h"
+#include "core/collision/placed_pair.h"
 #include "core/dynamics/settings.h"
+#include "core/scene/body_pair.h"
 #include "core/scene/world.h"
 
 namespace scree {

@@ -27,6 +27,7 @@
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_press.h"
 #include "core/dynamics/gap_shock.h"
+#include "core/dynamics/gap_visit.h"
 #include "core/dynamics/stillness.h"
 
 namespace scree {
@@ -109,11 +110,6 @@ constexpr double kNowhere = 1e-3, kShrinks = 0.7;
 /// What rounding leaves of speeds, where nothing pulls [m/s].
 constexpr double kRounding = 1e-15;
 
-/// What closes, or has borne, less than this share of what gravity does in a step stops nothing: of
-/// boxes that had been thrown up together the one bore the other by rounding, and for that both
-/// fell a little too far, on the lift that they had just left.
-constexpr double kStops = 1e-4;
-
 /// The share of a heap's last way. Somewhere in it rows always begin or cease to carry, and who
 /// begins anew for each of them does without conjugate directions: every third or fourth sweep did.
 /// Nine tenths and more without that run away. For as little wrong work the wall needs two thirds
@@ -130,117 +126,6 @@ int spareSweeps(const GapIsland& island, std::size_t times = 1, std::size_t most
 {
     const std::size_t rows = island.rowCount + 1;
     return static_cast<int>(std::min(times * kSpareVisits * kSpareRows / (rows * rows), most));
-}
-
-void applyRow(const GapRow& row, GapBody& a, GapBody& b, const Vec3& impulse)
-{
-    if (row.movesA) applyTo(a, row.rA, impulse);
-    if (row.movesB) applyTo(b, row.rB, -impulse);
-}
-
-void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
-{
-    if (row.movesA) applyCoupleTo(a, couple);
-    if (row.movesB) applyCoupleTo(b, -couple);
-}
-
-/// How far the surfaces at a row are from each other at the end of the step, if a pull acts on A
-/// against B that nothing answers [m].
-double endOfRow(const GapRow& row, const GapBody& a, const GapBody& b, const Vec3& pull, double dt)
-{
-    const double u = velocityAt(row, a, b).dot(row.normal);
-    return std::max(row.gap, 0.0) + shiftAt(row, a, b) + dt * (u + 0.5 * dt * pull.dot(row.normal));
-}
-
-/// What rests on what is stopped is stopped too. What pulls at both alike does not tell of that:
-/// all of a tower but its lowest layer was to fall freely in its first step, with weights handed
-/// down that were to hold it. Where something has carried before, that tells.
-void stopWhatRestsOnStopped(double dt, const GapIsland& island, GapScratch& scratch)
-{
-    for (const std::size_t i : island.pairs) {
-        const GapPair& pair = scratch.pairs[i];
-        GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
-        if (a.isStopped == b.isStopped) continue;
-        const Vec3 pull = a.isStopped ? Vec3(-b.pull) : a.pull;
-        const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
-        const bool rests = std::ranges::any_of(rows, [&](const GapRow& row) {
-            const bool isMoved = a.isStopped ? row.movesB : row.movesA;
-            return isMoved && endOfRow(row, a, b, pull, dt) < -kStops * dt * dt * pull.norm();
-        });
-        if (rests) a.isStopped = b.isStopped = true;
-    }
-}
-
-/// What pulls a body throughout the step, and how far that does not move it: in the whole step if
-/// nothing stops it, else until it was hit, if nothing bore it.
-void addForces(double dt, GapBody& body)
-{
-    body.velocityBefore = body.velocity;
-    body.spinBefore = body.spin;
-    if (body.inverseMass == 0.0) return;
-    const Vec3 turning = body.inverseInertia * body.torque;
-    body.velocity += dt * body.pull;
-    body.spin += dt * turning;
-    body.angularImpulse += dt * body.torque;
-    const double fallen = !body.isStopped ? dt : body.isHeld ? 0.0 : body.hitAt;
-    body.shift -= 0.5 * fallen * fallen * body.pull;
-    body.turn -= 0.5 * fallen * fallen * turning;
-}
-
-/// Resistance to rolling and spinning: a couple that stops relative spin, as far as the normal
-/// impulse and its lever arms allow. Answers by how much it changed the speed of A's surface there
-/// [m/s].  [A49]
-///
-/// Where friction holds the place the couple has to stop the centre too: friction follows, and
-/// gives the body back most of what a couple for its spin alone had taken. With such couples a ball
-/// that should have stood after 0.408 s crept on until 0.467 s: steps ended as soon as sweeps
-/// changed little, and they always did.
-double resistSpin(GapRow& row, GapBody& a, GapBody& b)
-{
-    const Mat3 response = coupleResponse(row, a, b);
-    const double rolls = sticks(row) ? row.rollResponse : response.trace();
-    const Vec3 w = a.spin - b.spin;
-    const double wn = w.dot(row.normal), before = row.couple.dot(row.normal);
-    const double most = row.spinningArm * row.impulse.x();
-    const double about =
-        std::clamp(before - wn / row.normal.dot(response * row.normal), -most, most);
-    Vec3 across = row.couple - before * row.normal - (w - wn * row.normal) / rolls;
-    const double length = across.norm(), limit = row.rollingArm * row.impulse.x();
-    if (length > limit) across *= limit / length;
-    const Vec3 change = about * row.normal + across - row.couple;
-    row.couple += change;
-    applyCouple(row, a, b, change);
-    return (response * change).norm() * row.rA.norm();
-}
-
-/// Of a row whose surfaces move along its normal with `un`.
-double normalImpulse(const GapRow& row, double un)
-{
-    return std::max(0.0, row.impulse.x() - (un - row.target) / row.inverseNormalMass);
-}
-
-/// Friction of a row whose surfaces slide with (ut, us), by its normal impulse. Answers how much
-/// that changed their speed at most.
-double rub(GapRow& row, double ut, double us)
-{
-    const Vec3 before = row.impulse;
-    const double* k = row.frictionMass;
-    double t1 = before.y() - (k[0] * ut + k[1] * us);
-    double t2 = before.z() - (k[1] * ut + k[2] * us);
-    const double limit = row.frictionLimit();
-    if (t1 * t1 + t2 * t2 > limit * limit) {
-        // Projecting the sticking impulse would turn friction away from the sliding direction.
-        t1 = before.y() - row.slideMass * ut;
-        t2 = before.z() - row.slideMass * us;
-        const double length = std::sqrt(t1 * t1 + t2 * t2);
-        if (length > limit) {
-            t1 *= limit / length;
-            t2 *= limit / length;
-        }
-    }
-    row.impulse.y() = t1;
-    row.impulse.z() = t2;
-    return std::max(std::abs(t1 - before.y()), std::abs(t2 - before.z())) / row.slideMass;
 }
 
 /// Whether sweeps go nowhere any more.
@@ -354,92 +239,6 @@ void solveIsland(const World& world, const StepSettings& settings, double dt, Ga
 bool isHeap(const StepSettings& settings, const GapIsland& island)
 {
     return spareSweeps(island) <= settings.gapSweeps;
-}
-
-double visitRow(GapRow& row, const Vec3& u)
-{
-    const Vec3 before = row.impulse;
-    const double normal = normalImpulse(row, u.x()), pushed = normal - before.x();
-    if (normal == 0.0 && row.squeeze == 0.0 && before.isZero(0.0)) return 0.0;
-    row.impulse.x() = normal;
-    const double rubbed = rub(row, u.y() + pushed * row.normalIntoFriction[0],
-                              u.z() + pushed * row.normalIntoFriction[1]);
-    return std::max(std::abs(pushed) * row.inverseNormalMass, rubbed);
-}
-
-double visitRow(GapRow& row, GapBody& a, GapBody& b)
-{
-    const Vec3 before = row.impulse, s = row.secondTangent();
-    const auto velocity = [&] {
-        const Vec3 u = velocityAt(row, a, b);
-        return Vec3(u.dot(row.normal), u.dot(row.tangent), u.dot(s));
-    };
-    if (!row.resistsSpin()) {
-        const double changed = visitRow(row, velocity());
-        const Vec3 d = row.impulse - before;
-        if (changed > 0.0)
-            applyRow(row, a, b, d.x() * row.normal + d.y() * row.tangent + d.z() * s);
-        return changed;
-    }
-    row.impulse.x() = normalImpulse(row, velocity().x());
-    const double pushed = row.impulse.x() - before.x();
-    applyRow(row, a, b, pushed * row.normal);
-    double changed = std::max(std::abs(pushed) * row.inverseNormalMass, resistSpin(row, a, b));
-    const Vec3 u = velocity();
-    changed = std::max(changed, rub(row, u.y(), u.z()));
-    const Vec3 d = row.impulse - before;
-    applyRow(row, a, b, d.y() * row.tangent + d.z() * s);
-    return changed;
-}
-
-void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
-{
-    // A body that nothing stops within the step falls on a parabola: end-of-step velocity takes it
-    // g dt²/2 too far.
-    std::vector<char> stops(block.pairs.size(), 0);
-    forPairs(block, [&](std::size_t i) {
-        const GapPair& pair = scratch.pairs[i];
-        char& stopsAny = stops[pair.place];
-        for (std::size_t r = pair.begin; r < pair.end && !stopsAny; ++r) {
-            const GapRow& row = scratch.rows[r];
-            const GapBody& a = scratch.bodies[row.a];
-            const GapBody& b = scratch.bodies[row.b];
-            const double end = endOfRow(row, a, b, a.pull - b.pull, dt);
-            const double little = kStops * dt * std::max(a.pull.norm(), b.pull.norm());
-            stopsAny = end < -dt * little ||
-                       (row.impulse.x() + row.squeeze) * row.inverseNormalMass > little;
-        }
-    });
-    for (std::size_t n = 0; n < stops.size(); ++n) {
-        const GapPair& pair = scratch.pairs[block.pairs[n]];
-        for (const BodyId id : {pair.bodies.a, pair.bodies.b}) {
-            if (scratch.placeInBlock[id] == 0) continue;
-            GapBody& body = scratch.bodies[id];
-            body.isStopped = body.isStopped || stops[n];
-            body.isHeld = body.isHeld || pair.isCarried;
-        }
-    }
-    forIslands(scratch, block, [&](std::size_t i) {
-        const GapIsland& island = scratch.islands[i];
-        if (!island.isRemembered) stopWhatRestsOnStopped(dt, island, scratch);
-    });
-    forEach(block.bodies.size(), kShortWork,
-            [&](std::size_t n) { addForces(dt, scratch.bodies[block.bodies[n]]); });
-    forPairs(block, [&](std::size_t i) {
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
-            GapRow& row = scratch.rows[r];
-            const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
-            row.target = -std::max(std::max(row.gap, 0.0) + shift, 0.0) / dt;
-        }
-    });
-}
-
-void addForcesToOthers(double dt, GapScratch& scratch)
-{
-    forEach(scratch.bodies.size(), kShortWork, [&](std::size_t b) {
-        if (scratch.placeInBlock[b] == 0 && !scratch.bodies[b].isKept)
-            addForces(dt, scratch.bodies[b]);
-    });
 }
 
 void resolveGaps(const World& world, const StepSettings& settings, double dt, const GapBlock& block,

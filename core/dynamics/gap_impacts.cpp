@@ -20,7 +20,6 @@
 
 #include "core/dynamics/contact_point.h"
 #include "core/dynamics/friction.h"
-#include "core/dynamics/gap_contact.h"
 
 namespace scree {
 namespace {

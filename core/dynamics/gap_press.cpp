@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_visit.h"
 
 namespace scree {
 namespace {

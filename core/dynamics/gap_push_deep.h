@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/dynamics/gap_pushes.h"
-#include "core/dynamics/push_out.h"
+#include "core/dynamics/push_limits.h"
 
 namespace scree {
 

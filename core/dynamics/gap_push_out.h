@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/dynamics/gap_scratch.h"
-#include "core/dynamics/push_out.h"
+#include "core/dynamics/push_limits.h"
 
 namespace scree {
 

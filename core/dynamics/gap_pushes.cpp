@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/push_out.h"
+#include "core/dynamics/push_limits.h"
 #include "core/math/rotation.h"
 
 namespace scree {

@@ -42,8 +42,10 @@ public:
     /// what `pull` pulls that way; dt if it never is.
     double bearsUntil(const Vec3& x, const Vec3& along, double pull, double dt) const
     {
-        const double first = at(0.0).at(x).dot(along);
-        const auto isSlower = [&](double t) { return at(t).at(x).dot(along) < first + t * pull; };
+        const double first = at(0.0).velocityAt(x).dot(along);
+        const auto isSlower = [&](double t) {
+            return at(t).velocityAt(x).dot(along) < first + t * pull;
+        };
         if (!isSlower(dt)) return dt;
         double bears = 0.0, leaves = dt;
         for (int cut = 0; cut < kCuts; ++cut) {
@@ -118,9 +120,10 @@ void fly(const World& world, double dt, BodyId id, const Rider& rider, GapBody& 
     const double bears = carrier.bearsUntil(x, along, pull, dt);
     if (bears == dt) return;
     const ScriptedMotion left = carrier.at(bears - carrier.moment());  // not beyond a kink
-    const Vec3 seen = carrier.seen().at(x - world.contactMemory.dt * world.motion[id].velocity);
-    const Vec3 excess =
-        excessOf(world.motion[id].velocity - seen, seen + bears * pull * along - left.at(x), along);
+    const Vec3 seen =
+        carrier.seen().velocityAt(x - world.contactMemory.dt * world.motion[id].velocity);
+    const Vec3 excess = excessOf(world.motion[id].velocity - seen,
+                                 seen + bears * pull * along - left.velocityAt(x), along);
     if (excess.isZero(0.0)) return;
     body.velocity -= excess;
     body.velocityBefore -= excess;

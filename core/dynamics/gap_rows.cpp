@@ -132,13 +132,6 @@ void warmStart(const World& world, double dt, const RememberedContact* begin,
 
 }  // namespace
 
-double deepestOf(const std::vector<GapContact>& contacts)
-{
-    double deepest = 0.0;
-    for (const GapContact& contact : contacts) deepest = std::max(deepest, -contact.gap);
-    return deepest;
-}
-
 void prepareRow(const std::vector<GapBody>& bodies, GapRow& row)
 {
     const GapBody& a = bodies[row.a];

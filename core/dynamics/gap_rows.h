@@ -1,9 +1,8 @@
 // The contacts of one step of method `scree` as rows of one problem, and the bodies as its
 // unknowns.  [algorithm 14.1]
 //
-// A row is rebuilt from its geometry at every visit: levers and normal fit into three cache lines,
-// the Jacobian and its products would need nine, and a heap of a thousand rings would no longer
-// stay in the second-level cache.
+// A row is what all phases know of a contact. Sweeps over many have a layout of their own
+// (gap_lanes.h), so that a heap of a thousand rings stays in the second-level cache.
 #pragma once
 
 #include <vector>
@@ -29,7 +28,8 @@ struct alignas(64) GapBody {
     Vec3 torque;          ///< that acts throughout the step [N m]
     Vec3 velocityBefore, spinBefore;  ///< before pull and torque acted
     Vec3 angularImpulse;              ///< of the step, without what the rows keep [kg m²/s]
-    double hitAt;    ///< the first moment at which an impact changed its velocity; 0: none did [s]
+    double hitAt;    ///< until when it moves as before an impact [s]; 0: none struck it, or one at
+                     ///< once, or what it moved before has been taken back
     double heavier;  ///< times it weighs its mass while contacts are solved: gap_laden.h; ≥ 1
     bool isHeld;     ///< something bore it in the last step
     bool isStopped;  ///< something may stop it within the step
@@ -51,10 +51,11 @@ struct GapRow {
                                    ///< [N s]
     Vec3 tangent;                  ///< the second tangent is normal × tangent
     double friction, restitution;  ///< [-]
-    double target;             ///< normal velocity that closes the gap within the step [m/s], ≤ 0
-    double inverseNormalMass;  ///< normal velocity by a unit normal impulse [1/kg]
-    double frictionMass[3];    ///< inverse of the tangential 2×2 block: tt, ts, ss [kg]
-    double slideMass;          ///< 1 / largest eigenvalue of that block [kg]
+    double target;  ///< normal velocity that closes the gap within the step [m/s], ≤ 0; of
+                    ///< an impact, with which it rebounds
+    double inverseNormalMass;        ///< normal velocity by a unit normal impulse [1/kg]
+    double frictionMass[3];          ///< inverse of the tangential 2×2 block: tt, ts, ss [kg]
+    double slideMass;                ///< 1 / largest eigenvalue of that block [kg]
     double normalIntoFriction[2];    ///< tangential velocities by a unit normal impulse [1/kg]
     double rollingArm, spinningArm;  ///< lever arms of the resistance to rolling and spinning [m]
     double rollResponse;             ///< spin across the normal by a unit couple while friction

@@ -223,13 +223,4 @@ inline void fetchContactsAfter(const GapScratch& scratch, std::size_t i)
     fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
 }
 
-/// By these what is remembered is sorted.
-inline BodyPair bodiesOf(const RememberedContact& contact)
-{
-    return {contact.a, contact.b};
-}
-
-/// Depth of the deepest overlap; 0 when all are apart [m].
-double deepestOf(const std::vector<GapContact>& contacts);
-
 }  // namespace scree

@@ -11,6 +11,7 @@
 #include "core/dynamics/gap_contact.h"
 #include "core/dynamics/gap_levels.h"
 #include "core/dynamics/gap_pairs.h"
+#include "core/dynamics/gap_visit.h"
 
 namespace scree {
 namespace {

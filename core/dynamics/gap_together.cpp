@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/dynamics/friction.h"
-#include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_visit.h"
 
 namespace scree {
 namespace {

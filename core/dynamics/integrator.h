@@ -1,4 +1,4 @@
-// Motion without contact: gravity, and the one function that says where a body will be.
+// Motion without contact: the one function that says where a body will be, and what scripts do.
 // [GBF03 “Time Integration”], [A18–A20]
 #pragma once
 
@@ -19,7 +19,7 @@ inline constexpr double kJustBefore = 1e-4;
 struct ScriptedMotion {
     Vec3 place, velocity, spin;  ///< [m], [m/s] there, [rad/s]
 
-    Vec3 at(const Vec3& x) const { return velocity + spin.cross(x - place); }
+    Vec3 velocityAt(const Vec3& x) const { return velocity + spin.cross(x - place); }
 };
 
 /// How a script moves a body between two times, told from the beginning of this step: the mean,
@@ -27,7 +27,8 @@ struct ScriptedMotion {
 ScriptedMotion scriptedMotion(const World& world, BodyId body, double from, double to);
 
 /// Gives keyed bodies the velocities that take them where their scripts are after dt: differences
-/// over the step, so that what they carry neither lags nor sinks.  [A54]
+/// over the step, so that what they carry neither lags nor sinks. What its script lets go of in
+/// this step gets the velocity it had there.  [A54]
 void aimKeyedBodies(World& world, double dt);
 
 /// Where the body is after dt with its present velocities: by predictPose, or on its script.

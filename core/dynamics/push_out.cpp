@@ -12,8 +12,6 @@
 namespace scree {
 namespace {
 
-constexpr double kMostTurn = 0.1;  // per push [rad]
-
 struct Push {
     Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();
 };
@@ -81,15 +79,6 @@ bool pushOnce(World& world, PairRecord& pair, const PairVisit& visit, const Froz
 }
 
 }  // namespace
-
-double admissibleShare(const Shape& shape, const Vec3& shift, const Vec3& turn)
-{
-    const double longest = 0.5 * shape.innerThickness;
-    double share = 1.0;
-    if (shift.norm() > longest) share = std::min(share, longest / shift.norm());
-    if (turn.norm() > kMostTurn) share = std::min(share, kMostTurn / turn.norm());
-    return share;
-}
 
 PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const StepSettings& settings,
                               StepScratch& scratch)

@@ -8,65 +8,6 @@
 namespace scree {
 namespace {
 
-/// Everything a keyed body may touch in the next `time`: around the present box, since a script may
-/// go anywhere at the speeds it has.
-Aabb scriptedBox(const World& world, BodyId body, double time)
-{
-    const Shape& shape = world.shapeOf(body);
-    const BodyMotion& motion = world.motion[body];
-    const ScriptBounds bounds =
-        world.info[body].script->boundsBetween(world.time(), world.time(time));
-    double speed = 0.0;
-    for (const Vec3& v : bounds.velocities) speed = std::max(speed, v.norm());
-    const double arm = shape.bodyFromAsset.position.norm();
-    const double turn = std::min(bounds.spin * time, 2.0);
-    const double reach = speed * time + turn * (arm + shape.boundingRadius);
-    return boxAt(shape, motion.worldFromBody()).grown(reach + contourValue(shape, shape));
-}
-
-/// Everything the body may touch while it moves on freely for `time`.
-Aabb sweptBox(const World& world, BodyId body, const AppliedForce& force, double time)
-{
-    if (!world.isBorn(body)) return {};  // an empty box meets nothing
-    if (world.info[body].kind == BodyKind::keyed) return scriptedBox(world, body, time);
-    const Shape& shape = world.shapeOf(body);
-    const BodyMotion& motion = world.motion[body];
-    Aabb box = boxAt(shape, motion.worldFromBody());
-    if (!world.mass[body].isMovable()) return box;
-
-    const Mat3 inverseInertia = passInertia(world.mass[body], motion.orientation).inverseInertia;
-    const double spin = (inverseInertia * motion.angularMomentum).norm() +
-                        (inverseInertia * force.torque).norm() * time;
-    const double turn = spin * time;
-    const Vec3 radius = Vec3::Constant(shape.boundingRadius);
-    const Aabb sphere{motion.position - radius, motion.position + radius};
-    box = box.grown(std::min(turn, 2.0) * shape.boundingRadius);
-    box = {box.min.cwiseMax(sphere.min), box.max.cwiseMin(sphere.max)};
-
-    // The path is a parabola between drift and fall: a box around both ends holds it.
-    const Vec3 drift = time * motion.velocity;
-    const Vec3 fall = drift + time * time * force.acceleration;
-    Aabb swept = box;
-    swept.include(Aabb{box.min + drift, box.max + drift});
-    swept.include(Aabb{box.min + fall, box.max + fall});
-    return swept.grown(contourValue(shape, shape));
-}
-
-/// The pairs whose swept boxes meet, that may collide, and of which one moves by itself, sorted.
-const std::vector<BodyPair>& meetingBoxes(const World& world, StepScratch& scratch)
-{
-    thread_local std::vector<char> isAsked;
-    isAsked.resize(world.bodyCount());
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        const auto body = static_cast<BodyId>(b);
-        isAsked[b] = world.isStepped(body) || world.info[b].kind == BodyKind::keyed;
-    }
-    scratch.candidates = scratch.broadPhase.findPairs(
-        scratch.sweptBoxes, world.mass, [&](BodyPair pair) { return mayCollide(world, pair); },
-        isAsked);
-    return scratch.candidates;
-}
-
 /// One record for each of the pairs found; those that had one keep it and what it remembers.
 template <class OnNew>
 void layOutPairs(const std::vector<BodyPair>& found, StepScratch& scratch, const OnNew& onNew)
@@ -153,23 +94,12 @@ void sortPairs(const World& world, StepScratch& scratch)
 
 }  // namespace
 
-void findCandidates(const World& world, double remaining, StepScratch& scratch)
-{
-    const std::size_t bodies = world.bodyCount();
-    scratch.sweptBoxes.resize(bodies);
-    forEach(bodies, kShortWork, [&](std::size_t b) {
-        scratch.sweptBoxes[b] =
-            sweptBox(world, static_cast<BodyId>(b), scratch.forces[b], remaining);
-    });
-    meetingBoxes(world, scratch);
-}
-
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch)
 {
     findForces(world, settings, remaining, scratch.forces);
-    findCandidates(world, remaining, scratch);
-    layOutPairs(scratch.candidates, scratch, [](PairRecord&) {});
+    findCandidates(world, scratch.forces, remaining, scratch.candidates);
+    layOutPairs(scratch.candidates.pairs, scratch, [](PairRecord&) {});
     for (std::size_t i = 0; i < scratch.pairCount; ++i) {
         describePair(world, settings, scratch.pairs[i]);
     }
@@ -196,20 +126,15 @@ void beginStep(const World& world, const StepSettings& settings, double dt, Step
 
 void widenPairs(const World& world, const StepSettings& settings, double dt, StepScratch& scratch)
 {
-    bool isWider = false;
+    scratch.reached.resize(world.bodyCount());
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        const auto body = static_cast<BodyId>(b);
-        if (!world.mass[b].isMovable()) continue;
-        const Shape& shape = world.shapeOf(body);
-        Aabb reached = boxAt(shape, scratch.fallPose[b]);
-        reached.include(boxAt(shape, scratch.driftPose[b]));
-        if (scratch.sweptBoxes[b].contains(reached)) continue;
-        scratch.sweptBoxes[b].include(sweptBox(world, body, scratch.forces[b], 2.0 * dt));
-        isWider = true;
+        const Shape& shape = world.shapeOf(static_cast<BodyId>(b));
+        scratch.reached[b] = boxAt(shape, scratch.fallPose[b]);
+        scratch.reached[b].include(boxAt(shape, scratch.driftPose[b]));
     }
-    if (!isWider) return;
-
-    layOutPairs(meetingBoxes(world, scratch), scratch, [&](PairRecord& pair) {
+    if (!widenCandidates(world, scratch.forces, scratch.reached, 2.0 * dt, scratch.candidates))
+        return;
+    layOutPairs(scratch.candidates.pairs, scratch, [&](PairRecord& pair) {
         describePair(world, settings, pair);
         beginPair(world, settings, dt, scratch.isWatched, pair);
     });

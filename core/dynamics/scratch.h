@@ -1,15 +1,16 @@
-// What the passes of one step share and reuse from step to step. Everything here is derived:
+// What the passes of one step of method `paper` share and reuse from step to step, and what the
+// length of a step of either is chosen by. Everything here is derived:
 // dropping it between two steps changes nothing but time.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "core/collision/broad_phase.h"
 #include "core/collision/interference.h"
 #include "core/diagnostics/step_observer.h"
 #include "core/diagnostics/step_report.h"
 #include "core/dynamics/body_pairs.h"
+#include "core/dynamics/candidates.h"
 #include "core/dynamics/forces.h"
 #include "core/dynamics/impulse.h"
 #include "core/dynamics/settings.h"
@@ -55,11 +56,10 @@ struct PairRecord {
 
 struct StepScratch {
     bool isWatched = false;  // an observer wants to see the impulses
-    BroadPhase broadPhase;
-    std::vector<BodyPair> candidates;  // what it found, without pairs that groups keep apart
-    std::vector<Aabb> sweptBoxes;      // per body: all it may reach in the rest of the frame
-    std::vector<PairRecord> pairs;     // sorted by bodies
-    std::size_t pairCount = 0;         // records in use; the others keep their memory
+    Candidates candidates;
+    std::vector<Aabb> reached;      // per body: by both predictions
+    std::vector<PairRecord> pairs;  // sorted by bodies
+    std::size_t pairCount = 0;      // records in use; the others keep their memory
     std::vector<PairRecord> formerPairs;
     std::vector<std::size_t> pairOrder;  // order of processing  [A21]
     std::vector<std::size_t> rank;       // per body: its place in World::order
@@ -71,11 +71,8 @@ struct StepScratch {
     std::vector<Pose> driftPose;       // per body: predicted without
 };
 
-/// Finds the pairs that may meet in the `remaining` time of the frame under the forces of the
-/// scratch, and of which one moves by itself. Keyed bodies are swept along their scripts.
-void findCandidates(const World& world, double remaining, StepScratch& scratch);
-
-/// The same, with the forces, and lays their records out.
+/// Finds the forces, the pairs that may meet in the `remaining` time of the frame, and lays their
+/// records out.
 void findPairs(const World& world, const StepSettings& settings, double remaining,
                StepScratch& scratch);
 

@@ -207,7 +207,7 @@ StepLength limitByAll(const World& world, const StepSettings& settings, const St
     StepLength limit{longest, StepLimit::frame, -1, false};
     // The first of equal limits counts, in the order of the pairs, however many threads there are.
     constexpr std::size_t kPairsTogether = 1024;
-    const std::vector<BodyPair>& pairs = scratch.candidates;
+    const std::vector<BodyPair>& pairs = scratch.candidates.pairs;
     std::vector<StepLength> limits((pairs.size() + kPairsTogether - 1) / kPairsTogether, limit);
     parallelFor(limits.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin * kPairsTogether;
@@ -238,7 +238,7 @@ double steadyStep(const World& world, const StepSettings& settings, double frame
 {
     constexpr int kLeastSteps = 4, kStepsTogether = 2;
     const bool mayTouch = std::any_of(
-        scratch.candidates.begin(), scratch.candidates.end(),
+        scratch.candidates.pairs.begin(), scratch.candidates.pairs.end(),
         [&](const BodyPair& pair) { return world.isStepped(pair.a) || world.isStepped(pair.b); });
     int steps = static_cast<int>(std::ceil(frameDuration / longest - 1e-9));
     if (mayTouch) {

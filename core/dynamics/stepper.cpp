@@ -16,6 +16,7 @@
 #include "core/dynamics/gap_blocks.h"
 #include "core/dynamics/gap_bounce.h"
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_forces.h"
 #include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_laden.h"
@@ -277,7 +278,7 @@ FrameReport Stepper::advanceFrame(World& world, double frameDuration,
                 findForces(world, settings_, remaining, scratch_->forces);
                 // Before pairs are looked for, of which only those with somebody awake are found.
                 if (world.clock.subStep == 0) wakeByForces(world, scratch_->forces);
-                findCandidates(world, remaining, *scratch_);
+                findCandidates(world, scratch_->forces, remaining, scratch_->candidates);
             } else {
                 findPairs(world, settings_, remaining, *scratch_);
             }

@@ -40,8 +40,6 @@ public:
     /// From now on shows every step to `observer`, which must outlive the stepper; null: to nobody.
     void observe(StepObserver* observer) { observer_ = observer; }
 
-    const StepSettings& settings() const { return settings_; }
-
 private:
     /// The step proper, with the pairs that may meet already in scratch.
     StepReport stepFoundPairs(World& world, double dt);

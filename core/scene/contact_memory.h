@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scene/body.h"
+#include "core/scene/body_pair.h"
 
 namespace scree {
 
@@ -17,6 +17,12 @@ struct RememberedContact {
     Vec3 force = Vec3::Zero();   ///< on A, world [N]
     Vec3 couple = Vec3::Zero();  ///< of its resistance to rolling and spinning, on A, world [N m]
 };
+
+/// By these what is remembered is sorted.
+inline BodyPair bodiesOf(const RememberedContact& contact)
+{
+    return {contact.a, contact.b};
+}
 
 /// A place that a body has not left for some frames.
 struct Stay {

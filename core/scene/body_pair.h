@@ -1,0 +1,17 @@
+// Two bodies of a world.
+#pragma once
+
+#include <compare>
+
+#include "core/scene/body.h"
+
+namespace scree {
+
+/// Always a < b.
+struct BodyPair {
+    BodyId a = 0, b = 0;
+    friend bool operator==(const BodyPair&, const BodyPair&) = default;
+    friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+};
+
+}  // namespace scree
