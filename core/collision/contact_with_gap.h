@@ -11,13 +11,7 @@ namespace scree {
 
 /// What found a contact. What is round, the solid or the surface that facets stand for, has places
 /// of its own.
-enum class FeatureKind : std::uint64_t {
-    cornerOfA = 0,
-    cornerOfB = 1,
-    edges = 2,
-    ball = 3,
-    round = 3
-};
+enum class FeatureKind : std::uint64_t { cornerOfA = 0, cornerOfB = 1, edges = 2, round = 3 };
 
 inline std::uint64_t featureId(FeatureKind kind, std::int32_t first, std::int32_t second = 0)
 {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/collision/edge_depth.h"
 #include "core/collision/moving_samples.h"
@@ -17,8 +18,6 @@ constexpr double kRounding = 1e-12;
 
 /// The bound of an edge is found anew when the pair has moved by this fraction of h since.
 constexpr double kStale = 0.02;
-
-constexpr double kRootTwo = 1.41421356237309504880;
 
 std::array<OneWay, 2> bothWays(const PlacedPair& pair)
 {
@@ -120,7 +119,8 @@ std::size_t smallerOf(const PlacedPair& pair)
 double travel(const OneWay& smaller, const FieldFromSamples& past, double around)
 {
     const FieldFromSamples& now = smaller.pose;
-    const double chord = (now.rotation - past.rotation).norm() / kRootTwo;  // of the unit circle
+    const double chord =
+        (now.rotation - past.rotation).norm() / std::numbers::sqrt2;  // of the unit circle
     const double moved = (now.translation - past.translation).norm();
     return moved + chord * (smaller.sampled->boundingRadius + around);
 }

@@ -71,7 +71,7 @@ double addCapsuleContacts(const BothWays& ways, double reach, std::vector<GapCon
     const double apart = findCapsuleContacts(isA ? ways.pair : ways.back, reach, found);
     for (const CapsuleContact& one : found) {
         contacts.push_back((isA ? ways.ofA : ways.ofB)(
-            featureId(FeatureKind::ball, one.ofFirst, one.ofSecond), one.contact));
+            featureId(FeatureKind::round, one.ofFirst, one.ofSecond), one.contact));
     }
     return apart;
 }
@@ -102,7 +102,7 @@ void addBallContacts(const BothWays& ways, double reach, ContactList& list)
     for (const BallContact& one : found) {
         const auto [place, other] = one.place;
         addBallContact(way, isA ? ways.ofA : ways.ofB, 0,
-                       featureId(FeatureKind::ball, place, other), one, list);
+                       featureId(FeatureKind::round, place, other), one, list);
     }
 }
 
@@ -124,7 +124,7 @@ std::optional<double> addCapsulePlaces(const BothWays& ways, double reach, Conta
     const std::optional<double> apart = findCapsulePlaces(way, reach, found);
     if (!apart) return {};
     const auto featureAt = [](int part, const std::array<std::int32_t, 2>& place) {
-        return featureId(FeatureKind::ball, 3 * place[0] + part, place[1]);
+        return featureId(FeatureKind::round, 3 * place[0] + part, place[1]);
     };
     for (const int part : {1, 2}) {
         for (const BallContact& one : found.ofEnd[part - 1])

@@ -42,11 +42,10 @@ CollisionVisit beginVisit(const World& world, const PairRecord& pair, const Step
     const PlacedPair placed = place(world, pair, scratch, placing);
     const PassInertia ofA = passInertia(world.mass[a], placed.worldFromA.orientation);
     const PassInertia ofB = passInertia(world.mass[b], placed.worldFromB.orientation);
-    return {
-        placed,
-        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody()),
-        {ofA.inverseInertia, ofB.inverseInertia, fixedIf(pair.aIsUnmoved, ofA),
-         fixedIf(pair.bIsUnmoved, ofB)}};
+    return {placed,
+            placePair(world, pair.bodies),
+            {ofA.inverseInertia, ofB.inverseInertia, fixedIf(pair.aIsUnmoved, ofA),
+             fixedIf(pair.bIsUnmoved, ofB)}};
 }
 
 /// Impulses at contacts found once: whichever is deepest among those that still approach, until

@@ -32,8 +32,7 @@ void resolvePair(World& world, const StepSettings& settings, double dt, int leve
     // is frozen.
     if (settings.skipStamps && pair.quiet == stampOf(pair, scratch)) return;
 
-    const PlacedPair now =
-        placePair(world, pair, world.motion[a].worldFromBody(), world.motion[b].worldFromBody());
+    const PlacedPair now = placePair(world, pair.bodies);
     for (int n = 0; n < sweep.pairImpulses; ++n) {
         const PlacedPair predicted =
             placePair(world, pair, scratch.driftPose[a], scratch.driftPose[b]);

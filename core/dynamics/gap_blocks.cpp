@@ -24,7 +24,7 @@ void placeBodies(GapBlock& block, GapScratch& scratch)
 {
     for (const std::size_t i : block.pairs) {
         for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (scratch.bodies[body].inverseMass == 0.0 || scratch.placeInBlock[body] > 0) continue;
+            if (!scratch.bodies[body].isMovable() || scratch.placeInBlock[body] > 0) continue;
             block.bodies.push_back(body);
             scratch.placeInBlock[body] = static_cast<std::int32_t>(block.bodies.size());
         }

@@ -258,8 +258,7 @@ ImpulseCounts countImpulses(GapScratch& scratch)
         for (std::size_t i = begin; i < end; ++i) {
             GapPair& pair = scratch.pairs[i];
             pair.bearing = 0;
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                const GapRow& row = scratch.rows[r];
+            for (const GapRow& row : scratch.rowsOf(pair)) {
                 if (!row.carries()) continue;
                 ++pair.bearing;
                 ++(sticks(row) ? stick : slide);

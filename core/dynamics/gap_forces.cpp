@@ -33,7 +33,7 @@ void stopWhatRestsOnStopped(double dt, const GapIsland& island, GapScratch& scra
         GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
         if (a.isStopped == b.isStopped) continue;
         const Vec3 pull = a.isStopped ? Vec3(-b.pull) : a.pull;
-        const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
+        const auto rows = scratch.rowsOf(pair);
         const bool rests = std::ranges::any_of(rows, [&](const GapRow& row) {
             const bool isMoved = a.isStopped ? row.movesB : row.movesA;
             return isMoved && endOfRow(row, a, b, pull, dt) < -kStops * dt * dt * pull.norm();
@@ -48,7 +48,7 @@ void addForces(double dt, GapBody& body)
 {
     body.velocityBefore = body.velocity;
     body.spinBefore = body.spin;
-    if (body.inverseMass == 0.0) return;
+    if (!body.isMovable()) return;
     const Vec3 turning = body.inverseInertia * body.torque;
     body.velocity += dt * body.pull;
     body.spin += dt * turning;
@@ -94,8 +94,7 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
     forEach(block.bodies.size(), kShortWork,
             [&](std::size_t n) { addForces(dt, scratch.bodies[block.bodies[n]]); });
     forPairs(block, [&](std::size_t i) {
-        for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
-            GapRow& row = scratch.rows[r];
+        for (GapRow& row : scratch.rowsOf(scratch.pairs[i])) {
             const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
             row.target = -std::max(std::max(row.gap, 0.0) + shift, 0.0) / dt;
         }

@@ -44,7 +44,7 @@ Foreseen foresee(const World& world, double dt, const std::vector<Held>& held, c
 {
     const double slow = kSlow * smallerRadius(world, pair.bodies.a, pair.bodies.b) / dt;
     double fastest = slow;
-    const std::span rows(&scratch.rows[pair.begin], pair.end - pair.begin);
+    const auto rows = scratch.rowsOf(pair);
     for (const GapRow& row : rows) {
         if (bears(row)) continue;
         const double closing = closingSpeed(scratch, row);
@@ -100,8 +100,7 @@ void settleRows(double dt, const std::vector<Held>& held, const GapPair& pair, c
         return Vec3(scratch.bodies[body].pull + held[scratch.placeInBlock[body]].acceleration);
     };
     const Vec3 pull = pullOn(pair.bodies.a) - pullOn(pair.bodies.b);
-    for (std::size_t r = pair.begin; r < pair.end; ++r) {
-        GapRow& row = scratch.rows[r];
+    for (GapRow& row : scratch.rowsOf(pair)) {
         prepareRow(scratch.bodies, row);
         const double closing = closingSpeed(scratch, row);
         if (row.isOfBlow) {
@@ -163,8 +162,7 @@ void forgetMomentsOfBlows(const World& world, const GapBlock& block, GapScratch&
 {
     forPairs(block, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            GapRow& row = scratch.rows[r];
+        for (GapRow& row : scratch.rowsOf(pair)) {
             if (!std::exchange(row.isOfBlow, false)) continue;
             bringTogether(world, scratch.bodies, row);
         }

@@ -8,8 +8,7 @@ const std::vector<Held>& heldAsBefore(double dt, GapBlock& block, const GapScrat
     forPairs(block, [&](std::size_t p) {
         const GapPair& pair = scratch.pairs[p];
         HeldByPair& sum = block.heldByPairs[pair.place];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& row = scratch.rows[r];
+        for (const GapRow& row : scratch.rowsOf(pair)) {
             if (!row.carries()) continue;
             const Vec3 impulse = row.worldImpulse();
             sum.impulse += impulse;

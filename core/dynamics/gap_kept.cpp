@@ -7,11 +7,6 @@
 namespace scree {
 namespace {
 
-std::size_t rowCount(const GapPair& pair)
-{
-    return pair.end - pair.begin;
-}
-
 /// Room for so many rows. It is the largest list there is: while it grows, neither the old one is
 /// kept beside the new for nothing, nor is there room for twice as many.
 void makeRoom(std::size_t count, std::size_t taken, std::vector<GapRow>& rows)
@@ -39,7 +34,7 @@ void listOpen(GapScratch& scratch)
     scratch.isSolvedAnew.resize(scratch.bodies.size(), 0);
     for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
         const GapBody& body = scratch.bodies[i];
-        if (body.inverseMass > 0.0 && !body.isKept) scratch.isSolvedAnew[i] = 1;
+        if (body.isMovable() && !body.isKept) scratch.isSolvedAnew[i] = 1;
     }
 }
 
@@ -62,7 +57,7 @@ std::vector<const GapPair*> SolvedIslands::pairsBefore(const GapScratch& scratch
         const GapPair& pair = scratch.pairs[i];
         while (old != pairs_.end() && old->bodies < pair.bodies) ++old;
         if (old == pairs_.end()) break;
-        if (old->bodies == pair.bodies && rowCount(*old) == rowCount(pair)) before[i] = &*old;
+        if (old->bodies == pair.bodies && old->rowCount() == pair.rowCount()) before[i] = &*old;
     }
     return before;
 }
@@ -74,7 +69,7 @@ bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& islan
     const GapPair* any = before[island.pairs.front()];
     if (!any || islands_[any->island].pairs.size() != island.pairs.size()) return false;
     const auto isMovableAsBefore = [&](BodyId body) {
-        return (scratch.bodies[body].inverseMass > 0.0) == (bodies_[body].inverseMass > 0.0);
+        return scratch.bodies[body].isMovable() == bodies_[body].isMovable();
     };
     return std::ranges::all_of(island.pairs, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
@@ -91,7 +86,7 @@ void SolvedIslands::placeRows(const std::vector<const GapPair*>& before, std::si
     std::size_t end = taken;
     for (std::size_t i = 0; i < before.size(); ++i) {
         GapPair& pair = scratch.pairs[i];
-        const std::size_t count = rowCount(pair);
+        const std::size_t count = pair.rowCount();
         pair.begin = before[i] ? before[i]->begin : end;
         pair.end = pair.begin + count;
         if (!before[i]) end += count;
@@ -137,7 +132,7 @@ void SolvedIslands::handOn(GapScratch& scratch) const
             pair.fallOnA = before[i]->fallOnA;
             for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
                 GapBody& still = scratch.bodies[body];
-                if (still.inverseMass == 0.0 || still.isKept) continue;
+                if (!still.isMovable() || still.isKept) continue;
                 still = bodies_[body];
                 still.isKept = true;
             }

@@ -64,8 +64,7 @@ void addBurdens(const GapIsland& island, const GapScratch& scratch, std::vector<
         if (!pair.isCarried) continue;
         Burden& a = burdens[scratch.placeInBlock[pair.bodies.a]];
         Burden& b = burdens[scratch.placeInBlock[pair.bodies.b]];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& row = scratch.rows[r];
+        for (const GapRow& row : scratch.rowsOf(pair)) {
             const double speed =
                 velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]).norm();
             a.add(row.impulse.x(), -row.normal.dot(row.rA), speed);

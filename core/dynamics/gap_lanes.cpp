@@ -89,7 +89,7 @@ void GapLanes::collectBodies(const GapScratch& scratch, const PairParts& parts)
     const auto collect = [&](std::span<const std::size_t> pairs, bool movable) {
         for (const std::size_t i : pairs) {
             for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-                const bool isMovable = scratch.bodies[body].inverseMass > 0.0;
+                const bool isMovable = scratch.bodies[body].isMovable();
                 if (placeOf_[body] != 0 || isMovable != movable) continue;
                 placeOf_[body] = static_cast<std::int32_t>(idOf_.size());
                 idOf_.push_back(body);
@@ -159,8 +159,8 @@ void GapLanes::schedule(const GapScratch& scratch, std::span<const std::size_t> 
     for (const std::size_t i : pairs) {
         const GapPair& pair = scratch.pairs[i];
         const std::int32_t a = placeOf_[pair.bodies.a], b = placeOf_[pair.bodies.b];
-        const bool movesA = scratch.bodies[pair.bodies.a].inverseMass > 0.0;
-        const bool movesB = scratch.bodies[pair.bodies.b].inverseMass > 0.0;
+        const bool movesA = scratch.bodies[pair.bodies.a].isMovable();
+        const bool movesB = scratch.bodies[pair.bodies.b].isMovable();
         for (std::size_t r = pair.begin; r < pair.end; r += kRowsTogether) {
             const std::int32_t earliest =
                 std::max(movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0);

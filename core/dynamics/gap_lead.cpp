@@ -76,7 +76,7 @@ Vec3 leadAt(const Shape& shape, const Quat& worldFromBody, const Vec3& w, const 
 /// Whether the bodies of a pair touch at one place and one of them is round there.
 bool isOneRoundContact(const GapScratch& scratch, const GapPair& pair)
 {
-    return pair.end - pair.begin == 1 &&
+    return pair.rowCount() == 1 &&
            kindOf(scratch.contactsOf(pair).front().feature) == FeatureKind::round;
 }
 

@@ -44,8 +44,7 @@ void findLevels(double dt, const GapBlock& block, GapScratch& scratch)
     forPairs(block, [&](std::size_t i) {
         GapPair& pair = scratch.pairs[i];
         const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& row = scratch.rows[r];
+        for (const GapRow& row : scratch.rowsOf(pair)) {
             const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
                                dt * velocityAt(row, a, b).dot(row.normal);
             // Blows of so different masses may be far from answered when their rounds are over.
@@ -90,7 +89,7 @@ void levelOthers(GapScratch& scratch)
     for (std::size_t i = 0; i < scratch.bodies.size(); ++i) {
         if (scratch.placeInBlock[i] > 0 || scratch.bodies[i].isKept) continue;
         scratch.levels.level[i] = 0;
-        scratch.levels.isSupported[i] = scratch.bodies[i].inverseMass == 0.0;
+        scratch.levels.isSupported[i] = !scratch.bodies[i].isMovable();
     }
 }
 

@@ -24,7 +24,7 @@ struct MeanMotion {
 
     MeanMotion(const GapBody& body, double dt)
     {
-        if (body.inverseMass == 0.0 || !body.isStopped) return;
+        if (!body.isMovable() || !body.isStopped) return;
         shift = -0.5 * dt * (body.velocity - body.velocityBefore);
         turn = -0.5 * dt * (body.spin - body.spinBefore);
     }
@@ -121,8 +121,7 @@ bool lasts(const World& world, double dt, const GapScratch& scratch, const GapIs
         const GapBody& b = scratch.bodies[idB];
         const MeanMotion ofA(a, dt), ofB(b, dt);
         const double blind = kLasting * smallerRadius(world, idA, idB);
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& row = scratch.rows[r];
+        for (const GapRow& row : scratch.rowsOf(pair)) {
             if (row.carries() && (isDriven(a) || isDriven(b))) return false;
             const Vec3 s = ofA.shift + ofA.turn.cross(row.rA) - ofB.shift - ofB.turn.cross(row.rB);
             const double gapAtEnd =
@@ -147,8 +146,7 @@ void moveByTheMean(World& world, double dt, GapScratch& scratch)
         if (!lasts(world, dt, scratch, scratch.islands[island])) return;
         for (const std::size_t i : scratch.islands[island].pairs) {
             const GapPair& pair = scratch.pairs[i];
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                const GapRow& row = scratch.rows[r];
+            for (const GapRow& row : scratch.rowsOf(pair)) {
                 if (!row.carries()) continue;
                 addCouple(world, scratch, row, row.worldImpulse(),
                           late(scratch.bodies[row.a]) - late(scratch.bodies[row.b]));
@@ -180,7 +178,7 @@ std::vector<std::size_t> layOutMemory(const World& world, GapScratch& scratch)
         makeRoom(scratch.pairs[next].bearing);
         end += scratch.pairs[next++].bearing;
     };
-    const auto isStepped = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    const auto isStepped = [&](BodyId body) { return scratch.bodies[body].isMovable(); };
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         const bool sleeps =
             world.contactMemory.isAsleep(contact.a) || world.contactMemory.isAsleep(contact.b);
@@ -247,7 +245,7 @@ void turnUntilBlow(const StepSettings& settings, double dt, const GapBody& body,
 void writeVelocities(World& world, double dt, GapScratch& scratch)
 {
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
-        if (scratch.bodies[i].inverseMass == 0.0) return;
+        if (!scratch.bodies[i].isMovable()) return;
         world.motion[i].velocity = scratch.bodies[i].velocity;
         world.motion[i].angularMomentum += scratch.bodies[i].angularImpulse;
     });
@@ -281,7 +279,7 @@ void moveBodies(World& world, const StepSettings& settings, double dt, GapScratc
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         BodyMotion& motion = world.motion[i];
         GapBody& body = scratch.bodies[i];
-        if (body.inverseMass > 0.0) {
+        if (body.isMovable()) {
             motion.position += body.shift;
             Vec3 turn = body.turn;
             if (body.hitAt > 0.0) turn += body.hitAt * (body.inverseInertia * struckWith(dt, body));

@@ -32,7 +32,7 @@ bool endOverrunsOf(const GapPair& pair, double visible, double dt, GapScratch& s
 {
     GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
     if (a.hitAt == 0.0 && b.hitAt == 0.0) return false;
-    const std::span rows(&scratch.rows[pair.begin], pair.end - pair.begin);
+    const auto rows = scratch.rowsOf(pair);
     const bool bounces = std::ranges::any_of(rows, &GapRow::wasHit);
     bool isChanged = false;
     for (const GapRow& row : rows) {

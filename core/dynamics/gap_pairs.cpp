@@ -16,7 +16,7 @@ namespace {
 bool movesSomething(const World& world, const GapScratch& scratch, BodyPair bodies)
 {
     const auto isMovedBy = [&](BodyId body, BodyId other) {
-        return scratch.bodies[body].inverseMass > 0.0 && !isUnmovedBy(world, body, other);
+        return scratch.bodies[body].isMovable() && !isUnmovedBy(world, body, other);
     };
     return isMovedBy(bodies.a, bodies.b) || isMovedBy(bodies.b, bodies.a);
 }
@@ -60,7 +60,7 @@ void listMovers(const GapScratch& scratch, GapIsland& island)
     movers.clear();
     for (const std::size_t i : island.pairs) {
         for (const BodyId body : {scratch.pairs[i].bodies.a, scratch.pairs[i].bodies.b}) {
-            if (isListed[body] || !(scratch.bodies[body].inverseMass > 0.0)) continue;
+            if (isListed[body] || !scratch.bodies[body].isMovable()) continue;
             isListed[body] = true;
             movers.push_back(body);
         }
@@ -86,7 +86,7 @@ void cutIntoIslands(GapScratch& scratch)
         for (const std::size_t i : island.pairs) {
             GapPair& pair = scratch.pairs[i];
             pair.island = n;
-            island.rowCount += pair.end - pair.begin;
+            island.rowCount += pair.rowCount();
         }
     }
     forEach(scratch.islands.size(), 1,
@@ -114,7 +114,7 @@ void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
 /// Cuts an island where its bodies spread most, across gravity or not.
 void cutInTwo(const GapIsland& island, GapScratch& scratch)
 {
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].isMovable(); };
     const auto place = [&](BodyId body) -> const Vec3& { return scratch.seenAt[body].position; };
     std::vector<BodyId> bodies;
     bodies.reserve(2 * island.pairs.size());
@@ -169,7 +169,7 @@ void orderPairs(const World& world, const StepSettings& settings, GapScratch& sc
 
 void groupByBodies(const GapScratch& scratch, std::span<const std::size_t> pairs, Groups& together)
 {
-    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].inverseMass > 0.0; };
+    const auto isMovable = [&](BodyId body) { return scratch.bodies[body].isMovable(); };
     // Few bodies of a large world may be in these pairs: what is done for each is done for those.
     thread_local std::vector<std::int32_t> placeOf;
     thread_local std::vector<BodyId> met;

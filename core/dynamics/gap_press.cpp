@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/sorted.h"
 #include "core/dynamics/gap_visit.h"
 
 namespace scree {
@@ -48,8 +49,7 @@ Press pressOn(const GapScratch& scratch, const GapIsland& island)
         const GapPair& pair = scratch.pairs[i];
         const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
         if (!isDriven(a) && !isDriven(b)) continue;
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& row = scratch.rows[r];
+        for (const GapRow& row : scratch.rowsOf(pair)) {
             if (row.impulse.x() == 0.0) continue;
             const Vec3 u = isDriven(a) ? Vec3(a.velocity + a.spin.cross(row.rA))
                                        : Vec3(b.velocity + b.spin.cross(row.rB));
@@ -98,8 +98,7 @@ void gripSqueezed(const World& world, const StepSettings& settings, double dt,
         if ((isKeyed(pair.bodies.a) || isKeyed(pair.bodies.b)) && excessOf(pair) > 0.0)
             squeezed.push_back(pair.island);
     }
-    std::ranges::sort(squeezed);
-    squeezed.erase(std::unique(squeezed.begin(), squeezed.end()), squeezed.end());
+    sortUnique(squeezed);
     for (const std::size_t island : squeezed) {
         for (const std::size_t i : scratch.islands[island].pairs) {
             const GapPair& pair = scratch.pairs[i];
@@ -108,9 +107,8 @@ void gripSqueezed(const World& world, const StepSettings& settings, double dt,
             const double mass = 1.0 / std::max(scratch.bodies[pair.bodies.a].inverseMass,
                                                scratch.bodies[pair.bodies.b].inverseMass);
             const double ofEach =
-                dt * weights * mass * gravity / static_cast<double>(pair.end - pair.begin);
-            for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                GapRow& row = scratch.rows[r];
+                dt * weights * mass * gravity / static_cast<double>(pair.rowCount());
+            for (GapRow& row : scratch.rowsOf(pair)) {
                 if (row.gap < 0.0) row.squeeze = ofEach;
             }
         }

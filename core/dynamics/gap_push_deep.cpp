@@ -102,8 +102,7 @@ void DeepPass::findDeepPairs()
     for (const GapPair& pair : scratch_.pairs) {
         if (!isDeep(pair.bodies, scratch_.nearPairs[pair.nearPair].depth)) continue;
         double deepest = 0.0;
-        for (std::size_t r = pair.begin; r < pair.end; ++r) {
-            const GapRow& row = scratch_.rows[r];
+        for (const GapRow& row : scratch_.rowsOf(pair)) {
             if (!isDeep(pair.bodies, -row.gap)) continue;
             const double opened = shiftAt(row, scratch_.bodies[row.a], scratch_.bodies[row.b]);
             const double depth = -row.gap - std::max(opened, 0.0);

@@ -159,7 +159,7 @@ private:
     {
         for (const BodyId id : {pair.a, pair.b}) {
             const GapBody& body = scratch_.bodies[id];
-            if (body.inverseMass == 0.0 || bodies_[id].inverseMass > 0.0) continue;
+            if (!body.isMovable() || bodies_[id].inverseMass > 0.0) continue;
             const int level = std::min(scratch_.levels.level[id], kMostLevels);
             takeUp(body, std::ldexp(1.0, level), bodies_[id]);
             taken.push_back(id);

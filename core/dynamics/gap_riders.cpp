@@ -79,7 +79,7 @@ void findRiders(const World& world, const GapScratch& scratch, std::vector<Rider
         if (contact.force.isZero(0.0)) continue;
         for (const auto& [body, carrier, sign] :
              {std::tuple{contact.a, contact.b, 1.0}, std::tuple{contact.b, contact.a, -1.0}}) {
-            if (scratch.bodies[body].inverseMass == 0.0 || !isCarrier(world, carrier)) continue;
+            if (!scratch.bodies[body].isMovable() || !isCarrier(world, carrier)) continue;
             const bool isKnown =
                 !riders.empty() && riders.back().body == body && riders.back().carrier == carrier;
             if (!isKnown) riders.push_back({body, carrier, Vec3::Zero()});
@@ -153,8 +153,7 @@ void letRidersGo(const World& world, double dt, GapScratch& scratch)
     DisjointSets heaps(world.bodyCount());
     const auto heapOf = [&](BodyId body) { return heaps.find(static_cast<std::size_t>(body)); };
     for (const RememberedContact& contact : world.contactMemory.contacts) {
-        if (scratch.bodies[contact.a].inverseMass > 0.0 &&
-            scratch.bodies[contact.b].inverseMass > 0.0)
+        if (scratch.bodies[contact.a].isMovable() && scratch.bodies[contact.b].isMovable())
             heaps.join(static_cast<std::size_t>(contact.a), static_cast<std::size_t>(contact.b));
     }
     std::vector<const Rider*> first(world.bodyCount(), nullptr);  // per heap
@@ -167,7 +166,7 @@ void letRidersGo(const World& world, double dt, GapScratch& scratch)
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         const std::size_t heap = heapOf(body);
-        if (scratch.bodies[i].inverseMass == 0.0 || !first[heap] || isHeld[heap]) continue;
+        if (!scratch.bodies[i].isMovable() || !first[heap] || isHeld[heap]) continue;
         fly(world, dt, body, *first[heap], scratch.bodies[i]);
     }
 }

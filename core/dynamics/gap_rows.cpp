@@ -136,8 +136,8 @@ void prepareRow(const std::vector<GapBody>& bodies, GapRow& row)
 {
     const GapBody& a = bodies[row.a];
     const GapBody& b = bodies[row.b];
-    row.movesA = a.inverseMass > 0.0 && !row.isUnmovedA;
-    row.movesB = b.inverseMass > 0.0 && !row.isUnmovedB;
+    row.movesA = a.isMovable() && !row.isUnmovedA;
+    row.movesB = b.isMovable() && !row.isUnmovedB;
     row.tangent = anyTangent(row.normal);
 
     // The response in the axes of the row, a lane each: normal, tangent, second. What one turns

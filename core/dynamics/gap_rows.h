@@ -34,6 +34,8 @@ struct alignas(64) GapBody {
     bool isHeld;     ///< something bore it in the last step
     bool isStopped;  ///< something may stop it within the step
     bool isKept;     ///< as an earlier attempt at the step has solved it
+
+    bool isMovable() const { return inverseMass > 0.0; }
 };
 
 struct GapRow {
@@ -82,7 +84,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
 /// Cannot be moved by impulses, and moves.
 inline bool isDriven(const GapBody& body)
 {
-    return body.inverseMass == 0.0 && !(body.velocity.isZero(0.0) && body.spin.isZero(0.0));
+    return !body.isMovable() && !(body.velocity.isZero(0.0) && body.spin.isZero(0.0));
 }
 
 /// Friction beyond this share of its limit slides: sliding is solved to rounding.

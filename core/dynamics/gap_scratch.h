@@ -50,6 +50,8 @@ struct GapPair {
     int part = 0;                         ///< of a large island: of which half, 2: it joins both
     bool isLetPass = false;               ///< by gap_foresight.h, although rows would stop it
     std::size_t place = 0;                ///< in the pairs of its block
+
+    std::size_t rowCount() const { return end - begin; }
 };
 
 /// A blow.
@@ -166,6 +168,14 @@ struct GapScratch {
     const std::vector<GapContact>& contactsOf(const GapPair& pair) const
     {
         return nearPairs[pair.nearPair].contacts;
+    }
+    std::span<GapRow> rowsOf(const GapPair& pair)
+    {
+        return std::span(rows).subspan(pair.begin, pair.rowCount());
+    }
+    std::span<const GapRow> rowsOf(const GapPair& pair) const
+    {
+        return std::span(rows).subspan(pair.begin, pair.rowCount());
     }
 };
 

@@ -109,7 +109,7 @@ void readBodies(const World& world, double dt, bool isAgain, GapScratch& scratch
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
         const GapBody now = bodyOf(world, scratch, body);
-        const bool hasWoken = now.inverseMass > 0.0 && scratch.bodies[i].inverseMass == 0.0;
+        const bool hasWoken = now.isMovable() && !scratch.bodies[i].isMovable();
         scratch.hasNews[i] = !isAgain || hasWoken || scratch.gain[i] > 0.0 || scratch.looksFar[i];
         scratch.bodies[i] = now;
         if (!scratch.hasNews[i]) return;
@@ -121,7 +121,7 @@ void readBodies(const World& world, double dt, bool isAgain, GapScratch& scratch
 /// By impulses, or by what cannot be moved by these.
 bool isMovedBody(const GapBody& body)
 {
-    return body.inverseMass > 0.0 || isDriven(body);
+    return body.isMovable() || isDriven(body);
 }
 
 /// The pairs of this step, to be asked one and all. Both lists are sorted: pairs that stay keep

@@ -40,7 +40,7 @@ public:
     void pin(BodyId body)
     {
         GapBody& b = scratch_.bodies[body];
-        if (b.inverseMass == 0.0) return;
+        if (!b.isMovable()) return;
         pinned_.push_back({body, b});
         b.inverseMass = 0.0;
         b.inverseInertia.setZero();
@@ -213,7 +213,7 @@ std::vector<std::size_t> pairsForShock(const World& world, const StepSettings& s
     std::vector<char> pairCloses(block.pairs.size());
     forPairs(block, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
-        const auto rows = std::span(scratch.rows).subspan(pair.begin, pair.end - pair.begin);
+        const auto rows = scratch.rowsOf(pair);
         pairCloses[pair.place] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
             return closesVisibly(world, settings, dt, scratch, scratch.islands[pair.island], row);
         });
@@ -318,7 +318,7 @@ void solveFromAbove(const StepSettings& settings, double dt, std::size_t level,
     PinnedBodies pinned(scratch);
     const auto pin = [&](BodyId body) {
         GapBody& b = scratch.bodies[body];
-        if (b.inverseMass == 0.0 || scratch.levels.level[body] == static_cast<int>(level)) return;
+        if (!b.isMovable() || scratch.levels.level[body] == static_cast<int>(level)) return;
         pinned.pin(body);
         b.velocity = b.velocityBefore;
         b.spin = b.spinBefore;

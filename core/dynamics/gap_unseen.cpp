@@ -96,7 +96,7 @@ bool findStrays(const World& world, double dt, double visible, GapScratch& scrat
     unseen.strays.assign(world.bodyCount(), 0.0);
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
-        if (scratch.bodies[i].inverseMass == 0.0) return;
+        if (!scratch.bodies[i].isMovable()) return;
         unseen.change[i] = changeOf(world, scratch, body, dt);
         unseen.strays[i] = dt * std::max(unseen.change[i] - scratch.gain[i], 0.0);
     });
@@ -119,7 +119,7 @@ bool findFaster(const World& world, double dt, double visible, GapScratch& scrat
     unseen.boxes = scratch.boxes;
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {
         const auto body = static_cast<BodyId>(i);
-        if (scratch.bodies[i].inverseMass == 0.0) return;
+        if (!scratch.bodies[i].isMovable()) return;
         const double gained = paceOf(world, scratch, body, dt).fastest(dt) -
                               scratch.paces[i].fastest(dt) - scratch.gain[i];
         unseen.isFaster[i] = dt * gained > visible;

@@ -102,9 +102,7 @@ WorstOverlap findWorstOverlap(const World& world, StepScratch& scratch)
             PairRecord& pair = scratch.pairs[i];
             pair.depth = 0.0;
             if (!pair.isTouched) continue;
-            pair.proximity.place(placePair(world, pair, world.motion[pair.bodies.a].worldFromBody(),
-                                           world.motion[pair.bodies.b].worldFromBody()),
-                                 pair.tau);
+            pair.proximity.place(placePair(world, pair.bodies), pair.tau);
             if (const auto deepest = pair.proximity.next())
                 pair.depth = std::max(0.0, -deepest->phi);
         }

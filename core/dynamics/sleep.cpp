@@ -70,14 +70,13 @@ void keepAwakeWhoIsHeldUp(const World& world, const GapScratch& scratch,
 {
     const auto lies = [&](BodyId body) {
         return maySleep[body] || world.contactMemory.isAsleep(body) ||
-               (scratch.bodies[body].inverseMass == 0.0 && !isDriven(scratch.bodies[body]));
+               (!scratch.bodies[body].isMovable() && !isDriven(scratch.bodies[body]));
     };
     bool isSettled = false;
     while (!isSettled) {
         isSettled = true;
         for (const std::size_t i : scratch.order) {  // bottom to top: few rounds
-            for (std::size_t r = scratch.pairs[i].begin; r < scratch.pairs[i].end; ++r) {
-                const GapRow& row = scratch.rows[r];
+            for (const GapRow& row : scratch.rowsOf(scratch.pairs[i])) {
                 if (!row.carries()) continue;
                 const Vec3 impulse = row.worldImpulse();
                 const auto keepIfHeldUp = [&](BodyId body, BodyId by, const Vec3& push) {

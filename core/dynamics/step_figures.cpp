@@ -64,7 +64,7 @@ void describeGaps(const GapScratch& scratch, StepReport& report)
     std::vector<int> bodies(static_cast<std::size_t>(report.levels), 0);
     for (std::size_t b = 0; b < scratch.bodies.size(); ++b) {
         const int level = scratch.levels.level[b];
-        if (level > 0 && scratch.bodies[b].inverseMass > 0.0)
+        if (level > 0 && scratch.bodies[b].isMovable())
             report.largestLevel = std::max(report.largestLevel, ++bodies[level]);
     }
 }

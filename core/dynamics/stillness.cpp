@@ -103,7 +103,7 @@ double unitsAround(const World& world, const GapScratch& scratch, BodyId body)
 {
     const GapBody& seen = scratch.bodies[body];
     if (isDriven(seen)) return 0.0;
-    if (seen.inverseMass == 0.0) return std::numeric_limits<double>::infinity();
+    if (!seen.isMovable()) return std::numeric_limits<double>::infinity();
     if (world.contactMemory.rest.size() < world.bodyCount()) return 0.0;
     return world.contactMemory.rest[body].around.frames * world.frameDuration /
            unitOfTime(world, body, seen.pull.norm());

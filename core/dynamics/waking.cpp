@@ -145,8 +145,7 @@ void addWhoIsLeft(const World& world, const GapScratch& scratch, std::vector<Bod
         const auto [a, b] = bodiesOf(contact);
         for (const auto& [sleeper, other] : {std::pair{a, b}, std::pair{b, a}}) {
             if (!world.contactMemory.isAsleep(sleeper)) continue;
-            const bool isLetGo =
-                contact.force.isZero(0.0) && scratch.bodies[other].inverseMass > 0.0;
+            const bool isLetGo = contact.force.isZero(0.0) && scratch.bodies[other].isMovable();
             if (isLetGo || isDriven(scratch.bodies[other])) roots.push_back(sleeper);
         }
     }

@@ -9,6 +9,7 @@
 #include "core/dynamics/gap_blocks.h"
 #include "core/dynamics/gap_bounce.h"
 #include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_forces.h"
 #include "core/dynamics/gap_foresight.h"
 #include "core/dynamics/gap_kept.h"
 #include "core/dynamics/gap_levels.h"

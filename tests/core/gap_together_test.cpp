@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "core/dynamics/gap_contact.h"
+#include "core/dynamics/gap_visit.h"
 #include "core/math/rotation.h"
 #include "tests/support/draw.h"
 #include "tests/support/gap_energy.h"
