@@ -74,17 +74,18 @@ PairsOfBodies::PairsOfBodies(const GapBlock& block, const GapScratch& scratch)
     forBodies([&](std::int32_t place, std::size_t i) { pairs_[next[place]++] = i; });
 }
 
-ImpactState::ImpactState(const StepSettings& chosen, double step, const std::vector<Held>& carried,
-                         const GapBlock& islands, GapScratch& rows)
-    : settings(chosen),
-      dt(step),
-      slowest(slowestApproach(chosen, step)),
-      block(islands),
-      scratch(rows),
-      held(carried),
-      impacts(islands.bodies.size() + 1),
-      doneAt(islands.pairs.size(), 0),
-      gatheredAt(islands.pairs.size(), 0)
+ImpactState::ImpactState(const StepSettings& stepSettings, double stepLength,
+                         const std::vector<Held>& heldAsBefore, const GapBlock& ofBlock,
+                         GapScratch& ofStep)
+    : settings(stepSettings),
+      dt(stepLength),
+      slowest(slowestApproach(stepSettings, stepLength)),
+      block(ofBlock),
+      scratch(ofStep),
+      held(heldAsBefore),
+      changes(ofBlock.bodies.size() + 1),
+      doneAt(ofBlock.pairs.size(), 0),
+      gatheredAt(ofBlock.pairs.size(), 0)
 {
 }
 
@@ -337,11 +338,11 @@ void ImpactVisits::note(const Impact& impact, const Vec3& impulse, FrictionCase 
 
 void ImpactVisits::applyImpulses(const GapRow& row, const Vec3& impulse, double time)
 {
-    if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, impactsOf(row.a), time);
-    if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, impactsOf(row.b), time);
+    if (row.movesA) applyTo(scratch_.bodies[row.a], row.rA, impulse, changeOf(row.a), time);
+    if (row.movesB) applyTo(scratch_.bodies[row.b], row.rB, -impulse, changeOf(row.b), time);
 }
 
-void ImpactVisits::applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& impacts,
+void ImpactVisits::applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& change,
                            double time)
 {
     const Vec3 dv = body.inverseMass * impulse;
@@ -349,13 +350,13 @@ void ImpactVisits::applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, Im
     body.velocity += dv;
     body.spin += dw;
     body.angularImpulse += r.cross(impulse);
-    impacts.velocity += dv;
-    impacts.spin += dw;
-    impacts.earliest = std::min(impacts.earliest, time);
-    impacts.changedAt = clock_;
-    body.hitAt = impacts.earliest;
-    body.shift = -impacts.earliest * impacts.velocity;
-    body.turn = -impacts.earliest * impacts.spin;
+    change.velocity += dv;
+    change.spin += dw;
+    change.earliest = std::min(change.earliest, time);
+    change.changedAt = clock_;
+    body.hitAt = change.earliest;
+    body.shift = -change.earliest * change.velocity;
+    body.turn = -change.earliest * change.spin;
 }
 
 }  // namespace scree

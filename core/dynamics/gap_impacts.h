@@ -59,8 +59,8 @@ private:
 /// What is known of the impacts of a block, by the places of bodies and pairs in it. Visits of
 /// pairs that share no movable body read and write different parts of it.
 struct ImpactState {
-    ImpactState(const StepSettings& chosen, double step, const std::vector<Held>& carried,
-                const GapBlock& islands, GapScratch& rows);
+    ImpactState(const StepSettings& stepSettings, double stepLength,
+                const std::vector<Held>& heldAsBefore, const GapBlock& ofBlock, GapScratch& ofStep);
 
     std::int32_t placeOf(BodyId body) const { return scratch.placeInBlock[body]; }
     void findPairsOfBodies() { pairsOf_.emplace(block, scratch); }
@@ -71,7 +71,7 @@ struct ImpactState {
     const GapBlock& block;
     GapScratch& scratch;
     const std::vector<Held>& held;
-    std::vector<ImpactChange> impacts;
+    std::vector<ImpactChange> changes;
     // Of each pair, by the clock of its island: the last visit that ended with nothing left to be
     // hit, 0: none; and the last look at it.
     std::vector<std::int64_t> doneAt, gatheredAt;
@@ -114,13 +114,13 @@ public:
     {
         const GapPair& pair = scratch_.pairs[p];
         const std::int64_t changedAt =
-            std::max(impactsOf(pair.bodies.a).changedAt, impactsOf(pair.bodies.b).changedAt);
+            std::max(changeOf(pair.bodies.a).changedAt, changeOf(pair.bodies.b).changedAt);
         if (state_.doneAt[pair.place] > changedAt) return;
         if (resolvePair(p)) state_.doneAt[pair.place] = ++clock_;
     }
 
 private:
-    ImpactChange& impactsOf(BodyId body) { return state_.impacts[state_.placeOf(body)]; }
+    ImpactChange& changeOf(BodyId body) { return state_.changes[state_.placeOf(body)]; }
     Vec3 gravityAt(const GapRow& row) const;
     bool impactOf(const GapPair& pair, GapRow& row, Impact& impact) const;
     bool resolvePair(std::size_t p);
@@ -132,7 +132,7 @@ private:
     void applyTogether(std::vector<Impact>& hits);
     void note(const Impact& impact, const Vec3& impulse, FrictionCase kind);
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time);
-    void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& impacts,
+    void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& change,
                  double time);
 
     ImpactState& state_;

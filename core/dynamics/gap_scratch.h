@@ -54,7 +54,7 @@ struct GapPair {
     std::size_t rowCount() const { return end - begin; }
 };
 
-/// A blow.
+/// An impact as it was answered: a blow on a row.
 struct GapImpact {
     std::size_t row;
     Vec3 impulse;  ///< on A, world [N s]
