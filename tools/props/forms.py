@@ -38,6 +38,40 @@ def write_objects(path, named, words, maker="make_props.py", decimals=6, digits=
             start += len(points)
 
 
+def lofted(rings, is_closed):
+    """A skin over rings of equally many points, each above the one before and wound to +z seen from
+    -y; from the last back to the first if it is closed, and otherwise with both ends filled."""
+    turn = len(rings[0])
+    points = [p for ring in rings for p in ring]
+    rows = [range(turn * j, turn * (j + 1)) for j in range(len(rings))]
+    faces = []
+    for low, high in zip(rows, rows[1:] + rows[:1] if is_closed else rows[1:]):
+        for i in range(turn):
+            j = (i + 1) % turn
+            faces += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
+    if not is_closed:
+        bottom, top = len(points), len(points) + 1
+        points += [(0.0, rings[0][0][1], 0.0), (0.0, rings[-1][0][1], 0.0)]
+        for i in range(turn):
+            j = (i + 1) % turn
+            faces += [(rows[0][j], rows[0][i], bottom), (rows[-1][i], rows[-1][j], top)]
+    return points, faces
+
+
+def ring_about_y(heights, radii):
+    """Points as far from the y axis as the radii say, equal angles apart; at one height or as many."""
+    turn = len(radii)
+    heights = heights if isinstance(heights, list) else [heights] * turn
+    steps = [2.0 * math.pi * i / turn for i in range(turn)]
+    return [(r * math.cos(a), y, -r * math.sin(a)) for r, y, a in zip(radii, heights, steps)]
+
+
+def thread(phase):
+    """Height of a thread, 0 ... 1. Round as that of a light bulb: the facets of a sharp one would
+    take all the play where crests fall between the points."""
+    return 0.5 - 0.5 * math.cos(2.0 * math.pi * phase)
+
+
 def joined(*meshes):
     """All meshes as one, each a part of its own."""
     points, faces = [], []

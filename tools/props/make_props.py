@@ -4,7 +4,7 @@
     tools/props/make_props.py shots
 
 writes shots/meshes/*.obj and shots/poses/*.poses: crockery, a chain, the stones of an arch and of a viaduct, gears
-and their bucket, the letters of a word, a house of cards, an hourglass, a spiral of dominoes, a
+and their bucket, a bolt and its nut, the letters of a word, a house of cards, an hourglass, a spiral of dominoes, a
 truck, a hillside and a broken wall. Lengths are in the unit of the shot that uses them. Every mesh
 but the mug and the hillside is one closed surface; a mug's handle is pushed into its wall, as
 modellers do, and the shot has it wrapped.
@@ -14,8 +14,8 @@ import os
 import random
 import sys
 
-from forms import (arc, ball, cells, extruded, joined, moved, plate_with_bore, revolved, rounded, stroke,
-                   swept, write_obj, write_objects)
+from forms import (arc, ball, cells, extruded, joined, lofted, moved, plate_with_bore, revolved, ring_about_y,
+                   rounded, stroke, swept, thread, write_obj, write_objects)
 from shards import box, clipped, shards, triangulated
 
 
@@ -120,6 +120,48 @@ def gears():  # m
     blade, faces = extruded(cross, 0.45)
     # From the plane of x and y to that of x and z.
     yield "stirrer", ([(x, z, y) for x, y, z in blade], faces), "Four blades about +y [m]"
+
+
+def hexagon(apothem, points):
+    """Radii of a hexagon."""
+    turns = [360.0 * i / points % 60.0 - 30.0 for i in range(points)]
+    return [apothem / math.cos(math.radians(turn)) for turn in turns]
+
+
+def bolts(pitch=2.5, core=5.0, depth=0.8, play=0.12, flat=9.0, turn=60, rows=10):  # cm
+    """A bolt that stands on its head, and its nut; corners bevelled as a lathe does."""
+    outline = hexagon(flat, turn)
+    edge = 0.96 * flat
+
+    def head(bottom, top):
+        """The corners cut off by a cone, as on a lathe."""
+        cut = [(r - edge) * math.tan(math.radians(30.0)) for r in outline]
+        return [ring_about_y(bottom, [edge] * turn), ring_about_y([bottom + c for c in cut], outline),
+                ring_about_y([top - c for c in cut], outline), ring_about_y(top, [edge] * turn)]
+
+    def wall(length, radius_of):
+        """Threaded, by radius_of(height of the thread, place along it)."""
+        for j in range(round(length / pitch * rows) + 1):
+            y = pitch * j / rows
+            yield y, [radius_of(thread(j / rows - i / turn), y) for i in range(turn)]
+
+    foot, length = 6.0, 40.0
+    fades = 1.5 * pitch  # towards the end, which is bevelled besides
+
+    def shank(crest, y):
+        return core + min(1.0, (length - y) / fades) * depth * crest - 0.8 * max(0.0, 1.0 - (length - y) / 2.0)
+
+    rings = [ring_about_y(foot + y, radii) for y, radii in wall(length, shank)]
+    yield "bolt", lofted(head(0.0, foot) + rings, is_closed=False), "A bolt, 46 high, on its head [cm]"
+
+    height = 2.0 * pitch
+
+    def bore(crest, y):
+        mouth = 1.2 * depth * max(0.0, 1.0 - min(y, height - y) / (0.5 * pitch))
+        return core + play + max(depth * crest, mouth)
+
+    inside = [ring_about_y(y, radii) for y, radii in wall(height, bore)]
+    yield "nut", lofted(head(0.0, height) + inside[::-1], is_closed=True), "Its nut, with a play of 1.2 mm [cm]"
 
 
 PEN = 0.24
@@ -251,6 +293,19 @@ def arch_poses():
     middle = STONES // 2
     yield "voussoirs", [pose((0.0, 1.5, 0.0), about((0, 0, 1), STONE_ANGLE * (middle - i)))
                         for i in range(STONES) if i != middle]
+
+
+def bolt_poses(apart=29.0, pitch=2.5, foot=6.0):
+    """Seven bolts, and three nuts high on each of them, turned as far as its thread is there."""
+    places = [(0.0, 0.0)] + [(apart * math.cos(math.radians(60 * k + 10)), apart * math.sin(math.radians(60 * k + 10)))
+                             for k in range(6)]
+    yield "bolts", [pose((x, 0.0, z)) for x, z in places]
+    nuts = []
+    for k, (x, z) in enumerate(places):
+        for n in range(3):
+            climbed = 4.0 + 11.0 * n + 0.9 * k
+            nuts.append(pose((x, foot + climbed, z), about((0.0, 1.0, 0.0), 360.0 * climbed / pitch)))
+    yield "nuts", nuts
 
 
 def viaduct_poses():
@@ -387,12 +442,12 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     shots = sys.argv[1]
-    for make in (crockery, chain, arch, viaduct, gears, letters, hourglass, truck, hillside):
+    for make in (crockery, chain, arch, viaduct, gears, bolts, letters, hourglass, truck, hillside):
         for name, mesh, words in make():
             write_obj(os.path.join(shots, "meshes", name + ".obj"), mesh, words)
     write_objects(os.path.join(shots, "meshes", "wall.obj"), wall(),
                   "A wall of 4 by 2.5 by 0.3, broken into two hundred shards [m]")
-    for make in (arch_poses, viaduct_poses, chain_poses, mail_poses, card_poses, domino_poses,
+    for make in (arch_poses, bolt_poses, viaduct_poses, chain_poses, mail_poses, card_poses, domino_poses,
                  letter_poses, block_poses, chimney_poses):
         for name, poses in make():
             write_poses(os.path.join(shots, "poses", name + ".poses"), poses)

@@ -10,7 +10,7 @@ import math
 import os
 import sys
 
-from forms import cells, extruded, write_objects
+from forms import cells, extruded, lofted, ring_about_y, thread, write_objects
 from make_props import card_poses, write_poses
 
 
@@ -55,52 +55,23 @@ PITCH, TURN, ROWS = 0.25, 36, 12  # of the thread [m], points around, points alo
 CORE, DEPTH, PLAY = 0.5, 0.1, 0.012  # radius at its foot, height of the thread, room between [m]
 
 
-def thread(phase):
-    """Height of the thread, 0 ... 1. Round as that of a light bulb: the facets of a sharp one would
-    take all the play where crests fall between the points."""
-    return 0.5 - 0.5 * math.cos(2.0 * math.pi * phase)
-
-
 def wall(height, radius_of):
     """Rows of points, from y = 0 up, around a threaded wall."""
     rows = round(height / PITCH * ROWS)
-    return [[(radius_of(j / ROWS - i / TURN) * math.cos(2.0 * math.pi * i / TURN), PITCH * j / ROWS,
-              -radius_of(j / ROWS - i / TURN) * math.sin(2.0 * math.pi * i / TURN))
-             for i in range(TURN)] for j in range(rows + 1)]
-
-
-def skin(points, rows):
-    """Faces between rows of points that are already in the list, each as long as TURN."""
-    faces = []
-    for low, high in zip(rows, rows[1:]):
-        for i in range(TURN):
-            j = (i + 1) % TURN
-            faces += [(low[i], low[j], high[j]), (low[i], high[j], high[i])]
-    return faces
+    return [ring_about_y(PITCH * j / ROWS, [radius_of(j / ROWS - i / TURN) for i in range(TURN)])
+            for j in range(rows + 1)]
 
 
 def bolt(height=2.0):
-    rings = wall(height, lambda phase: CORE + DEPTH * thread(phase))
-    points = [p for ring in rings for p in ring] + [(0.0, 0.0, 0.0), (0.0, height, 0.0)]
-    rows = [range(TURN * j, TURN * (j + 1)) for j in range(len(rings))]
-    faces = skin(points, rows)
-    for i in range(TURN):
-        j = (i + 1) % TURN
-        faces += [(rows[0][j], rows[0][i], len(points) - 2), (rows[-1][i], rows[-1][j], len(points) - 1)]
-    return points, faces
+    return lofted(wall(height, lambda phase: CORE + DEPTH * thread(phase)), is_closed=False)
 
 
 def nut(height=0.5, outer=0.85):
     """The bolt's thread with PLAY around it, within a round body."""
     inner = wall(height, lambda phase: CORE + PLAY + DEPTH * thread(phase))
-    outside = [[(outer * math.cos(2.0 * math.pi * i / TURN), PITCH * j / ROWS,
-                 -outer * math.sin(2.0 * math.pi * i / TURN)) for i in range(TURN)]
-               for j in range(len(inner))]
+    outside = [ring_about_y(PITCH * j / ROWS, [outer] * TURN) for j in range(len(inner))]
     # Up the outside, over the top, down the inside, and below back to where it began.
-    rings = outside + inner[::-1]
-    points = [p for ring in rings for p in ring]
-    rows = [range(TURN * j, TURN * (j + 1)) for j in range(len(rings))]
-    return points, skin(points, rows + [rows[0]])
+    return lofted(outside + inner[::-1], is_closed=True)
 
 
 def main():
