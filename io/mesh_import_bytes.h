@@ -10,7 +10,7 @@ namespace scree {
 
 std::string encodeImport(const ImportedFile& file);
 
-/// What was encoded, equal points of every mesh joined. Throws Error{badInput} that names `path`
+/// What was encoded. Throws Error{badInput} that names `path`
 /// for bytes that are cut, and for what no file may hold: too much of something, corners that are
 /// no points, numbers that are not finite, keys out of order.
 ImportedFile decodeImport(const std::string& bytes, const std::string& path,

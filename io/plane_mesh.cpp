@@ -12,7 +12,8 @@ constexpr double kLargestHalfWidth = 1e38;
 
 SceneMesh makePlaneMesh(const std::string& name, double halfWidth)
 {
-    SceneMesh square{name, Points(3, 4), Triangles(3, 2)};
+    SceneMesh square{
+        .name = name, .points = Points(3, 4), .triangles = Triangles(3, 2), .isPlane = true};
     const double h = std::min(halfWidth, kLargestHalfWidth);
     square.points << -h, -h, h, h,  //
         0, 0, 0, 0,                 //

@@ -26,19 +26,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kFramePrefix = "frame.";
 constexpr std::string_view kFrameSuffix = ".scree";
 
-/// The number in "frame.001001.scree"; nothing for any other name.
-std::optional<int> frameNumber(const std::string& name)
-{
-    if (!name.starts_with(kFramePrefix) || !name.ends_with(kFrameSuffix)) return std::nullopt;
-    const std::string digits =
-        name.substr(kFramePrefix.size(), name.size() - kFramePrefix.size() - kFrameSuffix.size());
-    const std::size_t firstDigit = digits.starts_with('-') ? 1 : 0;
-    if (digits.size() < firstDigit + 1 || digits.size() > 9 ||
-        digits.find_first_not_of("0123456789", firstDigit) != std::string::npos)
-        return std::nullopt;
-    return std::stoi(digits);
-}
-
 TriMesh meshOf(const SceneMesh& mesh)
 {
     return {mesh.points, mesh.triangles, mesh.cornerUvs};
@@ -125,6 +112,18 @@ void appendLine(const fs::path& path, const std::string& line)
 
 }  // namespace
 
+std::optional<int> frameNumber(const std::string& name)
+{
+    if (!name.starts_with(kFramePrefix) || !name.ends_with(kFrameSuffix)) return std::nullopt;
+    const std::string digits =
+        name.substr(kFramePrefix.size(), name.size() - kFramePrefix.size() - kFrameSuffix.size());
+    const std::size_t firstDigit = digits.starts_with('-') ? 1 : 0;
+    if (digits.size() < firstDigit + 1 || digits.size() > 9 ||
+        digits.find_first_not_of("0123456789", firstDigit) != std::string::npos)
+        return std::nullopt;
+    return std::stoi(digits);
+}
+
 fs::path TakePaths::frame(int frame) const
 {
     char name[32];
@@ -196,7 +195,7 @@ TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& wo
     if (branch) refuseBranchOffItself(*branch);
     refuseForeignFiles(paths_);
     refuseToDisturb(existing);
-    const bool isTake = isThere(paths_.info()) || !listFrames(paths_).empty();
+    const bool isTake = holdsTake();
     const bool goesOn = isTake && existing == ExistingTake::resume;
     TakeInfo info = describe(world, programVersion);
     if (branch && !goesOn) recordBranch(*branch, world, info);
@@ -204,6 +203,11 @@ TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& wo
     createFolder(folder);
     lock_ = lockFolder(folder);
     try {
+        // Whoever was here before the lock may have made a take meanwhile.
+        refuseToDisturb(existing);
+        if (isTake != holdsTake())
+            throw Error(ErrorKind::cannotCreate,
+                        "\"" + folder.string() + "\" was written by another scree sim just now");
         removeTemporaries(paths_);
         if (existing == ExistingTake::overwrite) removeTake(paths_);
         if (goesOn)
@@ -219,6 +223,11 @@ TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& wo
 TakeWriter::~TakeWriter()
 {
     if (lock_ >= 0) ::close(lock_);
+}
+
+bool TakeWriter::holdsTake() const
+{
+    return isThere(paths_.info()) || !listFrames(paths_).empty();
 }
 
 void TakeWriter::refuseToDisturb(ExistingTake existing) const

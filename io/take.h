@@ -38,6 +38,9 @@ struct TakePaths {
     std::filesystem::path frame(int frame) const;
 };
 
+/// The number in "frame.001001.scree"; nothing for any other name.
+std::optional<int> frameNumber(const std::string& name);
+
 /// Throws Error{cannotCreate} when `output` is one of the files that the take around it consists
 /// of: what is made from a take must not replace it.
 void refuseTakeFile(const std::filesystem::path& output);
@@ -108,6 +111,7 @@ public:
     std::vector<FrameSummary> summaries() const;
 
 private:
+    bool holdsTake() const;
     void refuseToDisturb(ExistingTake existing) const;
     TakeInfo describe(const World& world, const std::string& programVersion) const;
     void refuseBranchOffItself(const TakeBranch& branch) const;

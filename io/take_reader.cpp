@@ -90,6 +90,20 @@ SceneFrame TakeReader::readFrame(int frame) const
     return readState(frame).scene;
 }
 
+void TakeReader::forWholeFrames(const std::vector<int>& numbers,
+                                const std::function<void(int, const SceneFrame&)>& visit) const
+{
+    for (const int number : numbers) {
+        SceneFrame frame;
+        try {
+            frame = readFrame(number);
+        } catch (const Error&) {
+            continue;
+        }
+        visit(number, frame);
+    }
+}
+
 std::vector<SceneFrame> TakeReader::readSamples(int frame) const
 {
     // Samples before a frame are kept with it, those after it with the next one.
@@ -168,13 +182,7 @@ double TakeReader::planeHalfWidth(const SceneDescription& scene) const
 
     // Take the farthest that any body ever is from any plane's origin.
     double farthest = 0.0;
-    for (const int number : frames_) {
-        SceneFrame frame;
-        try {
-            frame = readFrame(number);
-        } catch (const Error&) {
-            continue;  // whoever wants this very frame is told that it is damaged
-        }
+    forWholeFrames(frames_, [&](int, const SceneFrame& frame) {
         for (std::size_t plane = 0; plane < scene.bodies.size(); ++plane) {
             if (!info_.bodies[plane].isPlane) continue;
             const Vec3& origin = frame.worldFromAsset[plane].position;
@@ -184,7 +192,7 @@ double TakeReader::planeHalfWidth(const SceneDescription& scene) const
                         std::max(farthest, (frame.worldFromAsset[body].position - origin).norm() +
                                                reaches[scene.bodies[body].mesh]);
         }
-    }
+    });
     return farthest > 0.0 ? farthest * (1.0 + kPlaneMargin) : 1.0;
 }
 

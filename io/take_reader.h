@@ -38,6 +38,11 @@ public:
     /// file is damaged.
     SceneFrame readFrame(int frame) const;
 
+    /// Calls visit(number, frame) for those of the frames that are whole: whoever wants one that is
+    /// damaged is told so.
+    void forWholeFrames(const std::vector<int>& numbers,
+                        const std::function<void(int, const SceneFrame&)>& visit) const;
+
     /// Offsets of the samples around every frame [frames], ascending, 0 among them.
     const std::vector<double>& offsets() const { return info_.offsets; }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "io/atomic_file.h"
 #include "io/file_bytes.h"
 
 namespace scree {
@@ -48,7 +49,9 @@ void refuseForeignFiles(const TakePaths& paths)
     const bool isOfTake = !isThere(paths.info()) || !listFrames(paths).empty() ||
                           readFileBytes(paths.info()).find(kTakeFormat) != std::string::npos;
     if (!isOfTake) refuseForeign(paths.info(), "the description of a take");
-    const bool areFigures = !isThere(paths.stats()) || readFileBytes(paths.stats()).empty() ||
+    // A line that was cut belongs to a take, if that is there.
+    const bool areFigures = isThere(paths.info()) || !isThere(paths.stats()) ||
+                            readFileBytes(paths.stats()).empty() ||
                             !readStats(paths.stats()).empty();
     if (!areFigures) refuseForeign(paths.stats(), "the statistics of a take");
 }
@@ -73,14 +76,20 @@ void removeTake(const TakePaths& paths)
 
 void removeTemporaries(const TakePaths& paths)
 {
-    for (const fs::path& folder : {paths.root, paths.frames(), paths.shapes()}) {
+    const auto removeIn = [](const fs::path& folder, const auto& isOfTake) {
         std::error_code code;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-            const std::string name = entry.path().filename().string();
+            const auto target = targetOfTemporary(entry.path().filename().string());
             std::error_code ignored;
-            if (name.starts_with('.') && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
+            if (target && isOfTake(*target)) fs::remove(entry.path(), ignored);
         }
-    }
+    };
+    removeIn(paths.root, [&](const std::string& name) {
+        return name == paths.info().filename() || name == paths.stats().filename() ||
+               name == paths.checkpoint().filename();
+    });
+    removeIn(paths.frames(), [](const std::string& name) { return frameNumber(name).has_value(); });
+    removeIn(paths.shapes(), [](const std::string& name) { return name.ends_with(".ply"); });
 }
 
 }  // namespace scree

@@ -214,7 +214,7 @@ void Rasterizer::Context::uploadScene(const SceneDescription& scene)
     std::vector<char> isPlaneMesh;
     std::vector<double> radii;
     for (const SceneMesh& mesh : scene.meshes) {
-        isPlaneMesh.push_back(isPlane(mesh));
+        isPlaneMesh.push_back(mesh.isPlane);
         casters_.push_back(isPlaneMesh.back() ? ShadedMesh{} : shadeMesh(mesh));
         meshes_.push_back(isPlaneMesh.back() ? MeshBuffers{} : uploadMesh(casters_.back()));
         radii.push_back(casters_.back().radius);

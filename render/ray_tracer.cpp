@@ -134,7 +134,8 @@ private:
     Vec3 up_, towardSun_;
     double typicalRadius_ = 1.0;
     std::vector<ShadedMesh> meshes_;         // empty for planes
-    std::vector<PlaneSurface> planeMeshes_;  // parallel to meshes_
+    std::vector<char> isPlaneMesh_;          // parallel to meshes_
+    std::vector<PlaneSurface> planeMeshes_;  // likewise
     std::vector<std::size_t> bodyMesh_;
     std::vector<int> birthFrames_;  // parallel to bodyMesh_
     std::vector<Mat3> turns_;       // of the bodies in the present picture
@@ -151,14 +152,14 @@ RayTracer::Tracer::Tracer(const SceneDescription& scene, const std::vector<Look>
     const RTCDevice device = sharedDevice();
     std::vector<double> radii;
     for (const SceneMesh& mesh : scene.meshes) {
-        const bool isGround = isPlane(mesh);
-        meshes_.push_back(isGround ? ShadedMesh{} : shadeMesh(mesh));
-        planeMeshes_.push_back(isGround ? planeOf(mesh) : PlaneSurface{});
+        isPlaneMesh_.push_back(mesh.isPlane);
+        meshes_.push_back(mesh.isPlane ? ShadedMesh{} : shadeMesh(mesh));
+        planeMeshes_.push_back(mesh.isPlane ? planeOf(mesh) : PlaneSurface{});
         radii.push_back(meshes_.back().radius);
         meshScenes_.push_back(rtcNewScene(device));
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         const ShadedMesh& drawn = meshes_.back();
-        std::copy_n(drawn.points.data()->data(), isGround ? 0 : 3 * drawn.points.size(),
+        std::copy_n(drawn.points.data()->data(), mesh.isPlane ? 0 : 3 * drawn.points.size(),
                     static_cast<float*>(rtcSetNewGeometryBuffer(
                         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                         drawn.points.size())));
@@ -238,7 +239,7 @@ RayTracer::Tracer::View RayTracer::Tracer::measure(const SceneFrame& frame, cons
     view.forward = -viewAxes.row(2).head<3>().transpose();
     for (std::size_t body = 0; body < bodyMesh_.size(); ++body) {
         const Pose& pose = frame.worldFromAsset[body];
-        if (!meshes_[bodyMesh_[body]].indices.empty() || !isFinite(pose)) continue;
+        if (!isPlaneMesh_[bodyMesh_[body]] || !isFinite(pose)) continue;
         const PlaneSurface& plane = planeMeshes_[bodyMesh_[body]];
         const Vec3 normal = pose.orientation * plane.normal;
         view.planes.push_back(

@@ -368,7 +368,8 @@ Command addCheckCommand(CLI::App& program)
     addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
     command->footer(
-        "Ends with 65 when sim would refuse the shot.\n"
+        "Ends with 65 when sim would refuse the shot, with 79 when its bodies overlap too much to "
+        "start.\n"
         "Example:\n  scree check shots/rings_100.toml");
     return {command, [options](Console& console) { return checkShot(*options, console); }};
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -183,7 +184,7 @@ SplitPattern splitPattern(const std::string& pattern)
 }
 
 /// The pictures one by one, as a single stream: ffmpeg counts -7 as one digit more than we do, and
-/// sorts it before -12.
+/// sorts it before -12, and 10000 before 9990.
 std::vector<std::string> listedInput(const PictureSequence& sequence)
 {
     constexpr std::size_t kLongestArgument = 120'000;  // the system takes no more in one piece
@@ -195,19 +196,24 @@ std::vector<std::string> listedInput(const PictureSequence& sequence)
         if (isNameable && list.size() < kLongestArgument) continue;
         throw Error(ErrorKind::usage,
                     "\"" + sequence.pattern.string() +
-                        "\": ffmpeg cannot be told these pictures, whose numbers are below 0; give "
-                        "them others, or shorter names that end in .png");
+                        "\": ffmpeg cannot be told these pictures, whose numbers are below 0 or of "
+                        "several lengths; give them others, or shorter names that end in .png");
     }
     return {"-f",         "png_pipe",
             "-framerate", format("%.10g", sequence.framesPerSecond / spacingOf(sequence)),
             "-i",         list};
 }
 
-/// Every picture by a numbered pattern; every n-th by a glob, which ffmpeg sorts by name.
+/// Every picture by a numbered pattern; every n-th by a glob, which ffmpeg sorts by name, where
+/// that is the order of the numbers.
 std::vector<std::string> inputArguments(const PictureSequence& sequence)
 {
-    if (sequence.frames.front() < 0) return listedInput(sequence);
     const int spacing = spacingOf(sequence);
+    const auto lengthOf = [&](int frame) {
+        return expandFramePattern(sequence.pattern.string(), frame).size();
+    };
+    const bool sortsByName = lengthOf(sequence.frames.front()) == lengthOf(sequence.frames.back());
+    if (sequence.frames.front() < 0 || (spacing > 1 && !sortsByName)) return listedInput(sequence);
     const SplitPattern split = splitPattern(sequence.pattern.string());
     std::vector<std::string> arguments = {"-framerate",
                                           format("%.10g", sequence.framesPerSecond / spacing)};
@@ -271,11 +277,16 @@ std::vector<std::string> makeCommand(const PictureSequence& sequence, const std:
 int waitFor(pid_t child)
 {
     int status = 0;
-    for (bool isStopping = false; ::waitpid(child, &status, WNOHANG) == 0;) {
+    bool isStopping = false;
+    while (true) {
+        const pid_t ended = ::waitpid(child, &status, WNOHANG);
+        if (ended == child) return status;
+        if (ended < 0 && errno != EINTR)
+            throw Error(ErrorKind::inputOutput,
+                        std::string("cannot learn how ffmpeg ended: ") + std::strerror(errno));
         if (stopRequested() && !isStopping) isStopping = ::kill(child, SIGTERM) == 0;
         std::this_thread::sleep_for(kLookAtChild);
     }
-    return status;
 }
 
 /// Runs a program found along PATH and waits for it. Its words go to stderr.

@@ -110,6 +110,8 @@ public:
         endOfEvents_ = endOfEvents(world_);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
         applyStartRule(shot_, world_, console);
+        for (const std::string& warning : warningsBeforeStart(shot_, world_))
+            console.warning(warning);
     }
 
     int run()

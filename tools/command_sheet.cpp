@@ -89,6 +89,8 @@ int runSheet(const SheetOptions& options, Console& console)
     }
     const TakeReader take(options.inputs[0]);
     const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
+    if (chosen.frames.empty())
+        throw Error(ErrorKind::missingInput, "\"" + options.inputs[0] + "\" has no frames to draw");
     writeSheet(options, paintTake(options, take, chosen.frames), console);
     return finishTakeFrames(chosen, options.output, console);
 }

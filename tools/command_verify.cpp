@@ -11,6 +11,7 @@
 #include "tools/exit_code.h"
 #include "tools/simulation.h"
 #include "tools/stop_signals.h"
+#include "tools/take_export.h"
 #include "tools/verify/report.h"
 
 namespace scree {
@@ -65,7 +66,7 @@ int runVerify(const VerifyOptions& options, Console& console)
     setThreadCount(threadsToUse(options.threads));
     if (!options.report.empty()) {  // now, not after hours
         requirePageName(options.report);
-        refuseTakeFile(options.report);
+        createFolderOf(options.report, console);
         AtomicFile{options.report};
     }
 

@@ -26,8 +26,8 @@ void applyStartRule(const Shot& shot, World& world, Console& console);
 bool foretellStartRule(const Shot& shot, const World& world,
                        const std::vector<StartOverlap>& overlaps, Console& console);
 
-/// Says what was repaired of the shapes, and what will not do as it is: bodies that nothing holds,
-/// speeds beyond the cap. One sentence each.
+/// What will not do as it is: bodies that nothing holds, speeds beyond the cap, and what the shot's
+/// files held that is lost. One sentence each.
 std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world);
 
 /// One sentence for each shape whose mesh was repaired, or is not the one that collides.

@@ -50,7 +50,8 @@ pre { overflow: auto; border: 1px solid var(--line); padding: 1rem; font-size: 1
 <script type="application/json" id="thumbnails">{{THUMBNAILS}}</script>
 <script>
 'use strict';
-const read = id => JSON.parse(document.getElementById(id).textContent);
+// What is not finite is written as null.
+const read = id => JSON.parse(document.getElementById(id).textContent, (key, value) => value === null ? Infinity : value);
 const stats = read('stats'), thumbnails = read('thumbnails');
 const phases = stats.length ? Object.keys(stats[stats.length - 1].phase_ms || {}) : [];
 const plots = [

@@ -1,22 +1,23 @@
 #include "tools/stop_signals.h"
 
+#include <atomic>
 #include <csignal>
 #include <initializer_list>
 
 namespace scree {
 namespace {
 
-// Signal handlers reach nothing but globals.
-volatile std::sig_atomic_t stopWanted = 0;
-volatile std::sig_atomic_t saveWanted = 0;
+// Signal handlers reach nothing but globals; threads read them.
+std::atomic<bool> stopWanted = false, saveWanted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void noteStop(int)
 {
-    stopWanted = 1;
+    stopWanted = true;
 }
 void noteSave(int)
 {
-    saveWanted = 1;
+    saveWanted = true;
 }
 
 void handle(int signal, void (*handler)(int), int flags)
@@ -53,7 +54,7 @@ void takeFileLimitsAsErrors()
 
 bool stopRequested()
 {
-    return stopWanted != 0;
+    return stopWanted;
 }
 
 void heedStop(const std::string& outcome)
@@ -63,9 +64,7 @@ void heedStop(const std::string& outcome)
 
 bool takeSaveRequest()
 {
-    const bool wanted = saveWanted != 0;
-    saveWanted = 0;
-    return wanted;
+    return saveWanted.exchange(false);
 }
 
 }  // namespace scree

@@ -138,9 +138,12 @@ TakeLooks::TakeLooks(const TakeReader& take, const SceneDescription& scene, Look
 void TakeLooks::chooseSpeedScale()
 {
     double fastest = 1e-3;
-    for (const int number : spreadFrames(take_.frames(), kScaleFrames))
-        for (const Vec3& velocity : take_.readFrame(number).velocity)
-            if (velocity.allFinite()) fastest = std::max(fastest, velocity.norm());
+    take_.forWholeFrames(spreadFrames(take_.frames(), kScaleFrames),
+                         [&](int, const SceneFrame& frame) {
+                             for (const Vec3& velocity : frame.velocity)
+                                 if (velocity.allFinite())
+                                     fastest = std::max(fastest, velocity.norm());
+                         });
     most_ = roundedUp(fastest);
     legend_.title = "units/s";
     legend_.scaleEnd = most_;
@@ -152,14 +155,17 @@ void TakeLooks::chooseStepScale()
     int highest = 1;
     double deepest = 0.0;
     std::vector<double> forces = {0.0};
-    for (const int number : spreadFrames(take_.frames(), kScaleFrames)) {
-        const std::optional<StepSeen> step = take_.readLastStep(number);
-        if (!step) continue;
-        for (const std::int32_t level : step->level) highest = std::max(highest, level);
-        for (const double overlap : step->overlap) deepest = std::max(deepest, overlap);
-        for (const ContactSeen& contact : step->contacts)
-            forces.push_back(contact.impulse.norm() / step->dt);
-    }
+    take_.forWholeFrames(spreadFrames(take_.frames(), kScaleFrames),
+                         [&](int number, const SceneFrame&) {
+                             const std::optional<StepSeen> step = take_.readLastStep(number);
+                             if (!step) return;
+                             for (const std::int32_t level : step->level)
+                                 highest = std::max(highest, level);
+                             for (const double overlap : step->overlap)
+                                 deepest = std::max(deepest, overlap);
+                             for (const ContactSeen& contact : step->contacts)
+                                 forces.push_back(contact.impulse.norm() / step->dt);
+                         });
     const auto common = forces.begin() + static_cast<std::ptrdiff_t>(
                                              kForceQuantile * static_cast<double>(forces.size()));
     std::nth_element(forces.begin(), common, forces.end());

@@ -49,8 +49,7 @@ Camera frameAction(const TakeReader& take, const SceneDescription& scene, double
     const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
     Framing view(threeQuarterView(scene.zUp), up, aspect);
     std::vector<Framing> seen(scene.bodies.size(), view);
-    for (const int number : take.frames()) {
-        const SceneFrame frame = take.readFrame(number);
+    take.forWholeFrames(take.frames(), [&](int number, const SceneFrame& frame) {
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
             if (take.info().bodies[body].isPlane) continue;
             if (!isThere(scene.bodies[body], number)) continue;
@@ -58,7 +57,7 @@ Camera frameAction(const TakeReader& take, const SceneDescription& scene, double
             seen[body].include(transformed(meshBoxes[scene.bodies[body].mesh],
                                            pose.orientation.toRotationMatrix(), pose.position));
         }
-    }
+    });
     std::vector<Framing> moving, all;
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
         if (seen[body].isEmpty()) continue;

@@ -21,6 +21,7 @@ struct SceneMesh {
     Points points;             // 3×#V
     Triangles triangles;       // 3×#F
     CornerUvs cornerUvs = {};  // 2×(3·#F), or empty
+    bool isPlane = false;      // a square that stands for one without end
 };
 
 /// Birth frames of bodies that are always there, and of those that never come.

@@ -146,9 +146,4 @@ ShadedMesh shadeMesh(const SceneMesh& sceneMesh, double creaseDegrees)
     return result;
 }
 
-bool isPlane(const SceneMesh& mesh)
-{
-    return mesh.triangles.cols() == 2 && mesh.points.cols() == 4;
-}
-
 }  // namespace scree

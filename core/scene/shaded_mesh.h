@@ -30,8 +30,4 @@ struct ShadedMesh {
 /// triangles.
 ShadedMesh shadeMesh(const SceneMesh& mesh, double creaseDegrees = kCreaseDegrees);
 
-/// True for the flat square that stands for an infinite half space: two triangles and nothing else.
-/// A solid has at least four.
-bool isPlane(const SceneMesh& mesh);
-
 }  // namespace scree

@@ -382,7 +382,7 @@ std::vector<BadShot> badShots()
         {"CameraKeyInItsTarget", kHead + "[[camera]]\nkeys = [{ frame = 5, eye = [0, 0, 0] }]\n",
          "bad.toml:5:28: 'eye' must not be where 'target' is"},
         {"OrbitWithoutRadius", kHead + "[[camera]]\norbit = { height = 3 }\n",
-         "bad.toml:5:9: [[camera]] orbit lacks 'radius': a number above 0"},
+         "bad.toml:5:9: [[camera]] orbit lacks 'radius': a number above 0 and below 1000000000"},
         {"OrbitBackwards", kHead + "[[camera]]\norbit = { radius = 3, frames = \"9-4\" }\n",
          "bad.toml:5:32: 'frames' must be \"FIRST-LAST\", for example \"1001-1240\", not \"9-4\""},
         {"StillOfAnotherShot", kHead + "[render]\nstill = 900\n",

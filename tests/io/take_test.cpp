@@ -577,13 +577,38 @@ TEST_F(TakeTest, SecondWriterIsKeptOut)
               ErrorKind::cannotCreate);
 }
 
-TEST_F(TakeTest, TemporariesOfAKilledWriterAreRemoved)
+TEST_F(TakeTest, TemporariesOfAKilledWriterAreRemovedAndNoOthers)
 {
     writeWholeTake();
-    const fs::path left = folder / "take/frames/.frame.001006.scree.1-2.tmp";
-    std::ofstream(left) << "half";
+    const std::array ours = {folder / "take/frames/.frame.001006.scree.1-2.tmp",
+                             folder / "take/shapes/.block.ply.1-2.tmp",
+                             folder / "take/.take.json.1-2.tmp"};
+    // A film that is being made there, and what somebody else calls so.
+    const std::array others = {folder / "take/.film.mp4.1-2.tmp", folder / "take/frames/.x.tmp"};
+    for (const fs::path& file : ours) writeFileBytes(file, "half");
+    for (const fs::path& file : others) writeFileBytes(file, "half");
     open(ExistingTake::resume, shot);
-    EXPECT_FALSE(fs::exists(left));
+    for (const fs::path& file : ours) EXPECT_FALSE(fs::exists(file)) << file;
+    for (const fs::path& file : others) EXPECT_TRUE(fs::exists(file)) << file;
+}
+
+// The line is written before the frame; cut, it was taken for statistics of something else.
+TEST_F(TakeTest, ATakeOfOneCutLineIsGoneOnWith)
+{
+    open(ExistingTake::refuse, shot);
+    writeFileBytes(folder / "take/stats.jsonl", "{\"frame\":10");
+    EXPECT_NO_THROW(open(ExistingTake::resume, shot));
+}
+
+TEST_F(TakeTest, ADamagedFrameKeepsNobodyFromTheOthers)
+{
+    writeWholeTake();
+    flipByte(folder / "take/frames/frame.001003.scree", 200);
+    const TakeReader take(folder / "take");
+    std::vector<int> seen;
+    take.forWholeFrames(take.frames(),
+                        [&](int frame, const SceneFrame&) { seen.push_back(frame); });
+    EXPECT_EQ(seen, (std::vector{1001, 1002, 1004, 1005}));
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ struct Stage {
     {
         const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), normal);
         SceneMesh square{"ground", Points(3, 4), Triangles(3, 2)};
+        square.isPlane = true;
         square.points << -5, -5, 5, 5, 0, 0, 0, 0, -5, 5, 5, -5;
         square.triangles << 0, 0, 1, 2, 2, 3;
         add(square, {Vec3::Zero(), turn}, {Vec3::Constant(0.4), 0.9}, false);
@@ -206,6 +207,19 @@ TEST(Rasterizer, GroundIsEndlessWhateverTheSizeOfItsSquare)
     const Color ground = image.at(kWidth / 2, kHeight - 2), far = image.at(2, kHeight - 2);
     EXPECT_GT(ground.x(), ground.z() * 0.95f);
     EXPECT_NEAR(ground.y(), far.y(), 0.1f);
+}
+
+// What an artist has drawn as one square was taken for a plane, and had no end.
+TEST(Rasterizer, ASquareThatIsAMeshEndsWhereItEnds)
+{
+    Stage stage;
+    stage.addGround();
+    stage.scene.meshes.back().isPlane = false;
+    const Image image = stage.draw(lookingFrom({0, 20, 40}));
+    const Color middle = image.at(kWidth / 2, kHeight / 2),
+                beyond = image.at(kWidth / 2, kHeight - 2);
+    EXPECT_GT(middle.x(), middle.z() * 0.95f);
+    EXPECT_LT(beyond.x(), beyond.z() * 0.95f) << "the sky below it";
 }
 
 TEST(Rasterizer, BareGroundIsAsBrightAsGroundBesideABody)

@@ -43,6 +43,7 @@ inline PreviewScene strewnHeap(const TriMesh& mesh, double size, int count)
 {
     PreviewScene heap;
     SceneMesh square{"ground", Points(3, 4), Triangles(3, 2)};
+    square.isPlane = true;
     square.points << -5, -5, 5, 5, 0, 0, 0, 0, -5, 5, 5, -5;
     square.triangles << 0, 0, 1, 2, 2, 3;
     const double reach = 0.85 * size * std::cbrt(count), height = 0.5 * reach;
