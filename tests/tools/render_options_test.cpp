@@ -365,6 +365,30 @@ TEST_F(RenderOptions, AFilmSaysItsColoursAndShowsThoseOfThePictures)
     EXPECT_LT(shift.cwiseAbs().maxCoeff(), 0.004F) << shift.transpose();
 }
 
+// By name x.10.png comes before x.8.png.
+TEST_F(RenderOptions, AFilmOfEverySecondPictureIsInTheOrderOfTheirNumbers)
+{
+    SCREE_REQUIRE_READER(runCommand("command -v ffmpeg").exitCode == 0,
+                         "ffmpeg: apt-get install ffmpeg");
+    float grey = 0.1F;
+    for (const char* name : {"x.8.png", "x.10.png", "x.12.png"}) {
+        writePng(pictures / name, Image(64, 64, Color::Constant(grey)));
+        grey += 0.3F;
+    }
+    const std::string film = quoted(pictures / "x.mp4");
+    ASSERT_EQ(scree("movie " + quoted(pictures / "x.#.png") + " -o " + film).exitCode, 0);
+    ASSERT_EQ(
+        runCommand("ffmpeg -nostdin -v error -y -i " + film + " " + quoted(pictures / "y.%d.png"))
+            .exitCode,
+        0);
+    float before = 0.0F;
+    for (const char* name : {"y.1.png", "y.2.png", "y.3.png"}) {
+        const float mean = meanOf(readPng(pictures / name).image).x();
+        EXPECT_GT(mean, before) << name;
+        before = mean;
+    }
+}
+
 // "152 bodies" stood under a picture of three coins: the others had yet to be poured.
 TEST(TakePainter, CountsOnlyWhoIsThere)
 {
