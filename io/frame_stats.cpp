@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "io/take_info.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {

@@ -14,6 +14,7 @@
 #include "io/gltf_writer.h"
 #include "io/mesh_sequence_writer.h"
 #include "io/pov_writer.h"
+#include "io/text_forms.h"
 #include "io/usd_writer.h"
 
 namespace scree {
@@ -49,9 +50,7 @@ std::string knownEndings()
 /// The row for the ending of `output`.
 const Format& formatOf(const fs::path& output)
 {
-    std::string name = output.filename().string();
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    const std::string name = inSmallLetters(output.filename().string());
     for (const Format& format : kFormats) {
         if (name.size() > format.ending.size() && name.ends_with(format.ending)) return format;
     }

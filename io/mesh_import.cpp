@@ -9,6 +9,7 @@
 #include "io/mesh_import_assimp.h"
 #include "io/mesh_import_bytes.h"
 #include "io/nearest_word.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {
@@ -21,8 +22,7 @@ std::string endingOf(const std::string& path)
 {
     std::string ending = fs::path(path).extension().string();
     if (!ending.empty()) ending.erase(0, 1);
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return ending;
+    return inSmallLetters(ending);
 }
 
 /// STL has no shared points, glTF none along seams, and the readers of OBJ and FBX take theirs

@@ -7,7 +7,6 @@
 
 #include "core/base/hash.h"
 #include "io/byte_cursor.h"
-#include "io/take_info.h"
 
 namespace scree {
 namespace {

@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "io/shape_bytes.h"
-#include "io/take_info.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/nearest_word.h"
+#include "io/text_forms.h"
 #include "io/unique_names.h"
 
 namespace scree {
@@ -19,12 +20,7 @@ std::string quoted(const ShotNode& node)
     constexpr std::size_t kLongest = 48;
     if (node.kind == Kind::table) return "a table";
     if (node.kind == Kind::date) return "a date";
-    const std::string text = toTomlText(node);
-    if (text.size() <= kLongest) return text;
-    // Cut between characters, not inside one (UTF-8 continues with 10xxxxxx).
-    std::size_t length = kLongest - 3;
-    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
-    return text.substr(0, length) + "...";
+    return shortened(toTomlText(node), kLongest);
 }
 
 bool isInRange(const ShotKey& key, double value)

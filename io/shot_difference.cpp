@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 #include <utility>
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {
@@ -39,15 +40,6 @@ Entries entriesOf(const std::string& resolvedShot)
     return entries;
 }
 
-std::string shortened(const std::string& value)
-{
-    if (value.size() <= kLongestValue) return value;
-    // Cut between characters, not inside one (UTF-8 continues with 10xxxxxx).
-    std::size_t length = kLongestValue - 3;
-    while (length > 0 && (static_cast<unsigned char>(value[length]) & 0xc0) == 0x80) --length;
-    return value.substr(0, length) + "...";
-}
-
 }  // namespace
 
 std::vector<std::string> shotDifferences(const std::string& ours, const std::string& theirs,
@@ -60,13 +52,16 @@ std::vector<std::string> shotDifferences(const std::string& ours, const std::str
     for (const auto& [key, value] : mine) {
         const auto there = valueThere.find(key);
         if (there != valueThere.end() && there->second == value) continue;
-        differences.push_back(
-            key + " = " + shortened(value) + " (" + owner +
-            (there == valueThere.end() ? " has none" : " has " + shortened(there->second)) + ")");
+        differences.push_back(key + " = " + shortened(value, kLongestValue) + " (" + owner +
+                              (there == valueThere.end()
+                                   ? " has none"
+                                   : " has " + shortened(there->second, kLongestValue)) +
+                              ")");
     }
     for (const auto& [key, value] : other) {
         if (valueHere.contains(key)) continue;
-        differences.push_back("no " + key + " (" + owner + " has " + shortened(value) + ")");
+        differences.push_back("no " + key + " (" + owner + " has " +
+                              shortened(value, kLongestValue) + ")");
     }
     return differences;
 }

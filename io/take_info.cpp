@@ -13,6 +13,7 @@
 #include "io/file_bytes.h"
 #include "io/shot_schema.h"
 #include "io/subframes.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {
@@ -398,14 +399,6 @@ TakeInfo decodeTakeInfo(const std::string& text, const std::filesystem::path& pa
     if (info.shotHash != hashText(info.resolvedShot))
         fail("damaged: the shot's text does not fit its hash");
     return info;
-}
-
-std::string toHex(std::uint64_t value)
-{
-    std::string text(16, '0');
-    for (int digit = 15; digit >= 0; --digit, value >>= 4)
-        text[digit] = "0123456789abcdef"[value & 15];
-    return text;
 }
 
 }  // namespace scree

@@ -78,7 +78,4 @@ bool isJson(const std::string& text);
 /// Throws Error{inputOutput} naming `path` when the text is damaged or of an unknown version.
 TakeInfo decodeTakeInfo(const std::string& text, const std::filesystem::path& path);
 
-/// 16 hexadecimal digits.
-std::string toHex(std::uint64_t value);
-
 }  // namespace scree

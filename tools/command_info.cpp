@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/take_reader.h"
+#include "io/text_forms.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"

@@ -16,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "io/nearest_word.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {
@@ -75,10 +76,7 @@ int affinityCount()
 /// In small letters, with its dot.
 std::string endingOf(const std::string& name)
 {
-    std::string ending = std::filesystem::path(name).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char letter) { return std::tolower(letter); });
-    return ending;
+    return inSmallLetters(std::filesystem::path(name).extension().string());
 }
 
 /// Quota and period of one group: cpu.max of version 2, two files in version 1.

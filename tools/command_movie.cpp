@@ -18,6 +18,7 @@
 #include "io/file_bytes.h"
 #include "io/frame_pattern.h"
 #include "io/take_reader.h"
+#include "io/text_forms.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
@@ -241,9 +242,7 @@ constexpr Container kContainers[] = {{".mp4", "mp4"}, {".m4v", "mp4"}, {".mov", 
 /// ffmpeg's name of the container that the ending asks for.
 std::string muxerOf(const std::string& name)
 {
-    std::string ending = fs::path(name).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char letter) { return std::tolower(letter); });
+    const std::string ending = inSmallLetters(fs::path(name).extension().string());
     std::string known;
     for (const Container& container : kContainers) {
         if (ending == container.ending) return container.muxer;

@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "io/frame_pattern.h"
+#include "io/text_forms.h"
 #include "render/legend.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"

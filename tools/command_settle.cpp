@@ -19,6 +19,7 @@
 #include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "io/take.h"
+#include "io/text_forms.h"
 #include "tools/broken_frame.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
@@ -85,7 +86,7 @@ void requirePoseFormat(const std::string& output)
     constexpr std::array<const char*, 8> kEndings = {".poses", ".json", ".usda", ".abc",
                                                      ".glb",   ".obj",  ".ply",  ".pov"};
     if (std::any_of(kEndings.begin(), kEndings.end(),
-                    [&](const char* ending) { return output.ends_with(ending); })) {
+                    [&](const char* ending) { return inSmallLetters(output).ends_with(ending); })) {
         return;
     }
     throw Error(ErrorKind::usage, "cannot write a pose to '" + output +
@@ -200,7 +201,7 @@ private:
             reach = std::max(reach, 1.5 * pose.position.norm());
         }
         const SceneDescription scene = describeScene(shot_, world_, reach);
-        if (options_.output.ends_with(".json")) {
+        if (inSmallLetters(options_.output).ends_with(".json")) {
             writeFileBytes(options_.output, encodePoses(scene, frame));
             return {options_.output};
         }
@@ -221,7 +222,7 @@ private:
         return written;
     }
 
-    bool writesPoses() const { return options_.output.ends_with(".poses"); }
+    bool writesPoses() const { return inSmallLetters(options_.output).ends_with(".poses"); }
 
     const SettleOptions& options_;
     Console& console_;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "io/text_forms.h"
 #include "tools/html_text.h"
 
 namespace scree {

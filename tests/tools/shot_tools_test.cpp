@@ -293,6 +293,9 @@ TEST_F(ShotTools, SettleWritesOnePoseOfBodiesAtRest)
     EXPECT_EQ(mesh.code, 79);
     EXPECT_TRUE(contains(mesh.err, "still moves")) << mesh.err;
     EXPECT_TRUE(contains(readFileBytes(folder / "pose.obj"), "\nv "));
+    // As an export takes it.
+    EXPECT_EQ(run("settle drop.toml -o POSE.JSON").code, 0);
+    EXPECT_EQ(readFileBytes(folder / "POSE.JSON"), readFileBytes(folder / "pose.json"));
     // Said at once, not after the run.
     const Outcome unknown = run("settle drop.toml -o pose.fbx --seconds 1e6 --tolerance 1e-12");
     EXPECT_EQ(unknown.code, 64);

@@ -1,0 +1,29 @@
+#include "io/text_forms.h"
+
+namespace scree {
+
+std::string inSmallLetters(std::string text)
+{
+    for (char& letter : text)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    return text;
+}
+
+std::string shortened(const std::string& text, std::size_t longest)
+{
+    if (text.size() <= longest) return text;
+    std::size_t length = longest - 3;
+    // What goes on with a character begins with the bits 10.
+    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
+    return text.substr(0, length) + "...";
+}
+
+std::string toHex(std::uint64_t value)
+{
+    std::string text(16, '0');
+    for (int digit = 15; digit >= 0; --digit, value >>= 4)
+        text[digit] = "0123456789abcdef"[value & 15];
+    return text;
+}
+
+}  // namespace scree

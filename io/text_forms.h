@@ -1,0 +1,20 @@
+// Text in other forms, for names and messages.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace scree {
+
+/// ASCII letters in small: endings of files are told apart so.
+std::string inSmallLetters(std::string text);
+
+/// Cut to at most that many bytes, the last three of which say so: between characters of UTF-8, not
+/// inside one.
+std::string shortened(const std::string& text, std::size_t longest);
+
+/// Sixteen digits.
+std::string toHex(std::uint64_t value);
+
+}  // namespace scree
