@@ -16,6 +16,7 @@
 #include "io/file_bytes.h"
 #include "io/ply_mesh.h"
 #include "io/shot_difference.h"
+#include "io/take_reader.h"
 #include "io/take_removal.h"
 
 namespace scree {
@@ -277,7 +278,8 @@ void TakeWriter::recordBranch(const TakeBranch& branch, const World& world, Take
     const fs::path absolute = fs::absolute(branch.take, code).lexically_normal();
     info.branchTake = (code ? branch.take : absolute).string();
     info.branchFrame = branch.frame;
-    info.branchHash = hashText(readBranchFrame(branch, branch.frame, shot_));
+    info.branchHash =
+        hashText(readBranchFrame(TakeReader(branch.take), branch, branch.frame, shot_));
 }
 
 /// The description comes first: from then on a resume knows what this take is to be, whatever
@@ -421,7 +423,8 @@ void TakeWriter::findWholeFrames(const World& world)
         try {
             const FrameState state = readFrameFile(paths_.frame(frame));
             if (state.shotHash != shotHash_ || state.scene.frame != frame ||
-                state.motion.size() != world.bodyCount())
+                state.motion.size() != world.bodyCount() ||
+                state.bornAt.empty() != world.births.empty())
                 throw Error(ErrorKind::badInput, {paths_.frame(frame).string(), 0, 0},
                             "is of another take");
             wholeFrames_.insert(frame);
@@ -465,7 +468,8 @@ void TakeWriter::completeBranch(const TakeInfo& info)
 void TakeWriter::copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing)
 {
     const TakeBranch branch{info.branchTake, info.branchFrame};
-    if (hashText(readBranchFrame(branch, branch.frame, shot_)) != info.branchHash)
+    const TakeReader from(branch.take);
+    if (hashText(readBranchFrame(from, branch, branch.frame, shot_)) != info.branchHash)
         throw Error(ErrorKind::badInput,
                     "\"" + branch.take.string() + "\" is not what it was when the take was begun");
     // Statistics first, as in writeFrame.
@@ -474,7 +478,7 @@ void TakeWriter::copyBranchFrames(const TakeInfo& info, const std::vector<int>& 
         if (const auto line = lines.find(frame); line != lines.end()) statsLines_.insert(*line);
     rewriteStats();
     for (const int frame : missing) {
-        writeFileBytes(paths_.frame(frame), readBranchFrame(branch, frame, shot_));
+        writeFileBytes(paths_.frame(frame), readBranchFrame(from, branch, frame, shot_));
         wholeFrames_.insert(frame);
     }
 }

@@ -8,7 +8,7 @@
 #include "core/base/hash.h"
 #include "io/file_bytes.h"
 #include "io/frame_stats.h"
-#include "io/take.h"
+#include "io/take_reader.h"
 
 namespace scree {
 namespace {
@@ -97,11 +97,11 @@ TakeBranch parseBranch(const std::string& text)
 void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
                  const TakeInfo& info)
 {
-    const TakePaths from{branch.take};
-    if (!std::filesystem::exists(from.info()))
+    if (!std::filesystem::exists(TakePaths{branch.take}.info()))
         throw Error(ErrorKind::missingInput, "cannot branch off \"" + branch.take.string() +
                                                  "\": it is no take, for it has no take.json");
-    const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());
+    const TakeReader from(branch.take);
+    const TakeInfo& theirs = from.info();
     requireSameCast(branch, theirs, info);
     // With the last frame too, all is taken over: a finished take gets another camera or colour.
     if (branch.frame < shot.firstFrame || branch.frame > shot.lastFrame) {
@@ -109,7 +109,7 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
                            std::to_string(shot.firstFrame) + "-" + std::to_string(shot.lastFrame));
     }
     for (int frame = shot.firstFrame; frame <= branch.frame; ++frame) {
-        const std::string bytes = readBranchFrame(branch, frame, shot);
+        const std::string bytes = readBranchFrame(from, branch, frame, shot);
         // The same bodies in the same places: proved by the bits of the first frame.
         const bool isOther =
             frame == shot.firstFrame && bytes != encodeFrame(captureState(shot, world));
@@ -117,21 +117,18 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
     }
 }
 
-std::string readBranchFrame(const TakeBranch& branch, int frame, const Shot& shot)
+std::string readBranchFrame(const TakeReader& from, const TakeBranch& branch, int frame,
+                            const Shot& shot)
 {
-    const TakePaths from{branch.take};
     std::error_code code;
-    if (!std::filesystem::exists(from.frame(frame), code)) {
+    if (!std::filesystem::exists(from.paths().frame(frame), code)) {
         throw Error(ErrorKind::missingInput, "\"" + branch.take.string() + "\" has no frame " +
                                                  std::to_string(frame) + " to begin with");
     }
-    FrameState state = readFrameFile(from.frame(frame), frame);
+    FrameState state = from.readState(frame);
     state.shotHash = hashText(shot.resolvedText);
-    if (frame == branch.frame) {
-        const TakeInfo theirs = decodeTakeInfo(readFileBytes(from.info()), from.info());
-        if (settingsOf(theirs.resolvedShot) != settingsOf(shot.resolvedText))
-            wakeWhoSettled(state.contactMemory);
-    }
+    const bool feelsOthers = settingsOf(from.info().resolvedShot) != settingsOf(shot.resolvedText);
+    if (frame == branch.frame && feelsOthers) wakeWhoSettled(state.contactMemory);
     return encodeFrame(state);
 }
 

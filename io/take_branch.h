@@ -11,6 +11,8 @@
 
 namespace scree {
 
+class TakeReader;
+
 /// Where to branch off: the variant begins with the frames of `take` up to and with `frame`.
 struct TakeBranch {
     std::filesystem::path take;
@@ -30,7 +32,8 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
 
 /// The bytes of a frame of the branch's take as a frame of the shot. In the last one, where bodies
 /// are to feel other settings from there on, those that had fallen asleep are awake.
-std::string readBranchFrame(const TakeBranch& branch, int frame, const Shot& shot);
+std::string readBranchFrame(const TakeReader& from, const TakeBranch& branch, int frame,
+                            const Shot& shot);
 
 /// The lines of stats.jsonl of the frames up to the branch, by number.
 std::map<int, std::string> readBranchStats(const TakeBranch& branch);

@@ -38,6 +38,9 @@ public:
     /// file is damaged.
     SceneFrame readFrame(int frame) const;
 
+    /// The same with the state that a run goes on from.
+    FrameState readState(int frame) const;
+
     /// Calls visit(number, frame) for those of the frames that are whole: whoever wants one that is
     /// damaged is told so.
     void forWholeFrames(const std::vector<int>& numbers,
@@ -61,7 +64,6 @@ public:
     std::vector<FrameSummary> stats() const { return readStats(paths_.stats()); }
 
 private:
-    FrameState readState(int frame) const;
     void tellBirths(SceneDescription& scene) const;
     double planeHalfWidth(const SceneDescription& scene) const;
 
