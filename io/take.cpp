@@ -33,14 +33,11 @@ TriMesh meshOf(const SceneMesh& mesh)
 }
 
 /// The meshes that a take keeps: all but those of planes, which are as large as the action.
-std::vector<const SceneMesh*> keptMeshes(const SceneDescription& scene, const TakeInfo& info)
+std::vector<const SceneMesh*> keptMeshes(const SceneDescription& scene)
 {
-    std::set<std::string> wanted;
-    for (const TakeBody& body : info.bodies)
-        if (!body.isPlane) wanted.insert(body.shape);
     std::vector<const SceneMesh*> kept;
     for (const SceneMesh& mesh : scene.meshes)
-        if (wanted.contains(mesh.name)) kept.push_back(&mesh);
+        if (!mesh.isPlane) kept.push_back(&mesh);
     return kept;
 }
 
@@ -256,7 +253,7 @@ TakeInfo TakeWriter::describe(const World& world, const std::string& programVers
 {
     const SceneDescription scene = describeScene(shot_, world, 1.0);
     TakeInfo info = makeTakeInfo(shot_, world, scene, programVersion);
-    for (const SceneMesh* mesh : keptMeshes(scene, info))
+    for (const SceneMesh* mesh : keptMeshes(scene))
         info.shapes.push_back({mesh->name, hashText(encodePlyMesh(meshOf(*mesh)))});
     return info;
 }
@@ -402,9 +399,8 @@ std::vector<fs::path> TakeWriter::writeShapes(const World& world) const
 {
     createFolder(paths_.shapes());
     const SceneDescription scene = describeScene(shot_, world, 1.0);
-    const TakeInfo info = makeTakeInfo(shot_, world, scene, "");
     std::vector<fs::path> replaced;
-    for (const SceneMesh* mesh : keptMeshes(scene, info)) {
+    for (const SceneMesh* mesh : keptMeshes(scene)) {
         const fs::path path = paths_.shape(mesh->name);
         const std::string bytes = encodePlyMesh(meshOf(*mesh));
         if (isThere(path)) {
