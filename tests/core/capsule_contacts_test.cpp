@@ -119,7 +119,9 @@ TEST(CapsuleContacts, ThoseWhoseAxesCrossAreLedApartAcrossBoth)
     EXPECT_NEAR(std::abs(deepest.normal.y()), 1.0, 1e-9);
     EXPECT_NEAR(deepest.gap, -2.0 * kRadius, 1e-9);
     // In one and the same place any way across will do.
-    for (const GapContact& contact : findBetween(*capsule(), one, *capsule(), one, 0.0).contacts) {
+    const Found same = findBetween(*capsule(), one, *capsule(), one, 0.0);
+    ASSERT_FALSE(same.contacts.empty());
+    for (const GapContact& contact : same.contacts) {
         EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-9);
         EXPECT_NEAR(contact.normal.x(), 0.0, 1e-9);
     }

@@ -94,7 +94,7 @@ TEST(NearFeatures, WhatAPairRemembersChangesNoContactBitForBit)
 
 /// A ring that spins down onto a plane far from the middle of that, whichever is named first.
 /// Planes do not turn.
-TEST(NearFeatures, SoDoesWhatSpinsOnAPlaneFarFromItsMiddle)
+TEST(NearFeatures, WhatSpinsOnAPlaneFarFromItsMiddleIsRememberedAsItWouldBeSeen)
 {
     const auto ring = buildMeshShape("ring", makeTorus(1.0, 0.25, {16, 10}));
     const auto plane = buildPlaneShape("plane");
@@ -959,12 +959,12 @@ TEST(GapLanes, NothingIsLeftOfTheIslandBefore)
     EXPECT_EQ(lanes.sweep().residual, 0.0);
 }
 
-TEST(GapLanes, RowsAbreastThatResistRollingAreRowsVisitedOneByOneToo)
+TEST(GapLanes, RowsAbreastThatResistRollingAreRowsVisitedOneByOne)
 {
     expectRowsAbreastAreRowsOneByOne(true);
 }
 
-TEST(GapLanes, SoAreThoseOfAnIslandThatIsCut)
+TEST(GapLanes, RowsThatResistRollingOfAnIslandThatIsCutAreRowsVisitedOneByOne)
 {
     expectRowsAbreastAreRowsOneByOne(false, 2, 300);
     expectRowsAbreastAreRowsOneByOne(true, 2, 300);

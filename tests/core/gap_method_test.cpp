@@ -494,7 +494,7 @@ TEST(GapMethod, AChainThatSwingsGainsNoEnergy)
 }
 
 /// Shock calls for it again and again, and pins links that move.
-TEST(GapMethod, NorDoesAWeightThatSwingsOnAChain)
+TEST(GapMethod, AWeightThatSwingsOnAChainGainsNoEnergy)
 {
     EXPECT_LE(riseOfSwingingChain(15, 2000.0), 0.005);
 }

@@ -126,7 +126,7 @@ TEST(GapPress, JawsClosedTooFarCarryWhatIsBetweenThemUntilTheyOpen)
     }
 }
 
-TEST(GapPress, SoTheyCarryARowThatHoldsTogetherByItself)
+TEST(GapPress, JawsCarryARowThatHoldsTogetherByItself)
 {
     for (const auto& [count, slips] : {std::pair{2, 0.2}, {5, 0.02}}) {  // seen: 0.15, 0.007
         Jaws jaws(count, 0.02, 0.5);

@@ -64,6 +64,7 @@ TEST(Parallel, MoreThreadsThanTheSystemAllowsAreRefusedAndNothingIsLeftOfThem)
     EXPECT_EQ(threadCount(), 1);
     setThreadCount(2);
     EXPECT_EQ(rangesAtOnce(), 2);
+    setThreadCount(1);
 }
 
 TEST(Parallel, EveryIndexIsVisitedOnceInOneLoopAfterTheOther)
@@ -91,7 +92,8 @@ TEST(Parallel, EachThreadBeginsWithTheSameShareInEveryLoop)
         forEach(2, 1, [&](std::size_t i) {
             ids[i] = std::this_thread::get_id();
             ++begun;
-            while (begun < 2) std::this_thread::yield();
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+            while (begun < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
         });
         if (loop == 0) first = ids;
         EXPECT_EQ(ids, first);

@@ -126,7 +126,7 @@ TEST(Sleep, ALargeHeapIsSolvedToTheEndOnceItSettles)
 }
 
 // With those sweeps walls leaned out by millimetres before they slept.
-TEST(Sleep, SoIsOneThatHardlyMoves)
+TEST(Sleep, AHeapThatHardlyMovesIsSolvedToItsEnd)
 {
     EXPECT_DOUBLE_EQ(speedOfPyramid(0, 1e-3), speedOfPyramid(300, 1e-3));
 }

@@ -247,6 +247,7 @@ TEST(AlembicImport, CutAnywhereItIsRefused)
     roundTrip(texturedScene(), folder / "x.abc", 2);
     std::ifstream stream(folder / "x.abc", std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    ASSERT_GT(bytes.size(), 1000u);
     for (std::size_t length = 0; length < bytes.size(); length += 41) {
         std::ofstream(folder / "cut.abc", std::ios::binary) << bytes.substr(0, length);
         EXPECT_THROW(importFile((folder / "cut.abc").string()), Error) << length;

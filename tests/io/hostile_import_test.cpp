@@ -340,6 +340,7 @@ TEST(ShotImport, SaysForAllItsNodesHowTheyCollide)
     test::writeGltf(folder);
     const std::string keys = "sdf = { voxel = 2 }\nnormals = \"smooth\"\nedge_samples = true\n";
     const Shot shot = parseShotText(shotOf(folder, "\"*\"") + keys, "s.toml");
+    ASSERT_FALSE(shot.shapes.empty());
     for (const ShotShape& shape : shot.shapes) {
         EXPECT_EQ(shape.settings.voxel, 0.02) << "the shot is in centimetres";
         EXPECT_EQ(shape.settings.normals, NormalMode::smooth);

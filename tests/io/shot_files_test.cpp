@@ -115,12 +115,16 @@ TEST(ShotFiles, BlocksLieOnTheSlopeAndOnlyRubberSticks)
     for (const ShotMaterial& material : shot.materials) {
         friction[material.material.name] = material.material.friction;
     }
+    int sticking = 0, sliding = 0;
     for (std::size_t i = 1; i < shot.bodies.size(); ++i) {
         const Vec3 bottom = shot.bodies[i].worldFromAsset * Vec3(0.7, -0.3, 0.7);
         EXPECT_NEAR((bottom - slope.point).dot(slope.normal), 0.0, 1e-14);
         const double mu = std::max(friction["slope"], friction[shot.bodies[i].material]);
         EXPECT_EQ(mu > steepness, shot.bodies[i].material == "rubber");
+        ++(mu > steepness ? sticking : sliding);
     }
+    EXPECT_EQ(sticking, 1);
+    EXPECT_EQ(sliding, 2);
 }
 
 TEST(ShotFiles, WedgeIsASharpSolidOfTwelveTriangles)

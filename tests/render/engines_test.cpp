@@ -173,7 +173,7 @@ TEST(Engines, ATracedSceneMayChangeLooksAndLoseABodyAndFindItAgain)
     EXPECT_NE(before.values, tracer.draw(scene.frame, scene.camera, kWidth, kHeight).values);
 }
 
-TEST(Engines, WiresDarkenSurfacesInBothAlike)
+TEST(Engines, WiresDarkenSurfacesInBothAboutAsMuch)
 {
     RasterSettings raster;
     TraceSettings trace = tracing();
@@ -186,8 +186,10 @@ TEST(Engines, WiresDarkenSurfacesInBothAlike)
     const double darkerA =
         1.0 - brightness(rasterized(heap(), raster)) / brightness(rasterized(heap()));
     const double darkerB = 1.0 - brightness(traced(heap(), trace)) / brightness(traced(heap()));
-    EXPECT_GT(darkerA, 0.01);
-    EXPECT_GT(darkerB, 0.01);
+    // 13.5 and 8.8 %: lines of rays lie in the surface, and get thin where that slants.
+    EXPECT_GT(darkerB, 0.05);
+    EXPECT_GT(darkerA, darkerB);
+    EXPECT_LT(darkerA, 2.0 * darkerB);
 }
 
 }  // namespace

@@ -326,6 +326,7 @@ TEST_F(MishapsTest, PicturesBelowZeroBecomeAFilmInTheirOrder)
         const Outcome made =
             runScree({"movie", file(letter + ".####.png"), "-o", file(letter + ".mp4")});
         EXPECT_EQ(made.code, 0) << made.err;
+        ASSERT_NE(made.err.find(".-007.png"), std::string::npos) << made.err;
         EXPECT_LT(made.err.find(".-012.png"), made.err.find(".-007.png")) << made.err;
         EXPECT_GT(fs::file_size(file(letter + ".mp4")), 500u);
     }

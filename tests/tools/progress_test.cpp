@@ -57,12 +57,15 @@ TEST(Progress, TheLineFitsEightyColumnsWhateverItTells)
             });
             const std::regex redrawn("\r\033\\[K");
             std::sregex_token_iterator line(text.begin(), text.end(), redrawn, -1), end;
+            int lines = 0;
             for (; line != end; ++line) {
                 const std::string shown = *line;
+                lines += !shown.empty();
                 EXPECT_LT(shown.size(), 80u) << shown;
                 const bool tellsWhatIsLeft = shown.find("left ") != std::string::npos;
                 EXPECT_TRUE(shown.empty() || tellsWhatIsLeft) << shown;
             }
+            EXPECT_GE(lines, 1);
         }
     }
 }

@@ -37,6 +37,10 @@ TEST(RunEstimate, TimeIsScaledToTheWholeShot)
     EXPECT_GE(estimate.stepsTried, 1);
     EXPECT_GT(estimate.wallSeconds, 0.0);
     EXPECT_EQ(estimate.complaint, "");
+    // A hundred times the frames; noise of either run is a factor of a few.
+    const RunEstimate brief = estimateOf({"shot.frames=1001-1003"});
+    EXPECT_GT(estimate.wallSeconds, 10.0 * brief.wallSeconds);
+    EXPECT_LT(estimate.wallSeconds, 1000.0 * brief.wallSeconds);
 }
 
 /// A block that is always there, and four hundred that come within a hundred frames of two hundred.
