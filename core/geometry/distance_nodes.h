@@ -47,7 +47,8 @@ inline constexpr int kBrickValues = kBrickNodes * kBrickNodes * kBrickNodes;
 inline constexpr double kHalfDiagonal = 0.86602540378443864676;  // of a unit cell
 
 /// Where the interpolated value is nearer to zero than this, the mesh is asked [m]: nodes are exact
-/// and distance is 1-Lipschitz, so interpolation is off by at most half a cell's diagonal. One per
+/// and distance is 1-Lipschitz, so interpolation is off by at most half a cell's diagonal
+/// (signed_distance.h). One per
 /// cent more covers single-precision nodes and the contour value tau.
 inline double refinementBandOf(double spacing)
 {

@@ -219,14 +219,14 @@ void requireAffordable(const TriMesh& mesh, const RemeshSettings& settings, cons
     if (voxels <= kMostVoxels + 0.5) return;
     char text[256];
     std::snprintf(text, sizeof text,
-                  "shape '%s': its repair needs a lattice of %.0f voxels along the longest edge, "
-                  "more than the %.0f allowed; %s",
-                  name.c_str(), std::ceil(voxels), kMostVoxels,
+                  "its repair needs a lattice of %.0f voxels along the longest edge, more than the "
+                  "%.0f allowed; %s",
+                  std::ceil(voxels), kMostVoxels,
                   isThick
                       ? "the shell is thicker than the shape is long: is its thickness meant so?"
                   : isShell ? "make the shell thicker or split the shape"
                             : "write a smaller sdf resolution");
-    throw Error(ErrorKind::badInput, text);
+    throw Error(ErrorKind::badInput, "shape '" + name + "': " + text);
 }
 
 }  // namespace
@@ -250,8 +250,9 @@ TriMesh remeshSolid(const TriMesh& mesh, const RemeshSettings& settings, const s
         const TriMesh few = decimatedWithin(solid, kLostVoxels * settings.voxel);
         return findDefects(few, DefectSearch::topology).empty() ? few : solid;
     }
-    requireSolid(solid, name, DefectSearch::topology);
-    return solid;
+    throw Error(ErrorKind::badInput, "shape '" + name + "': its repair finds no clean surface: " +
+                                         describe(findDefects(solid, DefectSearch::topology)) +
+                                         "; try another sdf resolution");
 }
 
 }  // namespace scree

@@ -9,6 +9,7 @@
 #include "core/geometry/mesh_crossings.h"
 #include "core/geometry/mesh_edges.h"
 #include "core/geometry/winding_number.h"
+#include "core/math/point_box.h"
 
 namespace scree {
 namespace {
@@ -51,8 +52,7 @@ void findBrokenNumbers(const TriMesh& mesh, DefectList& defects)
     // Volumes are cubes of lengths and inertia their fifth power: beyond these nothing holds.
     constexpr double kLargest = 1e9, kSmallest = 1e-9;
     if (!defects.isEmpty()) return;
-    const double extent =
-        (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
+    const double extent = boxOf(mesh.points).longestEdge();
     const double farthest = mesh.points.cwiseAbs().maxCoeff();
     const Vec3 place = mesh.points.col(mesh.triangles(0, 0));
     if (farthest > kLargest) defects.add("point farther than 1e9 m from the origin", 0, place);

@@ -6,6 +6,7 @@
 #include "core/geometry/surface_rays.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/geometry/winding_number.h"
+#include "core/math/point_box.h"
 
 namespace scree {
 namespace {
@@ -28,18 +29,13 @@ void visitPoints(const TriMesh& mesh, Eigen::Index triangle, double spacing, con
     }
 }
 
-double longestEdgeOfBox(const TriMesh& mesh)
-{
-    return (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
-}
-
 /// Takes over what lies farther from `surface` than what is known, and is looked at.
 template <class IsLookedAt>
 void look(const TriMesh& from, const TriMesh& surface, bool isFirst, MeshDeviation& farthest,
           const IsLookedAt& isLookedAt)
 {
     const SurfaceRays rays(surface);
-    const double spacing = longestEdgeOfBox(from) / kLooksAlongTheBox;
+    const double spacing = boxOf(from.points).longestEdge() / kLooksAlongTheBox;
     for (Eigen::Index t = 0; t < from.triangles.cols(); ++t) {
         visitPoints(from, t, spacing, [&](const Vec3& p) {
             const Vec3 closest =
@@ -70,7 +66,7 @@ MeshDeviation farthestApartInSight(const TriMesh& drawn, const TriMesh& solid)
     constexpr double kBefore = 1e-6;  // a face, of the box
     constexpr double kWithin = 0.75;  // beside a hole it is a half
     const WindingNumber winding(drawn);
-    const double before = kBefore * longestEdgeOfBox(drawn);
+    const double before = kBefore * boxOf(drawn.points).longestEdge();
     MeshDeviation farthest;
     look(drawn, solid, true, farthest, [&](Eigen::Index triangle, const Vec3& p) {
         const Vec3 out = cornersOf(drawn, triangle).areaVector().normalized();

@@ -6,6 +6,7 @@
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/primitives.h"
 #include "core/math/aabb.h"
+#include "core/math/point_box.h"
 
 namespace scree {
 namespace {
@@ -17,13 +18,6 @@ constexpr double kWall = 0.1;  // of the longest edge
     throw Error(ErrorKind::badInput, "shape '" + name + "' makes no room: " + why);
 }
 
-Aabb boxOf(const TriMesh& mesh)
-{
-    Aabb box;
-    for (const auto point : mesh.points.colwise()) box.include(point);
-    return box;
-}
-
 }  // namespace
 
 RoomSolid wallAround(const TriMesh& room, double wall, const std::string& name)
@@ -33,7 +27,7 @@ RoomSolid wallAround(const TriMesh& room, double wall, const std::string& name)
                "its faces look outward, so that it is full; turn them round in the file, or leave "
                "'repair' out");
     }
-    const Aabb inside = boxOf(room);
+    const Aabb inside = boxOf(room.points);
     RoomSolid solid{{}, wall > 0.0 ? wall : kWall * inside.longestEdge()};
     const Aabb outside = inside.grown(solid.wall);
     TriMesh box = makeBox(outside.max - outside.min, {1, 1, 1});

@@ -15,13 +15,13 @@
 #include "core/geometry/room_solid.h"
 #include "core/geometry/shape_store.h"
 #include "core/geometry/solidified_sheet.h"
+#include "core/math/point_box.h"
 #include "core/math/rotation.h"
 
 namespace scree {
 namespace {
 
-constexpr double kSharpEdge = 40.0 * kPi / 180.0;  // [A6]
-constexpr int kLeastResolution = 48;               // [A4]
+constexpr int kLeastResolution = 48;  // [A4]
 constexpr int kLeastVoxels = 8, kMostResolution = 512;
 constexpr double kVoxelsPerThickness = 12.0;
 constexpr int kMarginCells = 4;                // around the mesh
@@ -118,20 +118,19 @@ double chooseSpacing(const std::string& name, const ShapeSettings& settings, con
     if (settings.voxel &&
         !(resolution > kLeastVoxels - 0.5 && resolution < kMostResolution + 0.5)) {
         std::snprintf(text, sizeof text,
-                      "shape '%s': a voxel of %.4g m makes %.3g of them along its longest edge of "
+                      "a voxel of %.4g m makes %.3g of them along its longest edge of "
                       "%.4g m; a field has %d to %d",
-                      name.c_str(), spacing, resolution, longest, kLeastVoxels, kMostResolution);
-        throw Error(ErrorKind::badInput, text);
+                      spacing, resolution, longest, kLeastVoxels, kMostResolution);
+        throw Error(ErrorKind::badInput, "shape '" + name + "': " + text);
     }
     if (resolution > kMostResolution + 0.5) {
         std::snprintf(
             text, sizeof text,
-            "shape '%s': its thinnest wall of %.4g m needs a field of %.0f voxels along "
+            "its thinnest wall of %.4g m needs a field of %.0f voxels along "
             "its longest edge of %.4g m, more than the %d allowed; thicken the wall, split "
             "the shape, or set sdf = { resolution = %d } and accept a coarser field",
-            name.c_str(), thickness, std::round(resolution), longest, kMostResolution,
-            kMostResolution);
-        throw Error(ErrorKind::badInput, text);
+            thickness, std::round(resolution), longest, kMostResolution, kMostResolution);
+        throw Error(ErrorKind::badInput, "shape '" + name + "': " + text);
     }
     return spacing;
 }
@@ -139,8 +138,7 @@ double chooseSpacing(const std::string& name, const ShapeSettings& settings, con
 /// The spacing of the lattice that a repair draws its surface on.
 double repairVoxel(const TriMesh& mesh, const ShapeSettings& settings)
 {
-    const double longest =
-        (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff();
+    const double longest = boxOf(mesh.points).longestEdge();
     double voxel = longest / settings.resolution.value_or(kRepairResolution);
     if (settings.voxel) voxel = *settings.voxel;
     if (settings.repair == MeshRepair::wrap) return voxel;

@@ -90,9 +90,11 @@ struct Shape {
     Aabb box;                       ///< of the mesh, object frame
     double boundingRadius = 0.0;    ///< of the mesh about the centre of mass [m]
     Vec3 axisRadii = Vec3::Zero();  ///< of the mesh about each axis of the object frame [m]
-    double innerThickness = 0.0;    ///< first percentile of the inscribed-ball diameter [m]  [A16]
-    double commonThickness = 0.0;   ///< tenth percentile of it: without edges; of a plane endless
-    Ball innerBall;                 ///< about as large as any in the solid, object frame [m]
+    /// How far it is through the solid from its faces, inward: the first percentile by area [m].
+    /// [A16], which asks for the largest balls in it at the samples instead.
+    double innerThickness = 0.0;
+    double commonThickness = 0.0;  ///< tenth percentile of it: without edges; of a plane endless
+    Ball innerBall;                ///< about as large as any in the solid, object frame [m]
     bool usesTrueNormals = false;
     Vec3 turnsThatShow = Vec3::Ones();  ///< by axis of the object frame  [revolution.h]
     Capsule capsule;                    ///< that it touches as, or ball; else of radius 0

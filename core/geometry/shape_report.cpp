@@ -11,8 +11,7 @@
 namespace scree {
 namespace {
 
-constexpr double kSharpEdge = 40.0 * kPi / 180.0;  // [A6]
-constexpr double kMostCells = 128.0;               // along the longest edge
+constexpr double kMostCells = 128.0;  // along the longest edge
 
 /// Sums cells, each by the share of it that lies below the surface.
 double fieldVolume(const Shape& shape)

@@ -271,7 +271,7 @@ FacePlace SignedDistance::placeAround(const Vec3& point, double gridValue) const
     const auto reachUpTo = [&](double other) {
         // The closest may fall back by the way that the other comes nearer.
         const double way = 0.5 * (std::min(other, unlisted) - nearest[0].distance);
-        return std::min(way, inBand) - 1e-6 * h;
+        return std::min(way, inBand) - kLengthRounding * h;
     };
     // Two faces are equally near an edge of theirs: only within a face one is the closest by
     // itself.

@@ -5,9 +5,9 @@
 // A trilinear grid rounds edges: where a box's true distance is 0 it reads +h/4 at an edge and +0.4
 // h at a corner, and a stack of ten cubes on such a field falls over at any affordable resolution.
 // So the grid only filters. Its nodes are exact and distance is 1-Lipschitz, hence the interpolated
-// value is off by at most the distance to the farthest corner that has weight, √3/2 h: wherever it
-// reads less than that, the true distance is computed from the few triangles that can be closest in
-// that cell.
+// value is off by at most the weighted mean of the distances to the corners, which is no more than
+// the root of the mean of their squares, √3/2 h at most: wherever it reads less than that, the true
+// distance is computed from the few triangles that can be closest in that cell.
 //
 // Cost on the 320-triangle ring (tests/benchmarks/distance_benchmark.cpp): grid 8 ns a point,
 // refined 20 ns anywhere in its box and 57 ns at the surface.
@@ -82,8 +82,8 @@ public:
     /// cells.
     Vec3 cellGradient(const Vec3& point) const;
 
-    /// Signed distance with its slope: the exact gradient (unit) near the surface, that of the
-    /// trilinear cell elsewhere.
+    /// Signed distance with its slope: the exact gradient (unit) near the surface, central
+    /// differences of the trilinear field elsewhere.
     struct Sloped {
         double value;
         Vec3 gradient;

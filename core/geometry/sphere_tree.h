@@ -38,7 +38,6 @@ public:
 
     /// A few spheres that together hold everything.
     std::span<const Sphere> cover() const { return cover_; }
-    std::span<const std::uint32_t> things() const { return things_; }  ///< as leaves hold them
 
 private:
     struct Node {

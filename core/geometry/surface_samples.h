@@ -10,6 +10,7 @@
 
 #include "core/geometry/sphere_tree.h"
 #include "core/geometry/tri_mesh.h"
+#include "core/math/rotation.h"
 
 namespace scree {
 
@@ -25,6 +26,9 @@ struct SurfaceSamples {
 /// Samples of a mesh without equal points. Edges inside a flat region are left out: what touches
 /// the region there, touches it with a vertex or an edge of its own.
 SurfaceSamples makeSurfaceSamples(const TriMesh& mesh, bool withEdges);
+
+/// Edges sharper than this call for true normals [rad].  [A6]
+inline constexpr double kSharpEdge = 40.0 * kPi / 180.0;
 
 /// The sharpest dihedral angle of the mesh, as the angle between the two normals [rad].
 double sharpestEdge(const TriMesh& mesh);

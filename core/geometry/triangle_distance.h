@@ -41,7 +41,7 @@ inline ClosestOnTriangle closestOnTriangle(const Vec3& p, const TriangleCorners&
 
     // Signed areas opposite each corner; not positive means beyond that edge.
     const double areaC = abAp * acBp - abBp * acAp;
-    if (areaC <= 0.0 && abAp >= 0.0 && abBp <= 0.0) {
+    if (areaC <= 0.0 && abAp >= 0.0 && abBp < 0.0) {
         return {a + abAp / (abAp - abBp) * ab, TriangleFeature::ab};
     }
     const double areaB = abCp * acAp - abAp * acCp;

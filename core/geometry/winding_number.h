@@ -32,7 +32,7 @@ private:
     int build(int begin, int end);
     void addSolidAngle(int triangle, const Vec3& point, AngleSum& sum) const;
 
-    const TriMesh mesh_;
+    TriMesh mesh_;
     Points centroids_;
     std::vector<int> order_;
     std::vector<Node> nodes_;

@@ -38,7 +38,8 @@ double cosineKernel(double y)
 
 void sinCos(double x, double& sine, double& cosine)
 {
-    // π/2 in three pieces of 33 bits: products with the quadrant number are exact for |x| ≤ 1e6.
+    // π/2 in three pieces, the first two of 33 bits: their products with the quadrant number are
+    // exact for |x| ≤ 1e6.
     constexpr double kHalfPi1 = 1.57079632673412561417;
     constexpr double kHalfPi2 = 6.07710050630396597660e-11;
     constexpr double kHalfPi3 = 2.02226624879595063154e-21;
@@ -68,7 +69,7 @@ void sinCos(double x, double& sine, double& cosine)
 
 double arcTangent(double x)
 {
-    // Halve the angle three times, then the series converges fast: |y| ≤ tan(π/16) ≈ 0.199.
+    // Halve the angle twice, then the series converges fast: |y| ≤ tan(π/16) ≈ 0.199.
     double y = x;
     if (!(y < 1e300)) return kPi / 2.0;
     const bool large = y > 1.0;

@@ -13,7 +13,7 @@ inline constexpr double kPi = 3.14159265358979323846;
 /// Sine and cosine of x [rad], |x| ≤ 1e6, within 1 ulp or so of the true values.
 void sinCos(double x, double& sine, double& cosine);
 
-/// Arc tangent of x ≥ 0 [rad], for weights at load time.
+/// Arc tangent of x ≥ 0 [rad]; π/2 of what is no number.
 double arcTangent(double x);
 
 /// Angle between two vectors of any non-zero length [rad], accurate for small and straight angles.

@@ -35,6 +35,21 @@ double plainDistance(const TriMesh& mesh, const Vec3& p)
     return angle > 2.0 * std::numbers::pi ? -nearest : nearest;
 }
 
+// Of two equal corners the edge between them has no direction: the place was no number.
+TEST(ClosestOnTriangle, WithoutAreaItIsOnAnEdgeOrACorner)
+{
+    for (std::uint64_t draw = 0; draw < 1000; ++draw) {
+        const Vec3 p = signedUnits(draw, 0), q = signedUnits(draw, 3), r = signedUnits(draw, 6);
+        const double t = std::clamp((p - q).dot(r - q) / (r - q).squaredNorm(), 0.0, 1.0);
+        const double expected = (p - q - t * (r - q)).norm();
+        for (const TriangleCorners& corners :
+             {TriangleCorners{q, q, r}, TriangleCorners{q, r, r}, TriangleCorners{q, r, q}}) {
+            EXPECT_NEAR((closestOnTriangle(p, corners).point - p).norm(), expected, 1e-12) << draw;
+        }
+        EXPECT_EQ(closestOnTriangle(p, {q, q, q}).point, q);
+    }
+}
+
 TEST(E21SignedDistance, ACavityIsOutsideAndWhatLiesInItIsInside)  // [A4]
 {
     // A ball of radius 1 with a cavity of 0.7, in which a ball of 0.3 lies.
