@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <utility>
 
 #include "core/math/rotation.h"
 
@@ -55,6 +54,12 @@ struct Place {
     double height;           // of its gap above the lowest [m]
 };
 
+/// A contact that is in no group yet.
+struct Ungrouped {
+    std::size_t contact;
+    Vec3 normal;
+};
+
 /// Marks what the contacts of one normal need.
 void markHull(const std::vector<GapContact>& contacts, std::vector<Place>& group,
               const Mat3& worldFromBody, double size, std::vector<char>& isKept)
@@ -96,20 +101,19 @@ void keepOfGroups(std::vector<GapContact>& contacts, std::size_t first, const Ma
 {
     thread_local std::vector<char> isKept;
     thread_local std::vector<Place> group;
-    thread_local std::vector<std::pair<std::size_t, Vec3>>
-        left;  // in no group yet, with its normal
+    thread_local std::vector<Ungrouped> left;
     isKept.assign(contacts.size(), 0);
     left.clear();
     for (std::size_t i = first; i < contacts.size(); ++i) left.push_back({i, contacts[i].normal});
     while (!left.empty()) {
-        const auto [leader, normal] = left[0];
+        const auto [leader, normal] = left.front();
         group.assign(1, {leader, Eigen::Vector2d::Zero(), 0.0});
         std::size_t stay = 0;
-        for (const auto& one : std::span(left).subspan(1)) {
-            if (normal.dot(one.second) < oneNormal)
+        for (const Ungrouped& one : std::span(left).subspan(1)) {
+            if (normal.dot(one.normal) < oneNormal)
                 left[stay++] = one;
             else
-                group.push_back({one.first, Eigen::Vector2d::Zero(), 0.0});
+                group.push_back({one.contact, Eigen::Vector2d::Zero(), 0.0});
         }
         left.resize(stay);
         if (group.size() > kFew) {
