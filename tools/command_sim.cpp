@@ -13,6 +13,7 @@
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
+#include "io/frame_pattern.h"
 #include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "io/subframes.h"
@@ -345,7 +346,9 @@ private:
         for (const std::string& ending : shot_.output.exports) {
             const std::filesystem::path output = defaultExport(reader, ending);
             std::error_code ignored;
-            if (!hasNewFrames && std::filesystem::exists(output, ignored)) continue;
+            // Of a sequence the last file is written last.
+            const std::string last = framePath(output.string(), shot_.lastFrame);
+            if (!hasNewFrames && std::filesystem::exists(last, ignored)) continue;
             // Without progress of its own: the simulation's has reached the end and must not go
             // back.
             if (!exportTake(reader, reader.frames(), output, console_, ProgressMode::none))

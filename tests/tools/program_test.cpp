@@ -515,6 +515,27 @@ TEST_F(ProgramTest, AStopIsHeededWithinSecondsInsideOfOneField)
     EXPECT_FALSE(fs::exists(take("slow")));
 }
 
+// Every resume of a finished take wrote all of a sequence anew.
+TEST_F(ProgramTest, ExportsThatAreThereAreNotWrittenAgainByAResume)
+{
+    const std::vector<std::string> command = {"sim",     shot(),
+                                              "-o",      take("t"),
+                                              "--set",   "output.export=[\"obj\", \"abc\"]",
+                                              "--set",   "shot.frames=\"1001-1003\"",
+                                              "--resume"};
+    ASSERT_EQ(runScree(command).code, 0);
+    const std::string sequence = take("t") + "/exports/boxes.", cache = sequence + "abc";
+    writeFileBytes(sequence + "1002.obj", "mine");
+    writeFileBytes(cache, "mine");
+    ASSERT_EQ(runScree(command).code, 0);
+    EXPECT_EQ(readFileBytes(sequence + "1002.obj"), "mine");
+    EXPECT_EQ(readFileBytes(cache), "mine");
+    fs::remove(sequence + "1003.obj");
+    ASSERT_EQ(runScree(command).code, 0);
+    EXPECT_NE(readFileBytes(sequence + "1002.obj"), "mine") << "a sequence cut short is written";
+    EXPECT_GT(fs::file_size(sequence + "1003.obj"), 100u);
+}
+
 TEST_F(ProgramTest, TakesOfOneMotionAreTheSameWhateverElseTheirShotsAskFor)
 {
     ASSERT_EQ(runScree({"sim", shot(), "-o", take("a"), "--frames", "1003"}).code, 0);
