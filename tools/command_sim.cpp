@@ -404,7 +404,7 @@ int simulate(const SimOptions& options, Console& console)
     try {
         return SimRun(options, console).run();
     } catch (const Stopped&) {
-        console.info("stopped before the first frame; nothing was written: run the same again");
+        console.info(kStoppedBeforeFrames);
         return kExitStopped;
     }
 }

@@ -17,11 +17,10 @@ namespace {
 
 constexpr std::size_t kLongestBar = 24, kShortestBar = 6;  ///< without its brackets
 constexpr std::size_t kUsualColumns = 80;                  ///< where the terminal does not say
-constexpr double kLeastShare = 0.1;      ///< of a frame that tells what a whole one costs
-constexpr double kRedrawSeconds = 0.1;   ///< a terminal
-constexpr double kChattySeconds = 1.0;   ///< between lines for a farm inside one frame
-constexpr double kSilentSeconds = 45.0;  ///< a farm takes a minute of silence for a hang
-constexpr double kRecentWeight = 0.2;    ///< of the newest frame in the running mean
+constexpr double kLeastShare = 0.1;     ///< of a frame that tells what a whole one costs
+constexpr double kRedrawSeconds = 0.1;  ///< a terminal
+constexpr double kChattySeconds = 1.0;  ///< between lines for a farm inside one frame
+constexpr double kRecentWeight = 0.2;   ///< of the newest frame in the running mean
 
 std::string bar(double share, std::size_t width)
 {
@@ -105,11 +104,11 @@ void Progress::show(int frame, double done, bool isFrameDone)
     done_ = std::max(done_, std::min(done, static_cast<double>(frameCount_)));
     const int percent = static_cast<int>(100.0 * done_ / frameCount_);
     const bool isNews = percent > percent_;
-    const bool isDue =
-        mode_ == ProgressMode::tty ? silent > kRedrawSeconds || isFrameDone
-        : mode_ == ProgressMode::json
-            ? isFrameDone || silent > kSilentSeconds
-            : (isNews && (isFrameDone || silent > kChattySeconds)) || silent > kSilentSeconds;
+    const bool isDue = mode_ == ProgressMode::tty ? silent > kRedrawSeconds || isFrameDone
+                       : mode_ == ProgressMode::json
+                           ? isFrameDone || silent > kLongestSilence.count()
+                           : (isNews && (isFrameDone || silent > kChattySeconds)) ||
+                                 silent > kLongestSilence.count();
     percent_ = std::max(percent_, percent);
     if (!isDue) return;
     shown_ = now;

@@ -10,6 +10,9 @@
 
 namespace scree {
 
+/// Between two words of what takes long: a farm takes a minute of silence for a hang.
+inline constexpr std::chrono::seconds kLongestSilence{45};
+
 enum class ProgressMode { automatic, tty, alf, json, none };
 
 /// "auto", "tty", "alf", "json" or "none"; throws Error{usage}.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tools/exit_code.h"
+#include "tools/progress.h"
 #include "tools/stop_signals.h"
 
 namespace scree {
@@ -15,8 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Until it is told what takes so long, and again: a farm takes a minute of silence for a hang.
-constexpr std::chrono::seconds kUntilFirstWord{3}, kBetweenWords{45};
+/// Until it is told what takes so long.
+constexpr std::chrono::seconds kUntilFirstWord{3};
 /// A field of half a thousand voxels takes half a minute, and no part of it asks for signals: who
 /// asked to stop would be killed before.
 constexpr std::chrono::seconds kPatience{2};
@@ -94,7 +95,7 @@ private:
             if (stopRequested() && stopBy == Clock::time_point{}) stopBy = now + kPatience;
             if (stopBy != Clock::time_point{} && now > stopBy) end();
             if (now < nextWord) continue;
-            nextWord = now + kBetweenWords;
+            nextWord = now + kLongestSilence;
             const std::lock_guard guard(speaking_);
             console_.info(std::exchange(word, "still making the shapes of the shot"));
         }
@@ -103,7 +104,7 @@ private:
     [[noreturn]] void end()
     {
         const std::lock_guard guard(speaking_);
-        console_.info("stopped; nothing was written");
+        console_.info(kStoppedBeforeFrames);
         std::_Exit(kExitStopped);
     }
 

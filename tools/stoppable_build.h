@@ -7,6 +7,10 @@
 
 namespace scree {
 
+/// What a run says that is stopped meanwhile.
+inline constexpr const char* kStoppedBeforeFrames =
+    "stopped before the first frame; nothing was written: run the same again";
+
 /// For when there is nothing to save yet: says so to who asks for it, and throws Stopped.
 void heedEarlySignals(Console& console);
 

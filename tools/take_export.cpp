@@ -11,13 +11,6 @@
 #include "tools/take_painter.h"
 
 namespace scree {
-namespace {
-
-/// Where no progress is shown: a farm takes a minute of silence for a hang.
-constexpr std::chrono::seconds kBetweenWords{45};
-
-}  // namespace
-
 bool exportTake(const TakeReader& take, const std::vector<int>& frames,
                 const std::filesystem::path& output, Console& console, ProgressMode progress)
 {
@@ -50,7 +43,7 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
             writer->write(take.readFrame(frame));
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
         shown.frameDone(frame, taken.count());
-        if (progress != ProgressMode::none || started - lastWord < kBetweenWords) continue;
+        if (progress != ProgressMode::none || started - lastWord < kLongestSilence) continue;
         lastWord = started;
         console.info("still writing " + output.string() + ": frame " + std::to_string(frame) +
                      " of " + describeFrames(frames));

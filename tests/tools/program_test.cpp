@@ -473,14 +473,20 @@ TEST_F(ProgramTest, TheCommandThatIsPrintedGoesOnInAShell)
     EXPECT_EQ(listFrames({spaced + "/take"}).back(), 1040);
 }
 
+/// A ring whose field takes long.
+std::string slowShot(const std::string& segments, int resolution)
+{
+    return test::shotTextOf(
+        {.name = "slow", .frames = "1001-1002"},
+        "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = " + segments +
+            " }\nsdf = { resolution = " + std::to_string(resolution) + " }\n" +
+            test::bodyText("ring", "position = [0, 3, 0]", "ring"));
+}
+
 // The field of this ring takes seconds; signals before the first frame ended the program unheard.
 TEST_F(ProgramTest, SignalsAreHeededWhileTheWorldIsBuilt)
 {
-    std::ofstream(take("slow.toml")) << test::shotTextOf(
-        {.name = "slow", .frames = "1001-1002"},
-        "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = [400, 200] }\n"
-        "sdf = { resolution = 300 }\n" +
-            test::bodyText("ring", "position = [0, 3, 0]", "ring"));
+    std::ofstream(take("slow.toml")) << slowShot("[400, 200]", 300);
     for (const int number : {SIGUSR1, SIGTERM}) {
         Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache"});
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -497,11 +503,7 @@ TEST_F(ProgramTest, SignalsAreHeededWhileTheWorldIsBuilt)
 // One field takes half a minute, and asked nobody meanwhile: a farm kills what does not stop.
 TEST_F(ProgramTest, AStopIsHeededWithinSecondsInsideOfOneField)
 {
-    std::ofstream(take("slow.toml")) << test::shotTextOf(
-        {.name = "slow", .frames = "1001-1002"},
-        "[shape.ring]\ntorus = { major = 1, minor = 0.3, segments = [512, 512] }\n"
-        "sdf = { resolution = 512 }\n" +
-            test::bodyText("ring", "position = [0, 3, 0]", "ring"));
+    std::ofstream(take("slow.toml")) << slowShot("[512, 512]", 512);
     const auto begun = std::chrono::steady_clock::now();
     Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache", "--threads", "1"});
     std::this_thread::sleep_for(std::chrono::milliseconds(4000));
@@ -511,6 +513,7 @@ TEST_F(ProgramTest, AStopIsHeededWithinSecondsInsideOfOneField)
     EXPECT_EQ(outcome.code, 75) << outcome.err;
     EXPECT_NE(outcome.err.find("making the shapes of the shot\n"), std::string::npos)
         << outcome.err;
+    EXPECT_NE(outcome.err.find("stopped before the first frame"), std::string::npos) << outcome.err;
     EXPECT_LT(taken.count(), 15.0);
     EXPECT_FALSE(fs::exists(take("slow")));
 }
