@@ -47,13 +47,19 @@ std::string knownEndings()
     return list;
 }
 
-/// The row for the ending of `output`.
-const Format& formatOf(const fs::path& output)
+/// The row for the ending of `output`; null if there is none.
+const Format* findFormat(const fs::path& output)
 {
     const std::string name = inSmallLetters(output.filename().string());
     for (const Format& format : kFormats) {
-        if (name.size() > format.ending.size() && name.ends_with(format.ending)) return format;
+        if (name.size() > format.ending.size() && name.ends_with(format.ending)) return &format;
     }
+    return nullptr;
+}
+
+const Format& formatOf(const fs::path& output)
+{
+    if (const Format* format = findFormat(output)) return *format;
     throw Error(ErrorKind::usage, "cannot export to \"" + output.string() +
                                       "\": expected a name ending in " + knownEndings());
 }
@@ -184,6 +190,16 @@ void FrameWriter::finish()
                 std::to_string(framesLeft_) + " announced frames were not written");
     finishScene();
     scene_ = nullptr;
+}
+
+bool isExportable(const fs::path& output)
+{
+    return findFormat(output) != nullptr;
+}
+
+bool isFrameSequence(const fs::path& output)
+{
+    return formatOf(output).isSequence;
 }
 
 std::unique_ptr<FrameWriter> makeFrameWriter(const fs::path& output)

@@ -62,6 +62,12 @@ private:
     int framesLeft_ = 0;
 };
 
+/// Whether there is a writer for the ending of `output`.
+bool isExportable(const std::filesystem::path& output);
+
+/// Whether that writes a file for each frame. Throws Error{usage} as makeFrameWriter does.
+bool isFrameSequence(const std::filesystem::path& output);
+
 /// The writer for the ending of `output`: "out.abc", "out.usda" and "out.instances.usda",
 /// "out.glb", "out.####.obj", "out.####.ply", "out.####.pov". Throws Error{usage} for an unknown
 /// ending (the message lists the known ones), for a sequence without a place for the frame number,

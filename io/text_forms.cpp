@@ -1,5 +1,7 @@
 #include "io/text_forms.h"
 
+#include <cstdio>
+
 namespace scree {
 
 std::string inSmallLetters(std::string text)
@@ -16,6 +18,13 @@ std::string shortened(const std::string& text, std::size_t longest)
     // What goes on with a character begins with the bits 10.
     while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
     return text.substr(0, length) + "...";
+}
+
+std::string formatted(const char* format, double a, double b)
+{
+    char text[160];
+    std::snprintf(text, sizeof text, format, a, b);
+    return text;
 }
 
 std::string toHex(std::uint64_t value)

@@ -14,6 +14,9 @@ std::string inSmallLetters(std::string text);
 /// inside one.
 std::string shortened(const std::string& text, std::size_t longest);
 
+/// One or two numbers in a short phrase, in the format of printf.
+std::string formatted(const char* format, double a, double b = 0.0);
+
 /// Sixteen digits.
 std::string toHex(std::uint64_t value);
 

@@ -1,7 +1,6 @@
 // Shot → one pose: drop props, run until all is at rest, keep where they lie.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -24,8 +23,10 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/repair_report.h"
 #include "tools/rolling_advice.h"
 #include "tools/settled_poses.h"
+#include "tools/shot_warnings.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
 #include "tools/stoppable_build.h"
@@ -83,12 +84,8 @@ double endOfEvents(const World& world)
 /// Asked before anything is simulated: a slip in a name must not cost the run.
 void requirePoseFormat(const std::string& output)
 {
-    constexpr std::array<const char*, 8> kEndings = {".poses", ".json", ".usda", ".abc",
-                                                     ".glb",   ".obj",  ".ply",  ".pov"};
-    if (std::any_of(kEndings.begin(), kEndings.end(),
-                    [&](const char* ending) { return inSmallLetters(output).ends_with(ending); })) {
-        return;
-    }
+    const std::string name = inSmallLetters(output);
+    if (name.ends_with(".poses") || name.ends_with(".json") || isExportable(name)) return;
     throw Error(ErrorKind::usage, "cannot write a pose to '" + output +
                                       "': expected a name ending in .poses, .json, .usda, "
                                       ".abc, .glb, .obj, .ply or .pov");

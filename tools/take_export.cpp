@@ -54,9 +54,9 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
 
 std::filesystem::path defaultExport(const TakeReader& take, const std::string& ending)
 {
-    const bool isSequence = ending == "obj" || ending == "ply" || ending == "pov";
-    return take.paths().root / "exports" /
-           (take.info().name + (isSequence ? ".####." : ".") + ending);
+    const std::string& name = take.info().name;
+    const char* number = isFrameSequence(name + "." + ending) ? ".####." : ".";
+    return take.paths().root / "exports" / (name + number + ending);
 }
 
 void createFolderOf(const std::filesystem::path& file, Console& console)

@@ -11,6 +11,8 @@ namespace scree {
 inline void fetchLines(const void* begin, const void* end)
 {
     constexpr std::ptrdiff_t kLine = 64;
+    // Without it g++ 12 takes this for a function that does nothing, and leaves out its calls.
+    asm volatile("");
     for (auto p = static_cast<const char*>(begin); p < end; p += kLine) __builtin_prefetch(p);
 }
 

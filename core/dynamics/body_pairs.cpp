@@ -10,7 +10,7 @@ namespace {
 
 const MaterialPair* exceptionFor(const World& world, BodyPair bodies)
 {
-    const MaterialId a = world.info[bodies.a].material, b = world.info[bodies.b].material;
+    const MaterialId a = world.traits[bodies.a].material, b = world.traits[bodies.b].material;
     for (const MaterialPair& pair : world.materialPairs) {
         if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return &pair;
     }
@@ -35,13 +35,13 @@ PairSurface surfaceOf(const World& world, const StepSettings& settings, BodyPair
 
 bool acceptEachOther(const World& world, BodyPair bodies)
 {
-    const CollisionGroups &a = world.info[bodies.a].groups, &b = world.info[bodies.b].groups;
+    const CollisionGroups &a = world.traits[bodies.a].groups, &b = world.traits[bodies.b].groups;
     return (a.collidesWith & b.group) && (b.collidesWith & a.group);
 }
 
 bool isUnmovedBy(const World& world, BodyId body, BodyId other)
 {
-    return (world.info[body].groups.unmovedBy & world.info[other].groups.group) != 0;
+    return (world.traits[body].groups.unmovedBy & world.traits[other].groups.group) != 0;
 }
 
 bool mayCollide(const World& world, BodyPair bodies)

@@ -141,8 +141,10 @@ private:
         part.rows.clear();
         part.bodies.clear();
         part.tally = {};
-        for (const std::size_t i : pairs) {
-            const GapPair& pair = scratch_.pairs[i];
+        for (std::size_t n = 0; n < pairs.size(); ++n) {
+            fetchRowsAfter(world_, scratch_, pairs, n);
+            fetchPushedAfter(pairs, n);
+            const GapPair& pair = scratch_.pairs[pairs[n]];
             if (deep_.isLookedAt(pair)) continue;
             takeUpBodies(pair.bodies, part.bodies);
             const double left = leftAlone(pair.bodies);
@@ -153,6 +155,14 @@ private:
                 part.tally.pushes += deeper > 0.0;
             }
         }
+    }
+
+    void fetchPushedAfter(std::span<const std::size_t> pairs, std::size_t n) const
+    {
+        if (n + kPairsAhead >= pairs.size()) return;
+        const auto [a, b] = scratch_.pairs[pairs[n + kPairsAhead]].bodies;
+        fetchLines(&bodies_[a], &bodies_[a] + 1);
+        fetchLines(&bodies_[b], &bodies_[b] + 1);
     }
 
     void takeUpBodies(BodyPair pair, std::vector<BodyId>& taken)

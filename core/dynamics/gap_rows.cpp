@@ -173,6 +173,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
                                       scratch.pairs[block.pairs[begin]].bodies, isBefore);
         for (std::size_t i = begin; i < end; ++i) {
             fetchContactsAfter(scratch, block.pairs[i]);
+            fetchRowsAfter(world, scratch, block.pairs, i);
             GapPair& pair = scratch.pairs[block.pairs[i]];
             const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
             const auto [a, b] = pair.bodies;

@@ -225,12 +225,32 @@ void forRows(const GapScratch& scratch, std::span<const std::size_t> pairs, cons
     }
 }
 
-/// Fetches the contacts of a pair that follows the i-th soon, for loops that read them.
+/// How many pairs ahead loops over them fetch. Only time depends on it.
+inline constexpr std::size_t kPairsAhead = 4;
+
+/// Fetches the contacts of a pair that follows the i-th soon, for loops that read them; and before,
+/// of one that follows later, where these are.
 inline void fetchContactsAfter(const GapScratch& scratch, std::size_t i)
 {
-    constexpr std::size_t kPairsAhead = 4;
-    if (i + kPairsAhead >= scratch.pairs.size()) return;
+    if (i + 2 * kPairsAhead >= scratch.pairs.size()) return;
+    const NearPair* later = &scratch.nearPairs[scratch.pairs[i + 2 * kPairsAhead].nearPair];
+    fetchLines(later, later + 1);
     fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
+}
+
+/// Fetches the bodies and the rows of a pair that follows the n-th of these soon.
+inline void fetchRowsAfter(const World& world, const GapScratch& scratch,
+                           std::span<const std::size_t> pairs, std::size_t n)
+{
+    if (n + kPairsAhead >= pairs.size()) return;
+    const GapPair& pair = scratch.pairs[pairs[n + kPairsAhead]];
+    for (const BodyId id : {pair.bodies.a, pair.bodies.b}) {
+        fetchLines(&scratch.bodies[id], &scratch.bodies[id].torque);
+        fetchLines(&world.motion[id], &world.motion[id] + 1);
+        fetchLines(&world.traits[id], &world.traits[id] + 1);
+    }
+    const GapRow* rows = scratch.rows.data();
+    fetchLines(rows + pair.begin, rows + pair.end);
 }
 
 }  // namespace scree

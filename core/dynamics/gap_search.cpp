@@ -31,9 +31,6 @@ constexpr std::size_t kPairsTogether = 512;
 /// of few: a fine nut on its bolt takes milliseconds.
 constexpr std::size_t kPairsAskedTogether = 32, kAsksToShare = 16;
 
-/// How many pairs ahead contacts are fetched. Only time depends on it.
-constexpr std::size_t kPairsAhead = 6;
-
 GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
 {
     const BodyMotion& motion = world.motion[id];
@@ -262,7 +259,7 @@ void answer(const World& world, const GapScratch& scratch, std::span<const Quest
         seeApart(world, scratch, apart, *pair);
         pair->contacts.assign(found.begin(), found.end());
         if (found.empty()) pair->contacts.shrink_to_fit();
-        pair->depth = deepestOf(pair->contacts);
+        pair->depth = deepestOf(found);
     }
 }
 

@@ -34,6 +34,14 @@ bool anyAsleep(const World& world)
     return std::ranges::any_of(world.contactMemory.rest, &BodyRest::isAsleep);
 }
 
+/// Per body whether it sleeps: for loops over contacts, which would fetch two whole BodyRest each.
+std::vector<char> sleepersOf(const World& world)
+{
+    std::vector<char> sleeps(world.bodyCount(), 0);
+    std::ranges::transform(world.contactMemory.rest, sleeps.begin(), &BodyRest::isAsleep);
+    return sleeps;
+}
+
 void wake(World& world, BodyId body)
 {
     BodyRest& rest = world.contactMemory.rest[body];
@@ -78,10 +86,11 @@ bool wakeAround(World& world, const std::vector<BodyId>& roots)
 /// The sleepers that have rows in this step, in order.
 std::vector<BodyId> touchedSleepers(const World& world, const GapScratch& scratch)
 {
+    const std::vector<char> sleeps = sleepersOf(world);
     std::vector<BodyId> touched;
     for (const GapPair& pair : scratch.pairs) {
         for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {
-            if (world.contactMemory.isAsleep(body)) touched.push_back(body);
+            if (sleeps[body]) touched.push_back(body);
         }
     }
     sortUnique(touched);
@@ -139,12 +148,13 @@ bool isBlow(const World& world, double dt, BodyId body, const ContactLoad& load,
 
 /// Adds the sleepers that something leaves which a script moves, or that it lets go: it comes no
 /// closer to them, so that no contact would tell.
-void addWhoIsLeft(const World& world, const GapScratch& scratch, std::vector<BodyId>& roots)
+void addWhoIsLeft(const World& world, const GapScratch& scratch, const std::vector<char>& sleeps,
+                  std::vector<BodyId>& roots)
 {
     for (const RememberedContact& contact : world.contactMemory.contacts) {
         const auto [a, b] = bodiesOf(contact);
         for (const auto& [sleeper, other] : {std::pair{a, b}, std::pair{b, a}}) {
-            if (!world.contactMemory.isAsleep(sleeper)) continue;
+            if (!sleeps[sleeper]) continue;
             const bool isLetGo = contact.force.isZero(0.0) && scratch.bodies[other].isMovable();
             if (isLetGo || isDriven(scratch.bodies[other])) roots.push_back(sleeper);
         }
@@ -168,7 +178,7 @@ bool willTouch(const World& world, double dt, const GapScratch& scratch, const N
 /// Adds the sleepers that would not learn of a touch by their loads: what bears on nothing yet, and
 /// what is touched by a body that it may not move, which has to give way.
 void addWhoIsTouched(const World& world, double dt, const GapScratch& scratch,
-                     std::vector<BodyId>& roots)
+                     const std::vector<char>& sleeps, std::vector<BodyId>& roots)
 {
     std::vector<char> bears(world.bodyCount(), 0);
     for (const RememberedContact& contact : world.contactMemory.contacts) {
@@ -177,9 +187,8 @@ void addWhoIsTouched(const World& world, double dt, const GapScratch& scratch,
     for (const std::size_t i : scratch.toAsk) {
         const NearPair& pair = scratch.nearPairs[i];
         const auto [a, b] = pair.bodies;
-        const bool aSleeps = world.contactMemory.isAsleep(a);
-        if (aSleeps == world.contactMemory.isAsleep(b)) continue;
-        const BodyId sleeper = aSleeps ? a : b, other = aSleeps ? b : a;
+        if (sleeps[a] == sleeps[b]) continue;
+        const BodyId sleeper = sleeps[a] ? a : b, other = sleeps[a] ? b : a;
         const bool mustGiveWay =
             isDriven(scratch.bodies[other]) || isUnmovedBy(world, other, sleeper);
         if (bears[sleeper] && !mustGiveWay) continue;
@@ -205,8 +214,9 @@ bool wakeByTouch(World& world, double dt, const GapScratch& scratch)
 {
     if (!anyAsleep(world)) return false;
     std::vector<BodyId> roots;
-    addWhoIsLeft(world, scratch, roots);
-    addWhoIsTouched(world, dt, scratch, roots);
+    const std::vector<char> sleeps = sleepersOf(world);
+    addWhoIsLeft(world, scratch, sleeps, roots);
+    addWhoIsTouched(world, dt, scratch, sleeps, roots);
     return wakeAround(world, roots);
 }
 

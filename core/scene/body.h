@@ -1,5 +1,6 @@
 // Bodies as plain data. A body is one index (BodyId) into parallel arrays, ordered by how often
-// they are touched: BodyMotion and BodyMass by every impulse, BodyInfo a few times a step.
+// they are touched: BodyMotion and BodyMass by every impulse, BodyTraits by every pair, BodyInfo a
+// few times a step.
 #pragma once
 
 #include <cstdint>
@@ -95,16 +96,20 @@ struct CollisionGroups {
     std::uint64_t unmovedBy = 0;  ///< to these the body is of infinite mass: it moves them only
 };
 
+/// What every pair is asked about: small, so that those of a large world stay in the cache.
+struct BodyTraits {
+    ShapeId shape = 0;
+    MaterialId material = 0;
+    CollisionGroups groups;
+};
+
 /// What a step rarely needs.
 struct BodyInfo {
     std::string name;  ///< unique in the world
-    ShapeId shape = 0;
-    MaterialId material = 0;
     BodyKind kind = BodyKind::dynamic;
     double freeInverseMass = 0.0;  ///< [1/kg] while it is dynamic; 0 for what is always static
-    CollisionGroups groups;
-    Vec3 force = Vec3::Zero();   ///< constant, at the centre of mass [N]
-    Vec3 torque = Vec3::Zero();  ///< constant, world axes [N m]
+    Vec3 force = Vec3::Zero();     ///< constant, at the centre of mass [N]
+    Vec3 torque = Vec3::Zero();    ///< constant, world axes [N m]
 
     // Its motion while it is keyed: in the frames keyedFrom … keyedUntil − 1 since time zero.
     std::shared_ptr<const MotionScript> script;  ///< of the asset; null: never keyed

@@ -27,11 +27,8 @@ BodyInfo describe(const BodyDefinition& definition, double freeInverseMass)
 {
     BodyInfo described;
     described.name = definition.name;
-    described.shape = definition.shape;
-    described.material = definition.material;
     described.kind = definition.kind;
     described.freeInverseMass = freeInverseMass;
-    described.groups = definition.groups;
     described.force = definition.force;
     described.torque = definition.torque;
     described.script = definition.script;
@@ -88,6 +85,7 @@ BodyId World::addBody(const BodyDefinition& definition)
     motion.push_back(state);
     mass.push_back(inertia);
     bornAt.push_back(definition.birth ? kUnborn : 0);
+    traits.push_back({definition.shape, definition.material, definition.groups});
     info.push_back(describe(definition, inertia.inverseMass));
     order.push_back(id);
     if (definition.kind == BodyKind::keyed) {

@@ -64,8 +64,8 @@ public:
     BodyId addBody(const BodyDefinition& definition);
 
     std::size_t bodyCount() const { return motion.size(); }
-    const Shape& shapeOf(BodyId body) const { return *shapes_[info[body].shape]; }
-    const Material& materialOf(BodyId body) const { return materials_[info[body].material]; }
+    const Shape& shapeOf(BodyId body) const { return *shapes_[traits[body].shape]; }
+    const Material& materialOf(BodyId body) const { return materials_[traits[body].material]; }
 
     /// Time since the start of the shot [s], and that of the frame's beginning plus `later`.
     double time(double later = 0.0) const
@@ -107,6 +107,7 @@ public:
 
     std::vector<BodyMotion> motion;
     std::vector<BodyMass> mass;
+    std::vector<BodyTraits> traits;
     std::vector<BodyInfo> info;
     std::vector<BodyId> order;  ///< a permutation of the bodies: the order of processing  [A21]
     std::vector<std::int32_t> bornAt;  ///< frames since time zero, or kUnborn, kSkipped

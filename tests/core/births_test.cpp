@@ -93,7 +93,7 @@ TEST_F(Births, WhatPassesThroughItIsNotInItsWay)  // [A57]
 {
     const BodyId first = addCube(Vec3(0.0, 5.0, 0.0), 0, BirthClearance::wait);
     const BodyId second = addCube(Vec3(0.2, 5.0, 0.0), 0, BirthClearance::wait);
-    world.info[first].groups.collidesWith = 0;
+    world.traits[first].groups.collidesWith = 0;
     EXPECT_EQ(giveBirths(world).born, 2);
     EXPECT_TRUE(world.isBorn(second));
 }

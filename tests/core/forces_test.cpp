@@ -180,8 +180,8 @@ World throwAt(const CollisionGroups& thrown, const CollisionGroups& target, doub
     addBody(world, boxShape(Vec3::Ones(), 2), material, {{-2.0, 0.0, 0.0}, Quat::Identity()}, mass,
             {3.0, 0.0, 0.0});
     addBody(world, boxShape(Vec3::Ones(), 2), material, {Vec3::Zero(), Quat::Identity()});
-    world.info[0].groups = thrown;
-    world.info[1].groups = target;
+    world.traits[0].groups = thrown;
+    world.traits[1].groups = target;
     return world;
 }
 

@@ -145,8 +145,8 @@ TEST(GapPairs, GroupsThatDoNotCollidePassThroughEachOther)  // [A57]
         addBody(world, boxShape(Vec3::Ones(), 2), material,
                 {{3.0 * i, 1.0, 0.0}, Quat::Identity()});
     }
-    world.info[2].groups.group = 2;
-    world.info[2].groups.collidesWith = 2;
+    world.traits[2].groups.group = 2;
+    world.traits[2].groups.collidesWith = 2;
     runFrames(world, screeSettings(), 1.0);
     EXPECT_NEAR(world.motion[1].position.y(), 0.5, 1e-6);
     EXPECT_LT(world.motion[2].position.y(), -3.0);
@@ -161,8 +161,8 @@ TEST(GapPairs, WhatAnotherDoesNotMoveWakesItAndPushesItAsIfInfinitelyHeavy)  // 
         addBody(world, boxShape(Vec3::Ones(), 2), ice, {{0.0, 0.5, 0.0}, Quat::Identity()}, 50.0);
     const BodyId hero = addBody(world, boxShape(Vec3::Ones(), 2), ice,
                                 {{-4.0, 0.5, 0.0}, Quat::Identity()}, 1.0, {3.0, 0.0, 0.0});
-    world.info[debris].groups.group = 2;
-    world.info[hero].groups.unmovedBy = 2;
+    world.traits[debris].groups.group = 2;
+    world.traits[hero].groups.unmovedBy = 2;
     runFrames(world, screeSettings(), 0.9);
     ASSERT_TRUE(world.contactMemory.isAsleep(debris));
     runFrames(world, screeSettings(), 1.0);
@@ -180,8 +180,8 @@ TEST(GapPairs, WhatLiesOnASleeperThatDoesNotMoveItDoesNotHarmEither)  // [A57]
         addBody(world, boxShape(Vec3::Ones(), 2), wood, {{0.0, 0.5, 0.0}, Quat::Identity()});
     const BodyId hero =
         addBody(world, boxShape(Vec3::Ones(), 2), wood, {{0.1, 9.0, 0.0}, Quat::Identity()});
-    world.info[debris].groups.group = 2;
-    world.info[hero].groups.unmovedBy = 2;
+    world.traits[debris].groups.group = 2;
+    world.traits[hero].groups.unmovedBy = 2;
     runFrames(world, screeSettings(), 5.0);
     // It falls through what cannot stop it, as far as the floor, which can.
     EXPECT_NEAR(world.motion[hero].position.y(), 0.5, 1e-3);
@@ -201,8 +201,8 @@ TEST(GapPairs, WhatStandsOnOneThatDoesNotMoveItDoesNotHarmIt)  // [A57]
         addBody(world, boxShape({1.0, 3.0, 1.0}, 2), wood, {{1.5, 1.5, 0.0}, Quat::Identity()});
     const BodyId hero =
         addBody(world, boxShape({2.6, 1.0, 1.0}, 2), wood, {{0.3, 3.5, 0.0}, Quat::Identity()});
-    world.info[debris].groups.group = 2;
-    world.info[hero].groups.unmovedBy = 2;
+    world.traits[debris].groups.group = 2;
+    world.traits[hero].groups.unmovedBy = 2;
     runFrames(world, screeSettings(), 2.0);
     EXPECT_NEAR(world.motion[hero].position.y(), 3.5, 1e-3);
     EXPECT_NEAR(world.motion[debris].position.y(), 1.5, 1e-3);

@@ -94,7 +94,7 @@ TEST_F(StartCheck, OverlapsAreListedByDepthAndTouchingIsNone)
     EXPECT_NEAR(overlaps[1].ratio, 0.05, 1e-9);
     EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 1u);
     // Bodies whose groups do not meet may stand within each other.
-    world.info[high].groups.collidesWith = 0;
+    world.traits[high].groups.collidesWith = 0;
     EXPECT_EQ(findStartOverlaps(world, 0.1).size(), 0u);
 }
 

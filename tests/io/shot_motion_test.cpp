@@ -97,8 +97,8 @@ TEST(ShotMotion, RulesPairsGroupsAndForcesReachTheWorld)
     ASSERT_EQ(world.materialPairs.size(), 1u);
     EXPECT_EQ(world.materialPairs[0].friction, 0.05);
     EXPECT_FALSE(world.materialPairs[0].restitution);
-    EXPECT_EQ(world.info[2].groups.collidesWith, world.info[1].groups.group);
-    EXPECT_EQ(world.info[2].groups.unmovedBy, 0u);
+    EXPECT_EQ(world.traits[2].groups.collidesWith, world.traits[1].groups.group);
+    EXPECT_EQ(world.traits[2].groups.unmovedBy, 0u);
     EXPECT_EQ(world.info[2].force, Vec3(0.0, 0.0, 2.0));
     EXPECT_EQ(world.info[2].torque, Vec3(0.0, 1.0, 0.0));
     ASSERT_EQ(world.fields.size(), 2u);

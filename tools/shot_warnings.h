@@ -1,0 +1,16 @@
+// What will not do as the shot stands, told before its first frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/world.h"
+#include "io/shot.h"
+
+namespace scree {
+
+/// Bodies that nothing holds, speeds beyond the cap, sizes that tell of another unit, and what the
+/// shot's files held that is lost. One sentence each.
+std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world);
+
+}  // namespace scree
