@@ -253,6 +253,8 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
     std::vector<PairTurn> turns(scratch.pairs.size());
     forPairs(scratch, [&](std::size_t i) {
         fetchContactsAfter(scratch, i);
+        if (i + kPairsAhead < scratch.pairs.size())
+            fetchRows(world, scratch, scratch.pairs[i + kPairsAhead]);
         const GapPair& pair = scratch.pairs[i];
         if (pair.bearing > 0) turns[i] = rememberContacts(world, dt, scratch, pair, first[i]);
     });

@@ -45,13 +45,22 @@ constexpr int kMostLevels = 60;
 class ShallowPass {
 public:
     ShallowPass(World& world, const DeepPass& deep, const GapScratch& scratch)
-        : world_(world), deep_(deep), scratch_(scratch), bodies_(room().bodies), most_(room().most)
+        : world_(world),
+          deep_(deep),
+          scratch_(scratch),
+          bodies_(room().bodies),
+          most_(room().most),
+          units_(room().units)
     {
         bodies_.resize(scratch.bodies.size());
     }
 
     PushOutTally run()
     {
+        units_.resize(scratch_.bodies.size());
+        forEach(units_.size(), kShortWork, [&](std::size_t i) {
+            units_[i] = unitsAround(world_, scratch_, static_cast<BodyId>(i));
+        });
         most_.resize(scratch_.pairs.size());
         forPairs(scratch_, [&](std::size_t i) { most_[i] = mostExcess(scratch_.pairs[i]); });
         std::vector<std::size_t> islands(scratch_.islands.size());
@@ -78,6 +87,7 @@ private:
     struct Room {
         std::vector<PushedBody> bodies;  // between steps no row has any
         std::vector<double> most;        // per pair: how much deeper than it may stay it is [m]
+        std::vector<double> units;       // per body: unitsAround
     };
     static Room& room()
     {
@@ -110,8 +120,7 @@ private:
     /// As a share of the smaller body.
     double leftAlone(BodyPair pair) const
     {
-        const double longest =
-            std::min(unitsAround(world_, scratch_, pair.a), unitsAround(world_, scratch_, pair.b));
+        const double longest = std::min(units_[pair.a], units_[pair.b]);
         const double share = std::clamp(longest / kLongAround - 1.0, 0.0, 1.0);
         if (share == 0.0) return kSlop;
         const double thinner = std::min(world_.shapeOf(pair.a).commonThickness,
@@ -142,8 +151,7 @@ private:
         part.bodies.clear();
         part.tally = {};
         for (std::size_t n = 0; n < pairs.size(); ++n) {
-            fetchRowsAfter(world_, scratch_, pairs, n);
-            fetchPushedAfter(pairs, n);
+            if (n + kPairsAhead < pairs.size()) fetch(scratch_.pairs[pairs[n + kPairsAhead]]);
             const GapPair& pair = scratch_.pairs[pairs[n]];
             if (deep_.isLookedAt(pair)) continue;
             takeUpBodies(pair.bodies, part.bodies);
@@ -157,12 +165,11 @@ private:
         }
     }
 
-    void fetchPushedAfter(std::span<const std::size_t> pairs, std::size_t n) const
+    void fetch(const GapPair& pair) const
     {
-        if (n + kPairsAhead >= pairs.size()) return;
-        const auto [a, b] = scratch_.pairs[pairs[n + kPairsAhead]].bodies;
-        fetchLines(&bodies_[a], &bodies_[a] + 1);
-        fetchLines(&bodies_[b], &bodies_[b] + 1);
+        fetchRows(world_, scratch_, pair);
+        for (const BodyId id : {pair.bodies.a, pair.bodies.b})
+            fetchLines(&bodies_[id], &bodies_[id] + 1);
     }
 
     void takeUpBodies(BodyPair pair, std::vector<BodyId>& taken)
@@ -213,6 +220,7 @@ private:
     const GapScratch& scratch_;
     std::vector<PushedBody>& bodies_;
     std::vector<double>& most_;
+    std::vector<double>& units_;
 };
 
 }  // namespace

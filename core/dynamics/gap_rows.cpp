@@ -173,7 +173,8 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
                                       scratch.pairs[block.pairs[begin]].bodies, isBefore);
         for (std::size_t i = begin; i < end; ++i) {
             fetchContactsAfter(scratch, block.pairs[i]);
-            fetchRowsAfter(world, scratch, block.pairs, i);
+            if (i + kPairsAhead < end)
+                fetchRows(world, scratch, scratch.pairs[block.pairs[i + kPairsAhead]]);
             GapPair& pair = scratch.pairs[block.pairs[i]];
             const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
             const auto [a, b] = pair.bodies;

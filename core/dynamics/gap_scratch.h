@@ -238,16 +238,12 @@ inline void fetchContactsAfter(const GapScratch& scratch, std::size_t i)
     fetchItems(scratch.contactsOf(scratch.pairs[i + kPairsAhead]));
 }
 
-/// Fetches the bodies and the rows of a pair that follows the n-th of these soon.
-inline void fetchRowsAfter(const World& world, const GapScratch& scratch,
-                           std::span<const std::size_t> pairs, std::size_t n)
+/// Fetches a pair's rows, and what its bodies are.
+inline void fetchRows(const World& world, const GapScratch& scratch, const GapPair& pair)
 {
-    if (n + kPairsAhead >= pairs.size()) return;
-    const GapPair& pair = scratch.pairs[pairs[n + kPairsAhead]];
     for (const BodyId id : {pair.bodies.a, pair.bodies.b}) {
         fetchLines(&scratch.bodies[id], &scratch.bodies[id].torque);
         fetchLines(&world.motion[id], &world.motion[id] + 1);
-        fetchLines(&world.traits[id], &world.traits[id] + 1);
     }
     const GapRow* rows = scratch.rows.data();
     fetchLines(rows + pair.begin, rows + pair.end);

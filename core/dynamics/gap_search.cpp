@@ -224,8 +224,14 @@ void askPairs(const World& world, double dt, bool isAgain, std::span<const std::
               GapScratch& scratch, std::vector<Question>& questions)
 {
     for (std::size_t i = 0; i < toAsk.size(); ++i) {
-        if (i + kPairsAhead < toAsk.size())
-            fetchItems(scratch.nearPairs[toAsk[i + kPairsAhead]].contacts);
+        if (i + kPairsAhead < toAsk.size()) {
+            const NearPair& ahead = scratch.nearPairs[toAsk[i + kPairsAhead]];
+            const BodyId b = ahead.bodies.b;
+            fetchLines(&scratch.paces[b], &scratch.paces[b] + 1);
+            fetchLines(&scratch.bodies[b], &scratch.bodies[b].inverseMass);
+            fetchLines(&world.motion[b], &world.motion[b].orientation);
+            fetchItems(ahead.contacts);
+        }
         NearPair& pair = scratch.nearPairs[toAsk[i]];
         const auto [a, b] = pair.bodies;
         const double besides = reachBesides(world, scratch, pair.bodies, dt);
