@@ -95,6 +95,26 @@ TEST(StepLimit, WhatIsABlurTakesNoMoreStepsThanAreSeenUnlessItIsThin)
     EXPECT_GE(stepsOfMeeting(Method::scree, {1.0, 0.02, 1.0}, 100.0), 104);
 }
 
+TEST(StepLimit, TheBodyThatIsNamedIsTheOneThatIsNoBlur)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const auto meet = [&](const Vec3& size, double speed, double aside) {
+        const auto box = exactBox(size, 1);
+        addBody(world, box, material, {Vec3(aside, 0.0, 0.0), Quat::Identity()});
+        return addBody(world, box, material, {Vec3(aside, speed / 24.0, 0.0), Quat::Identity()},
+                       1.0, {0.0, -speed, 0.0});
+    };
+    meet(Vec3::Ones(), 4000.0, 0.0);
+    const BodyId thin = meet({1.0, 0.02, 1.0}, 100.0, 1000.0);
+    StepSettings settings = experimentSettings();
+    settings.method = Method::scree;
+    const FrameReport report = Stepper(settings).advanceFrame(world, 1.0 / 24.0);
+    EXPECT_GE(report.steps, 104);
+    EXPECT_LE(report.steps, 110);
+    EXPECT_EQ(report.fastestBody, thin);
+}
+
 TEST(StepLimit, WhatIsThinOnlyAtItsEdgeMayPassMoreThanThatInAStep)
 {
     const auto shapeOf = [](TriMesh mesh, const auto& changeHeight) {

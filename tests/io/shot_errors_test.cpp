@@ -356,6 +356,9 @@ std::vector<BadShot> badShots()
          "bad.toml:6:26: 'voxel' cannot stand beside 'resolution' in [shape.a] sdf"},
         {"FlatView", kHead + "[[camera]]\neye = [1, 1, 1]\nfov = 180\n",
          "bad.toml:6:7: 'fov' must be a number above 0 and below 180, not 180"},
+        {"CameraBeyondWhatRaysReach", kHead + "[[camera]]\neye = [1, 2e9, 1]\n",
+         "bad.toml:5:11: 'eye' must be 3 numbers [x, y, z], each from -1000000000 to 1000000000, "
+         "not 2e+09"},
         {"CameraInItsTarget", kHead + "[[camera]]\neye = [0, 0, 0]\n",
          "bad.toml:5:7: 'eye' must not be where 'target' is"},
         {"TwoCamerasOfOneName",
