@@ -123,23 +123,11 @@ struct MeshSamples {
 
 /// A normal for every corner in the file's order. Readers take a mesh without normals for smooth
 /// all over, edges of cubes included.
-Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh)
+Eigen::Matrix3Xf clockwiseNormals(const SceneMesh& mesh)
 {
-    const ShadedMesh shaded = shadeMesh(mesh);
-    Eigen::Matrix3Xf normals(3, mesh.triangles.size());
-    std::size_t next = 0;  // corner in `shaded`, which leaves out triangles with two equal corners
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
-        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
-        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
-        if (a == b || b == c || c == a) {
-            normals.middleCols<3>(3 * f).colwise() = Eigen::Vector3f::UnitY();
-            continue;
-        }
-        for (const int corner : {0, 2, 1})
-            normals.col(3 * f + (3 - corner) % 3) = shaded.normals[shaded.indices[next + corner]];
-        next += 3;
-    }
+    Eigen::Matrix3Xf normals = cornerNormals(mesh);
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f)
+        normals.col(3 * f + 1).swap(normals.col(3 * f + 2));
     return normals;
 }
 
@@ -259,7 +247,7 @@ MeshSamples AlembicWriter::writeMesh(const SceneMesh& mesh)
 
     MeshSamples samples;
     samples.hasFaces = faceCount > 0;
-    samples.normals = archive_->writeArray(bytesOf(cornerNormals(mesh)), 3 * faceCount);
+    samples.normals = archive_->writeArray(bytesOf(clockwiseNormals(mesh)), 3 * faceCount);
     samples.hasUvs = mesh.cornerUvs.cols() > 0;
     if (samples.hasUvs) {
         samples.uvs = archive_->writeArray(bytesOf(clockwise.cornerUvs), 3 * faceCount);

@@ -196,7 +196,7 @@ int removeAbandoned(const fs::path& target)
     const std::string name = target.filename().string();
     const bool isPattern = hasFramePattern(name);
     return removeAbandonedIn(folderOf(target), [&](const std::string& other) {
-        return isPattern ? isFrameOf(name, other) : name == other;
+        return isPattern ? frameOf(name, other).has_value() : name == other;
     });
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/births.h"
+#include "core/dynamics/integrator.h"
 #include "core/dynamics/sleep.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
@@ -143,6 +144,7 @@ public:
         bearTheFirst();
         problems_.throwIfAny();
         sleepFromTheStart(world_, shot_.settings, sleepers_);
+        setKeyedBodiesOff(world_);
         return std::move(world_);
     }
 

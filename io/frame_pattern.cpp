@@ -119,19 +119,21 @@ std::string expandFramePattern(std::string_view path, int frame)
            std::string(path.substr(place.begin + place.length));
 }
 
-bool isFrameOf(std::string_view pattern, std::string_view name)
+std::optional<int> frameOf(std::string_view pattern, std::string_view name)
 {
     const std::vector<Place> places = findPlaces(pattern);
-    if (places.size() != 1) return false;
+    if (places.size() != 1) return {};
     const std::string_view before = pattern.substr(0, places[0].begin);
     const std::string_view after = pattern.substr(places[0].begin + places[0].length);
-    if (name.size() <= before.size() + after.size()) return false;
+    if (name.size() <= before.size() + after.size()) return {};
     const std::string_view number =
         name.substr(before.size(), name.size() - before.size() - after.size());
     int frame = 0;
     const char* const end = number.data() + number.size();
     const auto [read, error] = std::from_chars(number.data(), end, frame);
-    return error == std::errc() && read == end && expandFramePattern(pattern, frame) == name;
+    if (error != std::errc() || read != end || expandFramePattern(pattern, frame) != name)
+        return {};
+    return frame;
 }
 
 std::string framePath(std::string_view path, int frame)

@@ -1,6 +1,7 @@
 // File names with a place for the frame number: "x.####.png", "x.%04d.png" or "x.$F4.png".
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,9 @@ bool hasFramePattern(std::string_view path);
 /// Error{usage} when the file name has no such place or several.
 std::string expandFramePattern(std::string_view path, int frame);
 
-/// Whether expandFramePattern makes the file name `name` of some frame. Neither has folders.
-bool isFrameOf(std::string_view pattern, std::string_view name);
+/// The frame of which expandFramePattern makes the file name `name`; none if it does of no frame.
+/// Neither has folders.
+std::optional<int> frameOf(std::string_view pattern, std::string_view name);
 
 /// expandFramePattern for one frame alone, whose name may do without such a place: it stays as it
 /// is.

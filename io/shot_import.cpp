@@ -19,6 +19,18 @@ namespace {
 
 constexpr std::size_t kNamesTold = 12;
 
+/// Whether a name is what the pattern says, in which * stands for any letters and ? for one. Other
+/// letters stand for themselves: programs call copies "Tile[1]".
+bool fits(const std::string& pattern, const std::string& name)
+{
+    std::string escaped;
+    for (const char letter : pattern) {
+        if (letter == '[' || letter == ']' || letter == '\\') escaped += '\\';
+        escaped += letter;
+    }
+    return ::fnmatch(escaped.c_str(), name.c_str(), 0) == 0;
+}
+
 /// Marks the nodes that one of the patterns fits.
 std::vector<bool> chooseNodes(const ShotNode& patterns, const ImportedFile& file,
                               const std::string& path, ProblemList& problems)
@@ -29,7 +41,7 @@ std::vector<bool> chooseNodes(const ShotNode& patterns, const ImportedFile& file
     const auto apply = [&](const ShotNode& pattern) {
         bool fitsAny = false;
         for (std::size_t i = 0; i < names.size(); ++i) {
-            if (::fnmatch(pattern.text.c_str(), names[i].c_str(), 0) != 0) continue;
+            if (!fits(pattern.text, names[i])) continue;
             isChosen[i] = fitsAny = true;
         }
         if (fitsAny) return;
@@ -129,7 +141,7 @@ const ImportedCamera* chooseCamera(const ShotNode* pattern, const ShotNode& file
     }
     std::vector<std::string> names;
     for (const ImportedCamera& camera : file.cameras) {
-        if (::fnmatch(pattern->text.c_str(), camera.name.c_str(), 0) == 0) return &camera;
+        if (fits(pattern->text, camera.name)) return &camera;
         names.push_back(camera.name);
     }
     problems.add(pattern->where,

@@ -307,9 +307,10 @@ ShotNode withBase(ShotNode tree, const std::string& path, std::vector<std::strin
 {
     const ShotEntry* extends = tree.entry("extends");
     if (!extends || extends->node.kind != ShotNode::Kind::text) return tree;
-    const std::filesystem::path named = extends->node.text;
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    const std::string base = (folder / named).lexically_normal().string();
+    const std::filesystem::path named = extends->node.text;
+    const std::string asNamed = (folder / named).lexically_normal().string();
+    const std::string base = shotFileOf(asNamed);
     above.push_back(std::filesystem::path(path).lexically_normal().string());
     if (std::find(above.begin(), above.end(), base) != above.end()) {
         throw Error(ErrorKind::badInput, extends->node.where,
@@ -318,7 +319,7 @@ ShotNode withBase(ShotNode tree, const std::string& path, std::vector<std::strin
     requireShotFile(base, extends->node.where);
     std::erase_if(tree.entries, [](const ShotEntry& entry) { return entry.key == "extends"; });
     ShotNode below = withBase(readTree(readWholeFile(base), base), base, above);
-    rebaseFiles(below, named.parent_path());
+    rebaseFiles(below, base == asNamed ? named.parent_path() : named);
     return laidOver(std::move(below), tree);
 }
 

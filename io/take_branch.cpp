@@ -44,6 +44,19 @@ void requireSameCast(const TakeBranch& branch, const TakeInfo& theirs, const Tak
     }
 }
 
+/// Its frames are kept as they are, and have to hold what the shot asks of all of them.
+void requireSameOutputs(const TakeBranch& branch, const TakeInfo& theirs, const TakeInfo& ours)
+{
+    const bool lacksPoses = ours.offsets.size() > 1 && theirs.offsets != ours.offsets;
+    const bool lacksContacts = ours.hasContacts && !theirs.hasContacts;
+    if (!lacksPoses && !lacksContacts) return;
+    throw Error(ErrorKind::badInput, "cannot branch off \"" + branch.take.string() +
+                                         "\": its frames were kept without the shot's " +
+                                         (lacksPoses ? "output.subframes" : "output.contacts") +
+                                         "; leave these as they are there, or simulate the shot "
+                                         "from its first frame");
+}
+
 /// The lines of a resolved shot that bodies feel: not how long it is, how it looks and what is
 /// written of it.
 std::string settingsOf(const std::string& resolvedShot)
@@ -103,6 +116,7 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
     const TakeReader from(branch.take);
     const TakeInfo& theirs = from.info();
     requireSameCast(branch, theirs, info);
+    requireSameOutputs(branch, theirs, info);
     // With the last frame too, all is taken over: a finished take gets another camera or colour.
     if (branch.frame < shot.firstFrame || branch.frame > shot.lastFrame) {
         refuse(branch, "frame " + std::to_string(branch.frame) + " is none of the shot's " +

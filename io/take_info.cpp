@@ -367,7 +367,8 @@ std::string encodeTakeInfo(const TakeInfo& info)
                           {"frame", info.branchFrame},
                           {"hash", toHex(info.branchHash)}};
     }
-    return json.dump(1) + "\n";
+    // A folder may have a name in another coding: what is not UTF-8 of a path is written as U+FFFD.
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 bool isJson(const std::string& text)

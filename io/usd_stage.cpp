@@ -68,11 +68,8 @@ void writeMaterial(UsdText& text, const std::string& name, const std::string& pa
 
 void writeMesh(UsdText& text, const std::string& name, const SceneMesh& mesh)
 {
-    // Readers get the artist's points and triangles; only normals come from the shaded mesh, whose
-    // triangles are the same ones in the same order unless some were degenerate.
-    const ShadedMesh shaded = shadeMesh(mesh);
-    const bool hasNormals =
-        shaded.indices.size() == static_cast<std::size_t>(mesh.triangles.size());
+    // Readers get the artist's points and triangles; only normals come from the shaded mesh.
+    const Eigen::Matrix3Xf normals = cornerNormals(mesh);
     const Eigen::Matrix3Xf points = mesh.points.cast<float>();
 
     text.openPrim(usdPrim("Xform", name));
@@ -88,11 +85,11 @@ void writeMesh(UsdText& text, const std::string& name, const SceneMesh& mesh)
     text.line("int[] faceVertexCounts = " + usdArray(counts, appendNumber<int>));
     text.line("int[] faceVertexIndices = " +
               usdArray(mesh.triangles.reshaped(), appendNumber<int>));
-    if (hasNormals && !shaded.indices.empty()) {
-        const auto append = [&](std::string& line, std::uint32_t corner) {
-            appendUsdTuple(line, shaded.normals[corner]);
+    if (normals.cols() > 0) {
+        const auto append = [](std::string& line, const Eigen::Vector3f& normal) {
+            appendUsdTuple(line, normal);
         };
-        text.line("normal3f[] normals = " + usdArray(shaded.indices, append) + " (");
+        text.line("normal3f[] normals = " + usdArray(normals.colwise(), append) + " (");
         text.line("    interpolation = \"faceVarying\"");
         text.line(")");
     }

@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <cstring>
 #include <optional>
-#include <regex>
 #include <thread>
 
 #include "core/base/parallel.h"
@@ -53,20 +52,12 @@ struct PictureSequence {
 /// The numbers for which the pattern names a file.
 std::vector<int> findFrames(const fs::path& pattern)
 {
-    static const std::regex kNumber(R"(-?\d{1,9})");
     const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
     std::vector<int> frames;
     std::error_code code;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-        // The pattern itself judges: a number found in the name must give that name again.
-        const std::string name = entry.path().filename().string();
-        for (std::sregex_iterator match(name.begin(), name.end(), kNumber), end; match != end;
-             ++match) {
-            const int number = std::stoi(match->str());
-            if (expandFramePattern(pattern.filename().string(), number) != name) continue;
-            frames.push_back(number);
-            break;
-        }
+        const auto frame = frameOf(pattern.filename().string(), entry.path().filename().string());
+        if (frame) frames.push_back(*frame);
     }
     std::sort(frames.begin(), frames.end());
     return frames;
@@ -184,53 +175,58 @@ SplitPattern splitPattern(const std::string& pattern)
     return {split.head, split.tail, expandFramePattern(pattern, 0).size() - rest};
 }
 
-/// The pictures one by one, as a single stream: ffmpeg counts -7 as one digit more than we do, and
-/// sorts it before -12, and 10000 before 9990.
+/// The pictures one by one, as a single stream; empty where ffmpeg cannot be told them so.
 std::vector<std::string> listedInput(const PictureSequence& sequence)
 {
     constexpr std::size_t kLongestArgument = 120'000;  // the system takes no more in one piece
     std::string list = "concat:";
     for (const int frame : sequence.frames) {
         const std::string name = expandFramePattern(sequence.pattern.string(), frame);
-        const bool isNameable = name.find('|') == std::string::npos && name.ends_with(".png");
         list += (list.ends_with(':') ? "file:" : "|file:") + name;
-        if (isNameable && list.size() < kLongestArgument) continue;
-        throw Error(ErrorKind::usage,
-                    "\"" + sequence.pattern.string() +
-                        "\": ffmpeg cannot be told these pictures, whose numbers are below 0 or of "
-                        "several lengths; give them others, or shorter names that end in .png");
+        if (name.find('|') != std::string::npos || !name.ends_with(".png") ||
+            list.size() >= kLongestArgument)
+            return {};
     }
     return {"-f",         "png_pipe",
             "-framerate", format("%.10g", sequence.framesPerSecond / spacingOf(sequence)),
             "-i",         list};
 }
 
-/// Every picture by a numbered pattern; every n-th by a glob, which ffmpeg sorts by name, where
-/// that is the order of the numbers.
+/// Every picture by a numbered pattern. Others one by one: ffmpeg counts -7 as one digit more than
+/// we do, and its globs sort it before -12, and 10000 before 9990, and take what is no picture of
+/// the sequence. For a list that is too long a glob has to do, if it sorts as the numbers do.
 std::vector<std::string> inputArguments(const PictureSequence& sequence)
 {
     const int spacing = spacingOf(sequence);
+    const SplitPattern split = splitPattern(sequence.pattern.string());
+    if (spacing == 1 && sequence.frames.front() >= 0) {
+        return {"-framerate",
+                format("%.10g", sequence.framesPerSecond),
+                "-start_number",
+                std::to_string(sequence.frames.front()),
+                "-i",
+                escaped(split.head, "%", '%') + "%0" + std::to_string(split.digits) + "d" +
+                    escaped(split.tail, "%", '%')};
+    }
+    const std::vector<std::string> listed = listedInput(sequence);
+    if (!listed.empty()) return listed;
     const auto lengthOf = [&](int frame) {
         return expandFramePattern(sequence.pattern.string(), frame).size();
     };
-    const bool sortsByName = lengthOf(sequence.frames.front()) == lengthOf(sequence.frames.back());
-    if (sequence.frames.front() < 0 || (spacing > 1 && !sortsByName)) return listedInput(sequence);
-    const SplitPattern split = splitPattern(sequence.pattern.string());
-    std::vector<std::string> arguments = {"-framerate",
-                                          format("%.10g", sequence.framesPerSecond / spacing)};
-    if (spacing == 1) {
-        const std::string input = escaped(split.head, "%", '%') + "%0" +
-                                  std::to_string(split.digits) + "d" +
-                                  escaped(split.tail, "%", '%');
-        arguments.insert(arguments.end(),
-                         {"-start_number", std::to_string(sequence.frames[0]), "-i", input});
-    } else {
-        const char* special = "*?[]\\{}";
-        arguments.insert(arguments.end(), {"-pattern_type", "glob", "-i",
-                                           escaped(split.head, special, '\\') + "*" +
-                                               escaped(split.tail, special, '\\')});
-    }
-    return arguments;
+    const std::size_t length = lengthOf(sequence.frames.front());
+    if (sequence.frames.front() < 0 || length != lengthOf(sequence.frames.back()))
+        throw Error(ErrorKind::usage,
+                    "\"" + sequence.pattern.string() +
+                        "\": ffmpeg cannot be told these pictures, whose numbers are below 0 or of "
+                        "several lengths; give them others, or shorter names that end in .png");
+    const char* special = "*?[]\\{}";
+    const std::string number(length - split.head.size() - split.tail.size(), '?');
+    return {"-framerate",
+            format("%.10g", sequence.framesPerSecond / spacing),
+            "-pattern_type",
+            "glob",
+            "-i",
+            escaped(split.head, special, '\\') + number + escaped(split.tail, special, '\\')};
 }
 
 /// Files that hold H.264 and that -movflags knows.

@@ -138,8 +138,14 @@ public:
         for (const FrameSummary& frame : take_.stats()) stats_[frame.frame] = frame;
         hasBurnIn_ = options.burnIn || (take_.info().burnIn && !options.noBurnIn);
         // The slate belongs to the whole: of a farm's chunks only the first one writes it.
+        const int slate = asked[0] - (asked.size() > 1 ? asked[1] - asked[0] : 1);
+        if (options.slate && options.output.empty() && stats_.contains(slate))
+            throw Error(ErrorKind::usage,
+                        "--slate: the slate would be the picture of frame " +
+                            std::to_string(slate) +
+                            ", which the take has: give these pictures another name with -o");
         if (options.slate && !frames_.empty() && frames_[0] == asked[0])
-            writePng(expandFramePattern(pattern_, asked[0] - 1),
+            writePng(expandFramePattern(pattern_, slate),
                      makeSlate(size_[0], size_[1], slateLines(take_, asked, size_)),
                      {{"Software", "scree"}});
     }
@@ -231,7 +237,7 @@ Command addRenderCommand(CLI::App& program)
     command->add_flag("--no-burnin", options->noBurnIn, "Nothing written into the pictures")
         ->excludes(burnIn);
     command->add_flag("--slate", options->slate,
-                      "A card that says what follows, one frame before the first");
+                      "A card that says what follows, one picture before the first");
     command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
     command->footer(std::string(kMissingFramesHelp) +
                     "Example:\n  scree render takes/rings_100 --frames 1001-1240x2 --size 640x360");

@@ -54,15 +54,20 @@ bool isLetGo(const World& world, const BodyInfo& body)
            clock.frame == body.keyedUntil && clock.subStep == 0 && clock.frameTimeDone == 0.0;
 }
 
-/// Gives a body the velocity that its script has just then: with the mean of its last step, what
-/// was swung round left 7 degrees off at one step a frame.  [A55]
-void letGo(World& world, BodyId body)
+/// Gives a body the velocity of its script between two times after that of the world.
+void takeVelocity(World& world, BodyId body, double from, double to)
 {
-    const ScriptedMotion motion =
-        scriptedMotion(world, body, -kJustBefore * world.frameDuration, 0.0);
+    const ScriptedMotion motion = scriptedMotion(world, body, from, to);
     world.motion[body].velocity = motion.velocity;
     world.motion[body].angularMomentum =
         momentumOfSpin(world.motion[body], world.mass[body], motion.spin);
+}
+
+/// With the mean of its last step, what was swung round left 7 degrees off at one step a frame.
+/// [A55]
+void letGo(World& world, BodyId body)
+{
+    takeVelocity(world, body, -kJustBefore * world.frameDuration, 0.0);
 }
 
 }  // namespace
@@ -94,6 +99,14 @@ ScriptedMotion scriptedMotion(const World& world, BodyId body, double from, doub
     const double time = to - from;
     return {before.position, (after.position - before.position) / time,
             rotationVector(turn) / time};
+}
+
+void setKeyedBodiesOff(World& world)
+{
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        if (world.info[body].kind != BodyKind::keyed) continue;
+        takeVelocity(world, body, 0.0, kJustBefore * world.frameDuration);
+    }
 }
 
 void aimKeyedBodies(World& world, double dt)

@@ -26,6 +26,10 @@ struct ScriptedMotion {
 /// about where the body is at first.
 ScriptedMotion scriptedMotion(const World& world, BodyId body, double from, double to);
 
+/// Gives keyed bodies the velocities with which their scripts go on from the world's time: no step
+/// has aimed them yet when the first frame is kept.
+void setKeyedBodiesOff(World& world);
+
 /// Gives keyed bodies the velocities that take them where their scripts are after dt: differences
 /// over the step, so that what they carry neither lags nor sinks. What its script lets go of in
 /// this step gets the velocity it had there.  [A54]

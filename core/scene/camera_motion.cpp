@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/math/monotone_slope.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -16,15 +17,6 @@ KeyValues valuesOf(const CameraKey& key)
     KeyValues values;
     values << key.eye, key.target, key.up, key.fovDegrees;
     return values;
-}
-
-/// The slope with which a smooth curve passes a key between two stretches of mean slopes before and
-/// after: none at a turn, else their weighted harmonic mean, which never overshoots. [FB84]
-double slopeBetween(double before, double hBefore, double after, double hAfter)
-{
-    if (before * after <= 0.0) return 0.0;
-    const double w1 = 2.0 * hAfter + hBefore, w2 = hAfter + 2.0 * hBefore;
-    return (w1 + w2) / (w1 / before + w2 / after);
 }
 
 double lengthOf(const std::vector<CameraKey>& keys, std::size_t stretch)

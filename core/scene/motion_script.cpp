@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/math/monotone_slope.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -26,23 +27,18 @@ std::array<T, 3> cut(const std::array<T, 3>& c, double p, double q)
     return {blossom(p, p), blossom(p, q), blossom(q, q)};
 }
 
-/// The velocity with which a smooth curve passes a key between two stretches of mean velocities
-/// `before` and `after`. Turning back, or resting on one side, it stops; and it is never more than
-/// three times the slower one, which is what keeps a cubic from overshooting. [FC80]
-Vec3 passingVelocity(const Vec3& before, const Vec3& after)
+/// Velocities at all keys from the mean velocities between them, at rest at the first and the last.
+/// Each of the three numbers by itself: a hand that slides over a table and then lifts must not
+/// dive into it before, as it does where only the speed is limited.
+std::vector<Vec3> keyVelocities(const std::vector<MotionKey>& keys,
+                                const std::vector<Vec3>& between)
 {
-    if (before.dot(after) <= 0.0) return Vec3::Zero();
-    const Vec3 mean = 0.5 * (before + after);
-    const double most = 3.0 * std::min(before.norm(), after.norm());
-    return mean.norm() > most ? Vec3(most / mean.norm() * mean) : mean;
-}
-
-/// Velocities at all keys from the mean velocities between them.
-std::vector<Vec3> keyVelocities(const std::vector<Vec3>& between)
-{
-    std::vector<Vec3> result(between.size() + 1, Vec3::Zero());
-    for (std::size_t k = 1; k < between.size(); ++k) {
-        result[k] = passingVelocity(between[k - 1], between[k]);
+    std::vector<Vec3> result(keys.size(), Vec3::Zero());
+    for (std::size_t k = 1; k + 1 < keys.size(); ++k) {
+        const double before = keys[k].time - keys[k - 1].time;
+        const double after = keys[k + 1].time - keys[k].time;
+        for (int i = 0; i < 3; ++i)
+            result[k][i] = slopeBetween(between[k - 1][i], before, between[k][i], after);
     }
     return result;
 }
@@ -66,7 +62,8 @@ MotionScript::MotionScript(const std::vector<MotionKey>& keys, KeyInterpolation 
         velocity.push_back((to.position - from.position) / duration);
         spin.push_back(rotationVector(turn) / duration);
     }
-    const std::vector<Vec3> velocityAt = keyVelocities(velocity), spinAt = keyVelocities(spin);
+    const std::vector<Vec3> velocityAt = keyVelocities(keys, velocity);
+    const std::vector<Vec3> spinAt = keyVelocities(keys, spin);
 
     // A third of a stretch at the velocity of each end, and between them whatever is left.
     const bool isSmooth = interpolation == KeyInterpolation::smooth;

@@ -146,4 +146,22 @@ ShadedMesh shadeMesh(const SceneMesh& sceneMesh, double creaseDegrees)
     return result;
 }
 
+Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh)
+{
+    const ShadedMesh shaded = shadeMesh(mesh);
+    Eigen::Matrix3Xf normals(3, mesh.triangles.size());
+    std::size_t next = 0;  // corner in `shaded`, which leaves out triangles with two equal corners
+    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, f));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, f));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, f));
+        const bool hasNormals = a != b && b != c && c != a;
+        for (int corner = 0; corner < 3; ++corner) {
+            normals.col(3 * f + corner) = hasNormals ? shaded.normals[shaded.indices[next++]]
+                                                     : Eigen::Vector3f(Eigen::Vector3f::UnitY());
+        }
+    }
+    return normals;
+}
+
 }  // namespace scree

@@ -30,4 +30,8 @@ struct ShadedMesh {
 /// triangles.
 ShadedMesh shadeMesh(const SceneMesh& mesh, double creaseDegrees = kCreaseDegrees);
 
+/// The same normals for every corner of every triangle, in their order. Triangles with two equal
+/// corners have none, and get some direction.
+Eigen::Matrix3Xf cornerNormals(const SceneMesh& mesh);
+
 }  // namespace scree

@@ -86,6 +86,21 @@ TEST(MotionScript, ASlowStretchBeforeAFastOneTurnsBackNowhere)
     }
 }
 
+TEST(MotionScript, WhatRestsInOneDirectionUntilAKeyStaysThere)
+{
+    // A hand slides over a table and then lifts and tilts; upright until then.
+    const MotionScript script({{0.0, {{-0.4, 0.022, 0.0}, aboutY(0.0)}},
+                               {1.0, {{0.2, 0.022, 0.0}, aboutY(0.6)}},
+                               {1.5, {{0.5, 0.2, 0.0}, aboutY(0.9) * exponentialMap({0.5, 0, 0})}}},
+                              KeyInterpolation::smooth);
+    for (double t = 0.0; t <= 1.0; t += 0.01) {
+        const Pose pose = script.at(t);
+        EXPECT_NEAR(pose.position.y(), 0.022, 1e-15) << t;
+        EXPECT_NEAR((pose.orientation * Vec3::UnitY()).y(), 1.0, 1e-15) << t;
+    }
+    EXPECT_GT(script.at(1.02).position.x() - script.at(1.0).position.x(), 0.005);  // passes
+}
+
 TEST(MotionScript, BoundsHoldWhateverSpanIsAsked)
 {
     const MotionScript script({{0.0, {Vec3::Zero(), aboutY(0.0)}},

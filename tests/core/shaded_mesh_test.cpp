@@ -49,6 +49,27 @@ TEST(ShadedMesh, PointsSplitByAnExporterAreJoinedAgain)
     EXPECT_EQ(shadeMesh(soup).points.size(), static_cast<std::size_t>(sphere.points.cols()));
 }
 
+TEST(ShadedMesh, ATriangleWithoutAreaTakesNoOthersNormals)
+{
+    SceneMesh mesh = sceneMesh(makeBox(Vec3::Ones(), {1, 1, 1}));
+    const Eigen::Matrix3Xf whole = cornerNormals(mesh);
+    const auto count = mesh.triangles.cols();
+    ASSERT_EQ(whole.cols(), 3 * count);
+    for (Eigen::Index corner = 0; corner < whole.cols(); ++corner) {
+        const Vec3 middle =
+            mesh.points(Eigen::all, mesh.triangles.col(corner / 3)).rowwise().mean();
+        EXPECT_GT(whole.col(corner).cast<double>().dot(middle), 0.4) << corner;
+    }
+    mesh.triangles.conservativeResize(3, count + 1);
+    mesh.triangles.col(count) = mesh.triangles.col(1);
+    mesh.triangles.col(1) = Eigen::Vector3i::Constant(mesh.triangles(0, 0));
+    const Eigen::Matrix3Xf normals = cornerNormals(mesh);
+    ASSERT_EQ(normals.cols(), 3 * (count + 1));
+    EXPECT_EQ(normals.leftCols(3), whole.leftCols(3));
+    EXPECT_EQ(normals.middleCols(6, 3 * (count - 2)), whole.middleCols(6, 3 * (count - 2)));
+    EXPECT_EQ(normals.rightCols(3), whole.middleCols(3, 3));
+}
+
 TEST(ShadedMesh, KnowsWhetherItsInsideCanBeSeen)
 {
     TriMesh box = makeBox(Vec3::Ones(), {2, 2, 2});

@@ -29,6 +29,15 @@ TEST(FramePattern, AMinusSignTakesOneOfTheDigits)
     EXPECT_EQ(expandFramePattern("x.####.obj", -123456), "x.-123456.obj");
 }
 
+TEST(FramePattern, FindsTheFrameInANameWhateverStandsBeforeIt)
+{
+    EXPECT_EQ(frameOf("x-####.png", "x-0001.png"), 1);
+    EXPECT_EQ(frameOf("v2####.png", "v20012.png"), 12);
+    EXPECT_EQ(frameOf("x.####.png", "x.-012.png"), -12);
+    EXPECT_EQ(frameOf("x.####.png", "x.sheet.png"), std::nullopt);
+    EXPECT_EQ(frameOf("x.####.png", "x.012.png"), std::nullopt);
+}
+
 TEST(FramePattern, FoldersMayHoldTheSignsWithoutMeaning)
 {
     EXPECT_EQ(expandFramePattern("shot#2/50%d/x.####.obj", 1), "shot#2/50%d/x.0001.obj");

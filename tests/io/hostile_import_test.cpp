@@ -383,6 +383,22 @@ TEST(ShotImport, GivesAllItsBodiesAGroupAndAVelocity)
     EXPECT_EQ(shot.bodies[2].velocity, Vec3(Vec3::Zero()));
 }
 
+TEST(ShotImport, BracketsInANameStandForThemselves)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "tiles.obj")
+        << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no Tile1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+           "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\no Tile[1]\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+    const std::string head =
+        "scree = 1\n[shot]\nname = \"s\"\n[material.wood]\n[[import]]\nfile = \"" +
+        (folder / "tiles.obj").string() + "\"\nmaterial = \"wood\"\nnodes = ";
+    const Shot shot = parseShotText(head + "\"Tile[1]\"\n", "s.toml");
+    ASSERT_EQ(shot.bodies.size(), 1u);
+    EXPECT_GT(buildWorld(shot).motion[0].position.x(), 4.0);
+    EXPECT_EQ(parseShotText(head + "\"Tile?1?\"\n", "s.toml").bodies.size(), 1u);
+    EXPECT_EQ(parseShotText(head + "\"Tile*\"\n", "s.toml").bodies.size(), 2u);
+}
+
 TEST(ShotImport, WhatIsWrongWithAllItsBodiesIsToldOnce)
 {
     const test::TemporaryFolder folder;

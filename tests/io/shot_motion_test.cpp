@@ -207,7 +207,10 @@ TEST(ShotMotion, AKeyedBodyMovesInTheTakeAndInWhatExportersAreTold)
     const SceneFrame later = take.readFrame(1005);
     EXPECT_NEAR(early.worldFromAsset[1].position.x(), -30.0 + 30.0 / 5.5, 1e-9);
     EXPECT_NEAR(later.worldFromAsset[1].position.x(), -30.0 + 4.0 * 30.0 / 5.5, 1e-9);
-    // Velocities too, for motion blur: 30 cm and 90° in 5.5 frames.
+    // Velocities too, for motion blur: 30 cm and 90° in 5.5 frames, and from the first one on.
+    const SceneFrame first = take.readFrame(1001);
+    EXPECT_NEAR(first.velocity[1].x(), 24.0 * 30.0 / 5.5, 1e-6);
+    EXPECT_NEAR(first.angularVelocity[1].y(), 24.0 * kPi / 2.0 / 5.5, 1e-6);
     EXPECT_NEAR(later.velocity[1].x(), 24.0 * 30.0 / 5.5, 1e-6);
     EXPECT_NEAR(later.angularVelocity[1].y(), 24.0 * kPi / 2.0 / 5.5, 1e-6);
 }
@@ -252,6 +255,16 @@ material = "ice"
               (folder / "meshes/prop.obj").string());
     EXPECT_EQ(std::get<FileSpec>(parseShotText(shot.resolvedText, path).shapes[1].source).path,
               (folder / "meshes/prop.obj").string());
+}
+
+TEST(ShotExtends, AFolderWithAShotIsThatShot)
+{
+    const TemporaryFolder folder;
+    writeText(folder / "base/shot.toml", kShot + "[shape.prop]\nfile = \"prop.obj\"\n");
+    writeText(folder / "over.toml", "scree = 1\nextends = \"base\"\n[shot]\nname = \"over\"\n");
+    const Shot shot = parseShot((folder / "over.toml").string());
+    EXPECT_EQ(shot.bodies.size(), 3u);
+    EXPECT_EQ(std::get<FileSpec>(shot.shapes[1].source).path, (folder / "base/prop.obj").string());
 }
 
 TEST(ShotExtends, ProblemsAreSaidWithTheFileTheyStandIn)

@@ -227,6 +227,18 @@ TEST_F(BranchTest, OtherBodiesAreRefusedWithWhatDiffers)
               std::string::npos);
 }
 
+TEST_F(BranchTest, WhatItsFramesDoNotHoldIsNotPromised)
+{
+    simulate("whole", {});
+    const TakeBranch branch{folder / "whole", 1005};
+    EXPECT_NE(refusalOf({"output.subframes=[0, 0.25]"}, branch).find("output.subframes"),
+              std::string::npos);
+    EXPECT_NE(refusalOf({"output.contacts=true"}, branch).find("output.contacts"),
+              std::string::npos);
+    simulate("rich", {"output.subframes=[0, 0.25]", "output.contacts=true"});
+    EXPECT_EQ(simulate("plain", {}, TakeBranch{folder / "rich", 1005}).frames().size(), 9u);
+}
+
 // Overwriting a take with a branch of itself emptied it, and so did a slip in --from.
 TEST_F(BranchTest, NothingIsRemovedBeforeTheBranchIsKnownToBeGood)
 {

@@ -389,6 +389,36 @@ TEST_F(RenderOptions, AFilmOfEverySecondPictureIsInTheOrderOfTheirNumbers)
     }
 }
 
+TEST_F(RenderOptions, AFilmShowsThePicturesThatItsPatternNumbersAndNoOthers)
+{
+    SCREE_REQUIRE_READER(runCommand("command -v ffmpeg").exitCode == 0,
+                         "ffmpeg: apt-get install ffmpeg");
+    // A dash before a number is no sign of it, and a sheet has none.
+    for (const char* name : {"x-01.png", "x-03.png", "x-05.png", "x-99sheet.png", "x-ab.png"})
+        writePng(pictures / name, Image(64, 64, Color::Constant(0.5F)));
+    const std::string film = quoted(pictures / "x.mp4");
+    const CommandResult made = scree("movie " + quoted(pictures / "x-##.png") + " -o " + film);
+    ASSERT_EQ(made.exitCode, 0) << made.output;
+    const CommandResult count =
+        runCommand("ffmpeg -nostdin -v error -y -i " + film + " " + quoted(pictures / "y%d.jpg"));
+    ASSERT_EQ(count.exitCode, 0) << count.output;
+    EXPECT_TRUE(fs::exists(pictures / "y3.jpg"));
+    EXPECT_FALSE(fs::exists(pictures / "y4.jpg"));
+}
+
+TEST_F(RenderOptions, ASlateTakesNoPicturesPlace)
+{
+    const std::string asked = "render " + quoted(take()) + " --size 64x36 --slate --frames ";
+    const CommandResult refused = scree(asked + "1003-1004");
+    EXPECT_EQ(refused.exitCode, 64);
+    EXPECT_NE(refused.output.find("the picture of frame 1002"), std::string::npos)
+        << refused.output;
+    // Before every second picture it stands where one of these would.
+    ASSERT_EQ(render("--frames 1001-1007x2 --slate").exitCode, 0);
+    EXPECT_EQ(files().front(), "p.0999.png");
+    EXPECT_EQ(files().size(), 5u);
+}
+
 // "152 bodies" stood under a picture of three coins: the others had yet to be poured.
 TEST(TakePainter, CountsOnlyWhoIsThere)
 {
