@@ -293,6 +293,14 @@ Rounding onFlat(const RelativePair& pair, TouchingBody& first, TouchingBody& sec
                         kSharpness * smallerRadius(pair.first, pair.second));
     };
     if (!isOnFlat(placeOnFlat)) return {Result::elsewhere};
+    if (!flat.hollows.isEmpty()) {
+        const Mat3 advance = first.isRound()
+                                 ? place.advance
+                                 : Mat3(pair.rotation.transpose() * place.advance * pair.rotation);
+        const Shape& other = first.isRound() ? pair.first : pair.second;
+        const std::int32_t facet = flat.rays.closestTriangle(inFlat(placeOnFlat));
+        if (flat.hollows.isFittedBy(facet, advance, other.bulge())) return {};
+    }
     const double side = first.isRound() ? 1.0 : -1.0;
     const double gap = side * n.dot(place.point - placeOnFlat) - place.bulge;
     const Vec3 smooth = place.point - side * place.bulge * n;

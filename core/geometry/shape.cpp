@@ -261,6 +261,7 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
     shape.samples = makeSurfaceSamples(shape.mesh, withEdges);
     shape.features = ContactFeatures(shape.mesh);
     shape.rims = RoundRims(shape.features);
+    shape.hollows = HollowFacets(shape.mesh);
     if (!shape.usesTrueNormals) {
         shape.smooth = SmoothSurface(shape.mesh);
         shape.roundFacets = RoundFacets(shape.mesh);

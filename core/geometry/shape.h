@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/geometry/contact_features.h"
+#include "core/geometry/hollow_facets.h"
 #include "core/geometry/inner_ball.h"
 #include "core/geometry/level_set_remesh.h"
 #include "core/geometry/mass_properties.h"
@@ -106,6 +107,7 @@ struct Shape {
     SmoothSurface smooth;      ///< empty for sharp meshes, planes and exact solids  [A40]
     RoundFacets roundFacets;   ///< empty for the same
     RoundRims rims;            ///< empty where there are no features
+    HollowFacets hollows;      ///< empty for planes and exact solids too
 
     /// No place of the mesh lies farther below what it stands for than this [m].
     double bulge() const { return std::max(roundFacets.bulge(), rims.bulge()); }

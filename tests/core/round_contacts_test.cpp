@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/base/random.h"
@@ -399,6 +400,60 @@ double heightOf(const World& world, BodyId body)
         lowest = std::min(lowest, p.y());
     }
     return lowest;
+}
+
+/// Of straight sides, open at its top; the horizontal thickness of its wall is the same all over.
+TriMesh makeCup(int sectors)
+{
+    constexpr double kFoot = 0.0275, kSlope = 0.11, kHeight = 0.09, kWall = 0.006, kFloor = 0.006;
+    const double foot = kFoot, brim = kFoot + kSlope * kHeight;
+    const Eigen::Vector2d rings[] = {{foot, 0.0},
+                                     {brim, kHeight},
+                                     {brim - kWall, kHeight},
+                                     {foot + kSlope * kFloor - kWall, kFloor}};
+    TriMesh mesh;
+    mesh.points.resize(3, 4 * sectors + 2);
+    mesh.triangles.resize(3, 8 * sectors);
+    const int below = 4 * sectors, above = below + 1;
+    mesh.points.col(below) = Vec3::Zero();
+    mesh.points.col(above) = Vec3(0.0, kFloor, 0.0);
+    int count = 0;
+    for (int i = 0; i < sectors; ++i) {
+        const double angle = 2.0 * kPi * i / sectors;
+        const int next = (i + 1) % sectors;
+        const auto add = [&](int a, int b, int c) { mesh.triangles.col(count++) << a, b, c; };
+        for (int ring = 0; ring < 4; ++ring) {
+            const double radius = rings[ring].x();
+            mesh.points.col(ring * sectors + i) =
+                Vec3(radius * std::cos(angle), rings[ring].y(), -radius * std::sin(angle));
+            if (ring == 3) continue;
+            const int here = ring * sectors, upper = here + sectors;
+            add(here + i, here + next, upper + next);
+            add(here + i, upper + next, upper + i);
+        }
+        add(below, next, i);
+        add(above, 3 * sectors + i, 3 * sectors + next);
+    }
+    return mesh;
+}
+
+// One of twenty sides floated 3 mm above the cup it stood in: round outside, hollow as drawn.
+TEST(RoundContacts, CupsStandInEachOtherAsFarAsTheyFit)
+{
+    constexpr double kPitch = 0.006 / 0.11;
+    for (const int sectors : {20, 32}) {
+        World world;
+        const MaterialId material = addMaterial(world, 0.3, 0.0);
+        addPlane(world, material);
+        const auto cup = buildMeshShape("cup" + std::to_string(sectors), makeCup(sectors));
+        addBody(world, cup, material, Pose());
+        const Vec3 above(0.0, kPitch + 0.001, 0.0);
+        const BodyId body = addBody(world, cup, material, {above, Quat::Identity()});
+        Stepper stepper(screeSettings());
+        for (int f = 0; f < 24; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+        EXPECT_NEAR(world.worldFromAsset(body).position.y(), kPitch, 2e-5) << sectors;
+        EXPECT_TRUE(world.contactMemory.isAsleep(body)) << sectors;
+    }
 }
 
 // The facets between the ring and the hollow are as round as those outside, every other of them,
