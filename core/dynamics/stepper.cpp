@@ -30,6 +30,7 @@
 #include "core/dynamics/gap_push_out.h"
 #include "core/dynamics/gap_riders.h"
 #include "core/dynamics/gap_shock.h"
+#include "core/dynamics/gap_swings.h"
 #include "core/dynamics/gap_unseen.h"
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
@@ -176,6 +177,7 @@ PhaseSeconds Stepper::solveBlock(const World& world, double dt, GapBlock& block)
         const PhaseTimer timer(seconds, Phase::contact);
         leads = leadPlaces(world, dt, block, scratch);
         addForcesToGaps(dt, block, scratch);
+        holdSwings(world, settings_, dt, block, scratch);
     }
     LadenBodies laden(settings_, dt, block, scratch);
     {

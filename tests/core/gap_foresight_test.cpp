@@ -13,18 +13,6 @@ namespace {
 
 constexpr double kFrame = 1.0 / 24.0;
 
-BodyId addFixed(World& world, MaterialId material, std::shared_ptr<const Shape> shape,
-                const Pose& worldFromAsset)
-{
-    BodyDefinition definition;
-    definition.name = "fixed_" + std::to_string(world.bodyCount());
-    definition.shape = world.addShape(std::move(shape));
-    definition.material = material;
-    definition.kind = BodyKind::fixed;
-    definition.worldFromAsset = worldFromAsset;
-    return world.addBody(definition);
-}
-
 BodyId addSlab(World& world, MaterialId material, const Vec3& size, const Vec3& centre)
 {
     return addFixed(world, material, boxShape(size, 1), {centre, Quat::Identity()});

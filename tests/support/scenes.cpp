@@ -164,6 +164,18 @@ BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId mate
     return world.addBody(definition);
 }
 
+BodyId addFixed(World& world, MaterialId material, std::shared_ptr<const Shape> shape,
+                const Pose& worldFromAsset)
+{
+    BodyDefinition definition;
+    definition.name = "fixed_" + std::to_string(world.bodyCount());
+    definition.shape = world.addShape(std::move(shape));
+    definition.material = material;
+    definition.kind = BodyKind::fixed;
+    definition.worldFromAsset = worldFromAsset;
+    return world.addBody(definition);
+}
+
 BodyId addKeyedBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
                     const std::vector<MotionKey>& keys, KeyInterpolation interpolation)
 {

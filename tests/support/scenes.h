@@ -56,6 +56,9 @@ BodyId addBody(World& world, std::shared_ptr<const Shape> shape, MaterialId mate
                const Pose& worldFromAsset, double mass = 1.0, const Vec3& velocity = Vec3::Zero(),
                const Vec3& angularVelocity = Vec3::Zero());
 
+BodyId addFixed(World& world, MaterialId material, std::shared_ptr<const Shape> shape,
+                const Pose& worldFromAsset);
+
 /// A body that a script moves; keys in seconds since the first frame.
 BodyId addKeyedBody(World& world, std::shared_ptr<const Shape> shape, MaterialId material,
                     const std::vector<MotionKey>& keys, KeyInterpolation interpolation);
