@@ -40,8 +40,13 @@ CollisionVisit beginVisit(const World& world, const PairRecord& pair, const Step
 {
     const auto [a, b] = pair.bodies;
     const PlacedPair placed = place(world, pair, scratch, placing);
-    const PassInertia ofA = passInertia(world.mass[a], placed.worldFromA.orientation);
-    const PassInertia ofB = passInertia(world.mass[b], placed.worldFromB.orientation);
+    // The angular momentum of a keyed body was made from its spin where it is now.  [A54]
+    const auto inertiaOf = [&](BodyId body, const Quat& predicted) {
+        const bool isKeyed = world.info[body].kind == BodyKind::keyed;
+        return passInertia(world.mass[body], isKeyed ? world.motion[body].orientation : predicted);
+    };
+    const PassInertia ofA = inertiaOf(a, placed.worldFromA.orientation);
+    const PassInertia ofB = inertiaOf(b, placed.worldFromB.orientation);
     return {placed,
             placePair(world, pair.bodies),
             {ofA.inverseInertia, ofB.inverseInertia, fixedIf(pair.aIsUnmoved, ofA),

@@ -144,6 +144,7 @@ std::vector<PairToHit> inOrderOfTime(ImpactState& state)
 void resolveImpacts(const StepSettings& settings, double dt, const std::vector<Held>& held,
                     GapBlock& block, GapScratch& scratch)
 {
+    if (settings.collisionIterations == 0) return;
     ImpactState state(settings, dt, held, block, scratch);
     const std::vector<PairToHit> toHit = inOrderOfTime(state);
     if (toHit.empty()) return;

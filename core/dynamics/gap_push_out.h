@@ -8,7 +8,8 @@
 namespace scree {
 
 /// Draws overlaps apart: those that steps leave bit by bit, deeper ones at once. The shifts of the
-/// bodies must be their displacements of this step. Leaves in every pair the depth that is left.
+/// bodies must be their displacements of this step. Where it draws deep ones apart, their pairs
+/// have the depth that is left.
 PushOutTally separateGaps(World& world, const StepSettings& settings, GapScratch& scratch);
 
 /// The worst overlap of any pair as last seen: at the beginning of the step, or, where deep ones

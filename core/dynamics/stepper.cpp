@@ -250,6 +250,7 @@ StepReport Stepper::stepGaps(World& world, double dt)
         report.pushes = tally.pushes;
         report.pushesCut = tally.cut;
         report.pushOutWork = potentialEnergy(world, settings_.gravity) - before;
+        if (tally.pushes > 0) findNonFinite(world, Phase::pushOut, report);
     }
     describeOverlap(findWorstGap(world, scratch), report);
     describeGaps(scratch, report);

@@ -204,8 +204,11 @@ void wakeByForces(World& world, const std::vector<AppliedForce>& forces)
     for (std::size_t i = 0; i < world.contactMemory.rest.size(); ++i) {
         const BodyRest& rest = world.contactMemory.rest[i];
         const double change = (rest.pull - forces[i].acceleration).norm();
-        if (rest.isAsleep && change > kUnnoticed * rest.pull.norm())
-            roots.push_back(static_cast<BodyId>(i));
+        const auto body = static_cast<BodyId>(i);
+        // A script takes bodies over at the beginning of a frame.
+        const bool isTaken = world.info[body].kind == BodyKind::keyed;
+        if (rest.isAsleep && (isTaken || change > kUnnoticed * rest.pull.norm()))
+            roots.push_back(body);
     }
     wakeAround(world, roots);
 }

@@ -434,6 +434,21 @@ TEST(GapBounce, ABallNeverRisesAboveWhereItFellFromThoughItsStepsMissTheTopByTur
     }
 }
 
+TEST(GapBounce, WithoutSweepsNothingBounces)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 1.0);
+    addPlane(world, material);
+    addBody(world, exactSphere(0.5), material, {Vec3(0.0, 2.5, 0.0)});
+    StepSettings settings = screeSettings();
+    settings.collisionIterations = 0;
+    Stepper stepper(settings);
+    for (int f = 0; f < 24; ++f)
+        EXPECT_EQ(stepper.advanceFrame(world, 1.0 / 24.0).sum.loopsAtTheirCap, 0) << f;
+    EXPECT_NEAR(world.motion[1].position.y(), 0.5, 1e-6);
+    EXPECT_NEAR(world.motion[1].velocity.y(), 0.0, 1e-9);
+}
+
 TEST(GapBounce, ABeamThatLandsOnTwoPostsAtOnceDoesNotTurn)
 {
     World world;

@@ -233,5 +233,29 @@ TEST(KeyedMotion, StoppingBetweenSubStepsAcrossReleaseAndTakeOverChangesNothing)
     EXPECT_EQ(stateHash(broken), stateHash(unbroken));
 }
 
+// A tilted rod that turns about the vertical has angular momentum in another direction: made where
+// the rod is and divided by its inertia where it will be, it had a spin about itself too, and took
+// a ball at half its height upwards.  [A54]
+TEST(KeyedMotion, WhatAScriptTurnsStrikesWithTheSpinOfTheScript)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 100.0, 0.0);
+    const double turn = 0.3, dt = 1.0 / 24.0, half = 0.1, radius = 0.1;
+    const Quat tilted = exponentialMap({0.0, 0.0, 0.25 * kPi});
+    addKeyedBody(world, boxShape({2.0, 2.0 * half, 2.0 * half}, 1), material,
+                 {{0.0, {Vec3::Zero(), exponentialMap({0.0, -0.5 * turn, 0.0}) * tilted}},
+                  {dt, {Vec3::Zero(), exponentialMap({0.0, 0.5 * turn, 0.0}) * tilted}}},
+                 KeyInterpolation::linear);
+    const BodyId ball = addBody(world, exactSphere(radius), material,
+                                {Vec3(0.0, 0.0, half + radius + 0.01)}, 1.0, {0.0, 0.0, -1.0});
+    StepSettings settings = experimentSettings();
+    settings.gravity = Vec3::Zero();
+    settings.pushOut = false;
+    Stepper(settings).step(world, dt);
+    const Vec3 v = world.motion[ball].velocity;
+    EXPECT_GT(v.x(), 0.2);
+    EXPECT_NEAR(v.y(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace scree::test

@@ -137,5 +137,30 @@ TEST(Waking, SleepersThatLoseWhatHoldsThemFall)
     EXPECT_NEAR(world.motion[3].position.y(), 1.5, 1e-2);
 }
 
+// Without gravity nothing told it that it was no longer free: it stood for a step, and then caught
+// up with its script at twice the speed.
+TEST(Waking, WhatAScriptTakesOverMovesFromItsFirstStepOn)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.3);
+    const BodyId taken =
+        addKeyedBody(world, boxShape({1.0, 1.0, 1.0}, 1), material,
+                     {{36.0 * kFrame, {Vec3::Zero()}}, {48.0 * kFrame, {Vec3(1.2, 0.0, 0.0)}}},
+                     KeyInterpolation::linear);
+    world.info[taken].keyedFrom = 36;
+    // Another that is awake, or no step would be made.
+    addBody(world, boxShape({1.0, 1.0, 1.0}, 1), material, {Vec3(0.0, 9.0, 0.0)}, 1.0,
+            Vec3(0.0, 0.01, 0.0));
+    StepSettings settings = screeSettings();
+    settings.gravity = Vec3::Zero();
+    Stepper stepper(settings);
+    for (int f = 0; f < 36; ++f) stepper.advanceFrame(world, kFrame);
+    ASSERT_TRUE(world.contactMemory.isAsleep(taken));
+    for (int f = 1; f <= 3; ++f) {
+        stepper.advanceFrame(world, kFrame);
+        EXPECT_NEAR(world.motion[taken].position.x(), 0.1 * f, 1e-12) << f;
+    }
+}
+
 }  // namespace
 }  // namespace scree::test
