@@ -57,10 +57,19 @@ double movedRadii(const Shape& shape, const BodyMotion& before, const BodyMotion
 
 std::string percentText(double ratio)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, ratio < 1.0 ? "%.2g %%" : "%.0f %%", 100.0 * ratio);
-    return text;
+    return formatted(ratio < 1.0 ? "%.2g %%" : "%.0f %%", 100.0 * ratio);
 }
+
+/// What keeps a pose from being the last.
+struct Unrest {
+    int moving = 0;                ///< bodies that have moved too far
+    BodyId fastest = -1;           ///< of these
+    double moved = 0.0;            ///< how far that one did, in its bounding radii
+    std::optional<BodyId> unborn;  ///< one that is still to come
+    bool isTooEarly = false;       ///< since the last birth, or what the shot itself sets in motion
+
+    bool isNone() const { return moving == 0 && !unborn && !isTooEarly; }
+};
 
 /// The last moment at which the shot itself sets something in motion [s]: a key, a release, a force
 /// that changes. What lies still until then is not at rest.
@@ -114,17 +123,17 @@ public:
 
     int run()
     {
-        const bool isAtRest = simulate();
+        simulate();
         heedStop();
         for (const std::string& file : write()) std::printf("%s\n", file.c_str());
-        if (isAtRest) return kExitDone;
+        if (unrest_.isNone()) return kExitDone;
         console_.error("not at rest after " + describeDuration(options_.seconds) + ": " +
                        reasonOfUnrest() + "; the pose is written all the same");
         return kExitQuality;
     }
 
 private:
-    bool simulate()
+    void simulate()
     {
         Stepper stepper(shot_.settings);
         const auto window = static_cast<std::size_t>(
@@ -134,36 +143,34 @@ private:
         for (int frame = 1; frame <= most; ++frame) {
             const FrameReport report =
                 stepper.advanceFrame(world_, 1.0 / shot_.framesPerSecond, stopRequested);
-            if (!report.finished) return false;
+            if (!report.finished) return;
             refuseBroken(report, shot_.firstFrame + frame);
             past.push_back(world_.motion);
             if (past.size() > window + 1) past.pop_front();
-            if (past.size() == window + 1 && isAtRest(past.front(), report.births)) {
+            unrest_ = unrestSince(past.front(), report.births);
+            unrest_.isTooEarly = unrest_.isTooEarly || past.size() <= window;
+            if (unrest_.isNone()) {
                 console_.info("at rest after " + std::to_string(frame) + " frames");
-                return true;
+                return;
             }
         }
-        return false;
     }
 
-    bool isAtRest(const std::vector<BodyMotion>& before, const BirthReport& births)
+    Unrest unrestSince(const std::vector<BodyMotion>& before, const BirthReport& births) const
     {
-        double most = options_.tolerance;
-        restlessCount_ = 0;
-        bool result = births.born == 0 && births.waiting == 0 &&
-                      world_.time() >= endOfEvents_ + kWindowSeconds;
+        Unrest unrest;
+        unrest.isTooEarly = births.born > 0 || world_.time() < endOfEvents_ + kWindowSeconds;
         for (BodyId body = 0; body < static_cast<BodyId>(world_.bodyCount()); ++body) {
-            if (world_.bornAt[body] == kUnborn) restless_ = body, result = false;
+            if (world_.bornAt[body] == kUnborn && !unrest.unborn) unrest.unborn = body;
             if (!world_.mass[body].isMovable()) continue;
             const double moved =
                 movedRadii(world_.shapeOf(body), before[body], world_.motion[body]);
-            restlessCount_ += moved > options_.tolerance;
-            if (moved <= most) continue;
-            most = restlessness_ = moved;
-            restless_ = body;
-            result = false;
+            unrest.moving += moved > options_.tolerance;
+            if (moved <= std::max(unrest.moved, options_.tolerance)) continue;
+            unrest.moved = moved;
+            unrest.fastest = body;
         }
-        return result;
+        return unrest;
     }
 
     std::string reasonOfUnrest() const
@@ -172,11 +179,14 @@ private:
             return "keys, releases and changes of force go on until " +
                    describeDuration(endOfEvents_) + " after the start (--seconds)";
         }
-        const std::string most = "'" + world_.info[restless_].name + "' still moves, " +
-                                 percentText(restlessness_) + " of its radius in half a second";
+        if (unrest_.moving == 0 && unrest_.unborn)
+            return "'" + world_.info[*unrest_.unborn].name + "' has not been born yet (--seconds)";
+        if (unrest_.moving == 0) return "it has not lain still for half a second yet (--seconds)";
+        const std::string most = "'" + world_.info[unrest_.fastest].name + "' still moves, " +
+                                 percentText(unrest_.moved) + " of its radius in half a second";
         const std::string others =
-            restlessCount_ > 1 ? ", the most of " + std::to_string(restlessCount_) : "";
-        if (!rollsOn(world_, restless_)) return most + others;
+            unrest_.moving > 1 ? ", the most of " + std::to_string(unrest_.moving) : "";
+        if (!rollsOn(world_, unrest_.fastest)) return most + others;
         std::string advice;
         for (const std::string& sentence : rollingAdvice(shot_, world_)) advice += "; " + sentence;
         return most + others + advice;
@@ -225,10 +235,8 @@ private:
     Console& console_;
     Shot shot_;
     World world_;
-    double endOfEvents_ = 0.0;   // [s]
-    BodyId restless_ = 0;        // who moves most
-    int restlessCount_ = 0;      // how many move
-    double restlessness_ = 0.0;  // by how much of its radius
+    double endOfEvents_ = 0.0;  // [s]
+    Unrest unrest_;             // after the last frame
 };
 
 }  // namespace

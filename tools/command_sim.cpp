@@ -19,6 +19,7 @@
 #include "io/subframes.h"
 #include "io/take.h"
 #include "io/take_reader.h"
+#include "io/text_forms.h"
 #include "tools/broken_frame.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
@@ -49,9 +50,7 @@ double wallSeconds()
 
 std::string percent(double ratio)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * ratio);
-    return text;
+    return formatted("%.2g %%", 100.0 * ratio);
 }
 
 /// The command that goes on with the take. It repeats all that decides what the take becomes: given

@@ -238,6 +238,25 @@ TEST_F(ShotTools, SettleWaitsForWhatTheShotHasInStore)
     EXPECT_TRUE(contains(blown.err, "go on until")) << blown.err;
 }
 
+TEST_F(ShotTools, SettleSaysWhoHasNotBeenBornRatherThanWhoStillMoves)
+{
+    const auto settle = [&](const std::string& clear) {
+        std::ofstream(folder / "stuck.toml")
+            << readFileBytes(folder / "drop.toml") +
+                   "[[body]]\nname = \"table\"\nshape = \"block\"\nmaterial = \"wood\"\n"
+                   "motion = \"static\"\nposition = [9, 0.1, 0]\n"
+                   "[[emitter]]\nname = \"late\"\nshape = \"block\"\nmaterial = \"wood\"\n"
+                   "count = 2\nframes = \"1002-1003\"\nclear = \"" +
+                   clear + "\"\nbox = { min = [9, 0.15, 0], max = [9, 0.15, 0] }\n";
+        return run("settle stuck.toml -o stuck.json --seconds 4");
+    };
+    const Outcome waiting = settle("wait");
+    EXPECT_EQ(waiting.code, 79);
+    EXPECT_TRUE(contains(waiting.err, "'late_0000' has not been born yet")) << waiting.err;
+    EXPECT_FALSE(contains(waiting.err, "still moves")) << waiting.err;
+    EXPECT_EQ(settle("skip").code, 0);
+}
+
 TEST_F(ShotTools, CheckAndSettleSayWhatRollsOnForEverAndWhatStopsIt)
 {
     std::ofstream(folder / "barrel.toml")
