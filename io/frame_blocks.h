@@ -21,7 +21,7 @@
 
 namespace scree {
 
-constexpr std::uint32_t kFrameFileVersion = 1;
+inline constexpr std::uint32_t kFrameFileVersion = 1;
 constexpr std::array<char, 8> kFrameMagic = {'S', 'C', 'R', 'E', 'E', 'F', 'R', 'M'};
 
 /// As it stands in the file.

@@ -29,6 +29,7 @@ struct ImportedNode {
     std::vector<ImportedKey> keys;  ///< in order of time; empty for a node that never moves
     std::string obstacle;           ///< why its motion cannot be played, if so; it has no keys then
     std::string lostJoin;           ///< how its samples are joined in the file, if not straight
+    std::string lostClips;          ///< which of several clips of the file it plays, if so
     std::string unusable;           ///< why it is no rigid body, if so; it has no mesh then
     bool isBent = false;            ///< bones or morph targets of the file bend its mesh; lost
 };
@@ -48,6 +49,7 @@ struct ImportedCamera {
     std::vector<ImportedZoom> zoom;  ///< in order of time; empty for one that never zooms
     bool isZoomLost = false;         ///< the file has a zoom that cannot be read
     std::string lostJoin;            ///< as of a node
+    std::string lostClips;           ///< likewise
 };
 
 struct ImportedFile {

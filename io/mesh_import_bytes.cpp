@@ -118,6 +118,7 @@ private:
         node.fileFromNode = takePose();
         node.obstacle = takeText(kLongestSentence, "letters in a sentence");
         node.lostJoin = takeText(kLongestSentence, "letters in a sentence");
+        node.lostClips = takeText(kLongestSentence, "letters in a sentence");
         node.unusable = takeText(kLongestSentence, "letters in a sentence");
         node.isBent = cursor_.take<std::uint8_t>() != 0;
         takeKeys(node.keys);
@@ -157,6 +158,7 @@ private:
         }
         camera.isZoomLost = cursor_.take<std::uint8_t>() != 0;
         camera.lostJoin = takeText(kLongestSentence, "letters in a sentence");
+        camera.lostClips = takeText(kLongestSentence, "letters in a sentence");
         return camera;
     }
 
@@ -210,6 +212,7 @@ std::string encodeImport(const ImportedFile& file)
         appendPose(bytes, node.fileFromNode);
         appendText(bytes, node.obstacle);
         appendText(bytes, node.lostJoin);
+        appendText(bytes, node.lostClips);
         appendText(bytes, node.unusable);
         appendBytes(bytes, static_cast<std::uint8_t>(node.isBent));
         appendKeys(bytes, node.keys);
@@ -230,6 +233,7 @@ std::string encodeImport(const ImportedFile& file)
         }
         appendBytes(bytes, static_cast<std::uint8_t>(camera.isZoomLost));
         appendText(bytes, camera.lostJoin);
+        appendText(bytes, camera.lostClips);
     }
     return bytes;
 }

@@ -12,6 +12,7 @@
 #include "core/math/rotation.h"
 #include "io/keys_between.h"
 #include "io/obj_names.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {
@@ -144,7 +145,10 @@ public:
             between(keys_.mScalingKeys, keys_.mNumScalingKeys, ticks, mix, scale);
         }
         if (scale.Length() < kHiddenScale) scale = aiVector3D(kHiddenScale);
-        return aiMatrix4x4(scale, rotation, position);
+        // What assimp makes of all three scales along the axes of the parent.
+        aiMatrix4x4 stretch;
+        return aiMatrix4x4(aiVector3D(1.0f), rotation, position) *
+               aiMatrix4x4::Scaling(scale, stretch);
     }
 
 private:
@@ -261,6 +265,7 @@ public:
                 const aiNodeAnim& keys = *animation.mChannels[c];
                 const std::string name = keys.mNodeName.C_Str();
                 channels_.try_emplace(name, keys, rate, gltf && gltf->jumpingScales.contains(name));
+                clipsOf_[name].insert(a);
             }
         }
         countNames(*scene.mRootNode, 0);
@@ -333,7 +338,10 @@ private:
         result.fileFromNode = parts.pose();
         result.isBent = isBent(scene_, node);
         readKeys(parts.scale, result);
-        if (!result.keys.empty()) result.lostJoin = lostJoin();
+        if (!result.keys.empty()) {
+            result.lostJoin = lostJoin();
+            result.lostClips = lostClips();
+        }
         nodes_.push_back(std::move(result));
     }
 
@@ -350,6 +358,7 @@ private:
         result.fileFromCamera = fileFromCamera(chainAtRest());
         result.keys = keysOf([&](double time) { return fileFromCamera(chainAt(time)); });
         result.lostJoin = lostJoin();
+        result.lostClips = lostClips();
         cameras_.push_back(std::move(result));
     }
 
@@ -416,6 +425,29 @@ private:
         return "";
     }
 
+    std::string nameOfClip(unsigned clip) const
+    {
+        constexpr std::size_t kLongestShown = 60;
+        const std::string name = shortened(scene_.mAnimations[clip]->mName.C_Str(), kLongestShown);
+        return name.empty() ? "number " + std::to_string(clip + 1) : "'" + name + "'";
+    }
+
+    /// What is said of the clips that move the node, if there are several: programs write one for
+    /// each of its actions. It plays the first that has a channel for it.
+    std::string lostClips() const
+    {
+        for (const aiNode* link : chain_) {
+            const auto clips = clipsOf_.find(link->mName.C_Str());
+            if (clips == clipsOf_.end() || clips->second.size() < 2) continue;
+            const unsigned played = *clips->second.begin(),
+                           lost = *std::next(clips->second.begin());
+            const std::size_t more = clips->second.size() - 2;
+            return nameOfClip(played) + " is played, and not " + nameOfClip(lost) +
+                   (more > 0 ? " or " + std::to_string(more) + " more" : "");
+        }
+        return "";
+    }
+
     void readKeys(const aiVector3D& scale, ImportedNode& result)
     {
         result.obstacle = doubt();
@@ -458,8 +490,9 @@ private:
 
     const aiScene& scene_;
     std::uint32_t mostDepth_;
-    const GltfReading* gltf_;                  // null of other files
-    std::map<std::string, Channel> channels_;  // by the name of their node
+    const GltfReading* gltf_;                            // null of other files
+    std::map<std::string, Channel> channels_;            // by the name of their node
+    std::map<std::string, std::set<unsigned>> clipsOf_;  // likewise, in the order of the file
     Stretches stretches_;
     std::map<std::string, int> namesakes_;  // how many nodes have a name
     std::vector<const aiNode*> chain_;      // from the root to the node that is visited

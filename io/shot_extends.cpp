@@ -1,6 +1,7 @@
 #include "io/shot_extends.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "io/shot_schema.h"
 
@@ -18,26 +19,30 @@ bool areExclusive(const std::string& path, const std::string& a, const std::stri
     return excludes(a, b) || excludes(b, a);
 }
 
-bool isNamed(const ShotNode& item, const std::string& name)
+/// Of an item of a list of tables; empty where it has none.
+std::string nameOf(const ShotNode& item, const std::string& list)
 {
     const ShotNode* own = item.find("name");
-    return own && own->kind == ShotNode::Kind::text && own->text == name;
+    return own ? own->text : nameByDefault(list);
 }
 
 void lay(ShotNode& base, const ShotNode& over, const std::string& path);
 
-/// Items of the same name are laid over each other, others follow.
+/// Items of the same name are laid over each other, others follow: also a second one of that name,
+/// which is no way to say more of the first.
 void layList(ShotNode& base, const ShotNode& over, const std::string& path)
 {
+    std::vector<bool> isFree(base.items.size(), true);
     for (const ShotNode& item : over.items) {
-        const ShotNode* name = item.find("name");
-        const auto same = std::find_if(base.items.begin(), base.items.end(), [&](const auto& own) {
-            return name && isNamed(own, name->text);
-        });
-        if (same != base.items.end()) {
-            lay(*same, item, path);
-        } else {
+        const std::string name = nameOf(item, path);
+        std::size_t same = 0;
+        while (same < isFree.size() && !(isFree[same] && nameOf(base.items[same], path) == name))
+            ++same;
+        if (same == isFree.size() || name.empty()) {
             base.items.push_back(item);
+        } else {
+            isFree[same] = false;
+            lay(base.items[same], item, path);
         }
     }
 }
@@ -45,10 +50,13 @@ void layList(ShotNode& base, const ShotNode& over, const std::string& path)
 void lay(ShotNode& base, const ShotNode& over, const std::string& path)
 {
     base.where = over.where;
-    for (const ShotEntry& entry : over.entries) {
-        std::erase_if(base.entries, [&](const ShotEntry& own) {
-            return own.key != entry.key && areExclusive(path, own.key, entry.key);
+    // Not what `over` itself says besides: that is an error.
+    std::erase_if(base.entries, [&](const ShotEntry& own) {
+        return !over.entry(own.key) && std::ranges::any_of(over.entries, [&](const auto& entry) {
+            return areExclusive(path, own.key, entry.key);
         });
+    });
+    for (const ShotEntry& entry : over.entries) {
         ShotEntry* own = base.entry(entry.key);
         if (!own) {
             base.entries.push_back(entry);

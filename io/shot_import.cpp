@@ -241,20 +241,32 @@ void warnOfJoin(const SourceLocation& where, const std::string& who, const std::
                              "every frame");
 }
 
+void warnOfClips(const SourceLocation& where, const std::string& who, const std::string& which,
+                 ProblemList& problems)
+{
+    problems.warn(where, "several clips of the file move " + who + ": " + which +
+                             "; export the one that is meant alone");
+}
+
 /// Warns of what other programs show otherwise: who trusts the file must know.
 void warnOfLosses(const ShotNode& import, const ImportedFile& file,
                   const std::vector<bool>& isChosen, bool isKeyed, ProblemList& problems)
 {
     std::map<std::string, std::vector<std::string>> joined;  // names by how samples are joined
+    std::map<std::string, std::vector<std::string>> clips;   // names by which clip they play
     std::vector<std::string> bent;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
         if (!isChosen[i]) continue;
         const ImportedNode& node = file.nodes[i];
         if (isKeyed && !node.lostJoin.empty()) joined[node.lostJoin].push_back(node.name);
+        if (isKeyed && !node.lostClips.empty()) clips[node.lostClips].push_back(node.name);
         if (node.isBent) bent.push_back(node.name);
     }
     for (const auto& [how, names] : joined) {
         warnOfJoin(import.find("motion")->where, someOf(names), how, problems);
+    }
+    for (const auto& [which, names] : clips) {
+        warnOfClips(import.find("motion")->where, someOf(names), which, problems);
     }
     if (bent.empty()) return;
     problems.warn(import.find("file")->where,
@@ -360,6 +372,10 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     if (!imported->lostJoin.empty()) {
         warnOfJoin(node.find("file")->where, "camera '" + imported->name + "'", imported->lostJoin,
                    problems);
+    }
+    if (!imported->lostClips.empty()) {
+        warnOfClips(node.find("file")->where, "camera '" + imported->name + "'",
+                    imported->lostClips, problems);
     }
     if (imported->isZoomLost) {
         problems.warn(node.find("file")->where,

@@ -62,7 +62,7 @@ public:
         readMaterials();
         readMaterialPairs(tree_, shot_, problems_);
         shapeNames_ = readShapes(tree_, folder_, isStrict_, shot_, problems_);
-        readForceFields(tree_, shot_, problems_);
+        readForceFields(tree_, groups_, shot_, problems_);
         if (const ShotNode* bodies = tree_.find("body")) {
             for (const ShotNode& body : bodies->items) readBody(body);
         }

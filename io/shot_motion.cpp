@@ -103,15 +103,16 @@ private:
         const ShotNode* type = node_.find("type");
         if (!type) return;
         using Kind = ForceField::Kind;
-        field_.kind = type->text == "wind"     ? Kind::wind
-                      : type->text == "vortex" ? Kind::vortex
-                                               : Kind::radial;
+        field_.kind = type->text == "wind"      ? Kind::wind
+                      : type->text == "vortex"  ? Kind::vortex
+                      : type->text == "uniform" ? Kind::uniform
+                                                : Kind::radial;
         const bool isRadial = field_.kind == Kind::radial;
         if (const ShotNode* direction = node_.find("direction")) {
             if (isRadial) report(*direction, "a radial force has no 'direction'");
             field_.direction = directionOf(*direction, problems_);
         } else if (!isRadial && !node_.mentions("direction")) {
-            report(node_, "a " + type->text + " needs a 'direction'");
+            report(node_, "a force of type \"" + type->text + "\" needs a 'direction'");
         }
         if (const ShotNode* drag = node_.find("drag")) {
             if (field_.kind != Kind::wind) report(*drag, "only a wind has 'drag'");
@@ -224,15 +225,6 @@ void readBodyForces(const ShotNode& node, ShotBody& body, ProblemList& problems)
     }
 }
 
-void readForceFields(const ShotNode& tree, Shot& shot, ProblemList& problems)
-{
-    const ShotNode* fields = tree.find("force");
-    if (!fields) return;
-    for (const ShotNode& node : fields->items) {
-        shot.fields.push_back(FieldReader(node, shot, problems).read());
-    }
-}
-
 void readMaterialPairs(const ShotNode& tree, Shot& shot, ProblemList& problems)
 {
     const ShotNode* pairs = tree.find("pair");
@@ -313,6 +305,17 @@ std::uint64_t GroupNames::bitsOf(const ShotNode& names)
     std::uint64_t bits = 0;
     for (const ShotNode& name : names.items) bits |= bitOf(name);
     return bits;
+}
+
+void readForceFields(const ShotNode& tree, GroupNames& groups, Shot& shot, ProblemList& problems)
+{
+    const ShotNode* fields = tree.find("force");
+    if (!fields) return;
+    for (const ShotNode& node : fields->items) {
+        ForceField field = FieldReader(node, shot, problems).read();
+        if (const ShotNode* names = node.find("groups")) field.groups = groups.bitsOf(*names);
+        shot.fields.push_back(std::move(field));
+    }
 }
 
 }  // namespace scree

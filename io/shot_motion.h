@@ -18,9 +18,6 @@ void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, Pro
 /// Reads `force` and `torque` of a [[body]].
 void readBodyForces(const ShotNode& node, ShotBody& body, ProblemList& problems);
 
-/// Reads all [[force]].
-void readForceFields(const ShotNode& tree, Shot& shot, ProblemList& problems);
-
 /// Reads all [[pair]].
 void readMaterialPairs(const ShotNode& tree, Shot& shot, ProblemList& problems);
 
@@ -33,12 +30,17 @@ public:
     /// Reads `group`, `collides` and `unmoved_by` of a [[body]], [[import]] or [[emitter]].
     CollisionGroups read(const ShotNode& node);
 
+    /// Of a list of names.
+    std::uint64_t bitsOf(const ShotNode& names);
+
 private:
     std::uint64_t bitOf(const ShotNode& name);
-    std::uint64_t bitsOf(const ShotNode& names);
 
     std::vector<std::string> names_;  // the first is that of bodies which give none
     ProblemList& problems_;
 };
+
+/// Reads all [[force]].
+void readForceFields(const ShotNode& tree, GroupNames& groups, Shot& shot, ProblemList& problems);
 
 }  // namespace scree

@@ -200,7 +200,8 @@ private:
             }
             for (ShotNode& item : list->node.items) {
                 const ShotNode* name = item.find("name");
-                const std::string itemName = name ? name->text : std::to_string(names.size());
+                std::string itemName = name ? name->text : nameByDefault(key.path);
+                if (itemName.empty()) itemName = std::to_string(names.size());
                 if (itemName == wanted) return &item;
                 names.push_back(itemName);
             }

@@ -137,6 +137,13 @@ std::string_view nameOf(const ShotKey& key)
     return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
+std::string nameByDefault(std::string_view list)
+{
+    const ShotKey* name = findShotKey(joinPath(list, "name"));
+    const std::string_view quoted = name ? name->byDefault : "";
+    return quoted.size() < 2 ? "" : std::string(quoted.substr(1, quoted.size() - 2));
+}
+
 std::vector<std::string> splitWords(std::string_view words)
 {
     std::vector<std::string> result;

@@ -61,6 +61,9 @@ std::vector<std::string> namesInside(std::string_view path);
 /// The last word of a path.
 std::string_view nameOf(const ShotKey& key);
 
+/// What an item of a list of tables is called that has no name of its own; empty: nothing.
+std::string nameByDefault(std::string_view list);
+
 /// "a|b|c" → a, b, c.
 std::vector<std::string> splitWords(std::string_view words);
 

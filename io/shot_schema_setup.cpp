@@ -88,9 +88,11 @@ const std::vector<ShotKey> kSolverKeys = {
      .type = word,
      .byDefault = "\"scree\"",
      .choices = "scree|paper",
-     .help = "The way contacts are resolved. \"scree\" knows contacts before they touch and "
-             "remembers what held them: heaps lie still, and it is many times faster. \"paper\" "
-             "follows Guendelman, Bridson and Fedkiw to the letter; it is the reference."},
+     .help =
+         "The way contacts are resolved. \"scree\" knows contacts before they touch and "
+         "remembers what held them: heaps lie still, and it is many times faster. \"paper\" "
+         "follows Guendelman, Bridson and Fedkiw; it is the reference, and solver.strict leaves "
+         "out what has been repaired in it."},
     {.path = "solver.sleep",
      .type = boolean,
      .byDefault = "true",

@@ -121,7 +121,8 @@ const std::vector<ShotKey> kBodyKeys = {
              "spins faster and faster, and fast spin costs sub-steps."},
     {.path = "body.group",
      .type = text,
-     .help = "Name of the group this body is in, for collides and unmoved_by of any body."},
+     .help = "Name of the group this body is in, for collides and unmoved_by of any body, and for "
+             "groups of a force."},
     {.path = "body.collides",
      .type = words,
      .help = "Groups this body collides with; without it, all bodies. Both of a pair must accept "
@@ -204,15 +205,16 @@ const std::vector<ShotKey> kForceKeys = {
     {.path = "force.name", .type = text, .help = "What it is called in reports."},
     {.path = "force.type",
      .type = word,
-     .choices = "wind|radial|vortex",
+     .choices = "wind|radial|vortex|uniform",
      .isRequired = true,
      .help = "\"wind\" drags bodies along with moving air; \"radial\" pushes away from its center, "
-             "or pulls with a strength below 0; \"vortex\" drives around the axis through center."},
+             "or pulls with a strength below 0; \"vortex\" drives around the axis through center; "
+             "\"uniform\" pushes in one direction, as gravity does."},
     {.path = "force.strength",
      .unit = "m/s²; of wind: shot's unit of length per second",
      .excludes = "keys",
-     .help = "Acceleration by a radial force or a vortex, the same for light and heavy bodies; "
-             "speed of the air of a wind. Gravity is 9.81: less hardly lifts anything."},
+     .help = "Acceleration, the same for light and heavy bodies; of a wind the speed of the "
+             "air. Gravity is 9.81: less hardly lifts anything."},
     {.path = "force.keys",
      .type = tableList,
      .help = "Strength that changes: keys = [{ frame = 1001, strength = 0 }, { frame = 1024, "
@@ -226,14 +228,15 @@ const std::vector<ShotKey> kForceKeys = {
     {.path = "force.keys.strength", .isRequired = true, .help = "As force.strength."},
     {.path = "force.direction",
      .type = numbers,
-     .help = "Of the wind, or of the vortex's axis: with the thumb along it, the fingers of the "
+     .help = "Of a wind or a uniform force, or of a vortex's axis: with the thumb along it, the "
+             "fingers of the "
              "right hand show the sense. Any length but zero."},
     {.path = "force.center",
      .type = numbers,
      .unit = "shot's unit of length",
      .byDefault = "[0.0, 0.0, 0.0]",
      .help = "Where a radial force comes from, what a vortex's axis passes through, where a wind "
-             "with a falloff is strongest."},
+             "or a uniform force with a falloff is strongest."},
     {.path = "force.falloff",
      .type = word,
      .byDefault = "\"none\"",
@@ -252,6 +255,10 @@ const std::vector<ShotKey> kForceKeys = {
      .help = "Drag coefficient of bodies in a wind, on a quarter of their surface, which is what a "
              "convex body shows on average; 1 when left out. Large values make light bodies move "
              "with the air at once."},
+    {.path = "force.groups",
+     .type = words,
+     .help = "Groups, as of body.group, that it acts on, like [\"leaves\"]. All bodies when left "
+             "out."},
 };
 
 const std::vector<ShotKey> kPairKeys = {

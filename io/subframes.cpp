@@ -1,5 +1,4 @@
-// Symbols: x centre of mass, q orientation, v velocity, L angular momentum; s share of the sub-step
-//          that has passed, 0 … 1.
+// Symbols: s share of the sub-step that has passed, 0 … 1.
 #include "io/subframes.h"
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 namespace scree {
 
 inline constexpr const char* kTakeFormat = "scree take";
-constexpr int kTakeFormatVersion = 1;
+inline constexpr int kTakeFormatVersion = 1;
 
 /// A file that the shot was built from; the hash tells whether it has changed since.
 struct TakeInput {

@@ -1,12 +1,12 @@
 // Take → preview pictures.
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <mutex>
 
 #include "core/base/parallel.h"
+#include "core/diagnostics/phase_timer.h"
 #include "io/frame_pattern.h"
 #include "io/text_forms.h"
 #include "render/legend.h"
@@ -170,12 +170,11 @@ private:
         // Encoding of one picture goes on beside the drawing of the next.
         parallelFor(painter.usefulThreads(), 1, [&](std::size_t, std::size_t) {
             for (std::size_t i = next++; i < frames_.size() && !stopRequested(); i = next++) {
-                const auto started = std::chrono::steady_clock::now();
+                const Stopwatch watch;
                 paint(painter, frames_[i]);
-                const std::chrono::duration<double> taken =
-                    std::chrono::steady_clock::now() - started;
+                const double taken = watch.seconds();
                 const std::lock_guard lock(progressLock);
-                progress.frameDone(frames_[i], taken.count() / painter.usefulThreads());
+                progress.frameDone(frames_[i], taken / painter.usefulThreads());
             }
         });
     }

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/dynamics/stepper.h"
+#include "core/math/rotation.h"
 #include "core/scene/motion_script.h"
 #include "io/atomic_file.h"
 #include "io/build_world.h"
@@ -51,8 +52,8 @@ constexpr double kWindowSeconds = 0.5;  // over which nothing may move
 /// How far any point of the body can be from where it was, in bounding radii.
 double movedRadii(const Shape& shape, const BodyMotion& before, const BodyMotion& now)
 {
-    const double turn = 2.0 * (before.orientation.conjugate() * now.orientation).vec().norm();
-    return (now.position - before.position).norm() / shape.boundingRadius + turn;
+    return (now.position - before.position).norm() / shape.boundingRadius +
+           chordOfTurn(before.orientation, now.orientation);
 }
 
 std::string percentText(double ratio)

@@ -2,13 +2,13 @@
 // full disk, numbers that are none) leaves them there and says how to go on.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <new>
 
 #include "core/base/parallel.h"
+#include "core/diagnostics/phase_timer.h"
 #include "core/dynamics/start_overlap.h"
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
@@ -41,12 +41,6 @@ namespace {
 
 /// Worst frames named when a limit was broken.
 constexpr std::size_t kNamedFrames = 5;
-
-double wallSeconds()
-{
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double>(now).count();
-}
 
 std::string percent(double ratio)
 {
@@ -192,7 +186,8 @@ private:
         FrameStats stats;
         stats.frame = frame;
         stats.resumedAtSubStep = world_.clock.subStep;
-        const double wallBefore = wallSeconds(), cpuBefore = cpuSeconds();
+        const Stopwatch watch;
+        const double cpuBefore = cpuSeconds();
         const double duration = 1.0 / shot_.framesPerSecond;
         const double shareToDo = 1.0 - world_.clock.frameTimeDone / duration;
         const auto askStop = [&] {
@@ -203,7 +198,7 @@ private:
         stats.report = stepper.advanceFrame(
             world_, duration, askStop,
             [&](const World& world, double time) { subframes_->afterStep(world, time); });
-        stats.wallSeconds = wallSeconds() - wallBefore;
+        stats.wallSeconds = watch.seconds();
         stats.cpuSeconds = cpuSeconds() - cpuBefore;
         refuseBroken(frame, stats.report);
         if (!stats.report.finished) {
@@ -294,6 +289,16 @@ private:
 
     /// Every breach is in stats.jsonl; here each grade is told once when it happens, so that a
     /// night's log stays short.
+    /// What goes on for many frames is a warning in the first alone.
+    void warnOnce(bool& wasTold, const std::string& text)
+    {
+        if (wasTold)
+            console_.detail(text);
+        else
+            console_.warning(text);
+        wasTold = true;
+    }
+
     void warnOfOverlap(int frame, const FrameReport& report)
     {
         const double ratio = report.sum.worstOverlapRatio;
@@ -307,12 +312,7 @@ private:
             bodyName(report.sum.worstB) + " overlap by " + percent(ratio) +
             " of the smaller one's length, " +
             (isFailure ? "beyond penetration.fail; the run goes on" : "beyond penetration.warn");
-        bool& wasTold = isFailure ? toldFailure_ : toldWarning_;
-        if (wasTold)
-            console_.detail(text);
-        else
-            console_.warning(text);
-        wasTold = true;
+        warnOnce(isFailure ? toldFailure_ : toldWarning_, text);
     }
 
     /// What has come there seldom comes out again.
@@ -320,11 +320,7 @@ private:
     {
         const std::string text =
             "frame " + std::to_string(frame) + ": " + describe(overlap, world_);
-        if (toldWall_)
-            console_.detail(text);
-        else
-            console_.warning(text);
-        toldWall_ = true;
+        warnOnce(toldWall_, text);
     }
 
     void warnOfCap(int frame, const FrameReport& report)
@@ -332,11 +328,7 @@ private:
         if (!report.substepCapReached) return;
         const std::string text = "frame " + std::to_string(frame) +
                                  ": solver.substeps.max is reached; fast thin bodies may tunnel";
-        if (toldCap_)
-            console_.detail(text);
-        else
-            console_.warning(text);
-        toldCap_ = true;
+        warnOnce(toldCap_, text);
     }
 
     /// Caches the shot asks for, made once the take is complete. False when stopped on the way.

@@ -3,8 +3,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "core/diagnostics/phase_timer.h"
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
 #include "io/frame_stats.h"
@@ -81,12 +81,9 @@ RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double
     RunEstimate estimate;
     World copy = world;
     Stepper stepper(shot.settings);
-    const auto started = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const double cpuBefore = cpuSeconds();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    };
-    const auto isOver = [&] { return elapsed() >= mostSeconds || stopRequested(); };
+    const auto isOver = [&] { return watch.seconds() >= mostSeconds || stopRequested(); };
     double framesDone = 0.0;
     FrameReport lastReport;
     const double duration = 1.0 / shot.framesPerSecond;
@@ -105,7 +102,7 @@ RunEstimate estimateRun(const Shot& shot, const World& world, int frames, double
     const double scale = tried > 0.0        ? bodyFrames(world, total) / tried
                          : framesDone > 0.0 ? total / framesDone
                                             : 0.0;
-    estimate.wallSeconds = scale * elapsed();
+    estimate.wallSeconds = scale * watch.seconds();
     estimate.cpuSeconds = scale * (cpuSeconds() - cpuBefore);
 
     estimate.bodiesToCome =

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/collision/interference.h"
-#include "core/dynamics/body_pairs.h"
+#include "core/dynamics/births.h"
 #include "core/dynamics/start_check.h"
 #include "io/build_world.h"
 #include "io/text_forms.h"
@@ -62,11 +61,8 @@ BodyId obstacleTo(const World& world, BodyId newcomer)
     const Aabb box = boxAt(world.shapeOf(newcomer), world.motion[newcomer].worldFromBody());
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
         if (world.info[body].kind != BodyKind::fixed) continue;
-        if (!acceptEachOther(world, {newcomer, body})) continue;
-        const Shape& shape = world.shapeOf(body);
-        if (!box.overlaps(boxAt(shape, world.motion[body].worldFromBody()))) continue;
-        const double tau = contourValue(world.shapeOf(newcomer), shape);
-        if (deepestTouch(placePair(world, {newcomer, body}), tau)) return body;
+        const Aabb there = boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
+        if (box.overlaps(there) && standsInTheWay(world, body, newcomer)) return body;
     }
     return -1;
 }

@@ -1,9 +1,9 @@
 #include "tools/take_export.h"
 
-#include <chrono>
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/diagnostics/phase_timer.h"
 #include "io/atomic_file.h"
 #include "io/frame_writer.h"
 #include "tools/command_line.h"
@@ -30,21 +30,22 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
     for (const std::string& loss : writer->losses(scene))
         console.warning("\"" + output.string() + "\": " + loss);
     Progress shown(console, progress, "export", frameCount);
-    auto lastWord = std::chrono::steady_clock::now();
+    Stopwatch sinceLastWord;
     const bool withSubframes = writer->holdsSubframes();
     writer->begin(scene, frames.front(), frameCount,
                   withSubframes ? take.offsets() : std::vector<double>{0.0});
     for (const int frame : frames) {
         if (stopRequested()) return false;
-        const auto started = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         if (withSubframes)
             for (const SceneFrame& sample : take.readSamples(frame)) writer->write(sample);
         else
             writer->write(take.readFrame(frame));
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
-        shown.frameDone(frame, taken.count());
-        if (progress != ProgressMode::none || started - lastWord < kLongestSilence) continue;
-        lastWord = started;
+        shown.frameDone(frame, watch.seconds());
+        const bool isRecent =
+            sinceLastWord.seconds() < static_cast<double>(kLongestSilence.count());
+        if (progress != ProgressMode::none || isRecent) continue;
+        sinceLastWord = {};
         console.info("still writing " + output.string() + ": frame " + std::to_string(frame) +
                      " of " + describeFrames(frames));
     }

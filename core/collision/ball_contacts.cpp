@@ -1,5 +1,4 @@
-// Symbols: c centre of the ball in the frame of the other body, p a place of its surface, n normal
-//          out of that surface.
+// Symbols: c centre of the ball in the frame of the other body, n normal out of its surface.
 #include "core/collision/ball_contacts.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@ namespace scree {
 namespace {
 
 /// Lattice step along an edge in units of h, a sixth of the thinnest wall: a body that an edge can
-/// cut between two lattice points is found by the golden section that follows.
+/// cut between two lattice points is found by the tangents that follow.
 constexpr double kStep = 2.0;
 
 /// An edge speaks for itself only where it is deeper than its nearer end by this fraction of h;

@@ -89,7 +89,7 @@ FacingLanes FacingLanes::all(int lane) const
     return one;
 }
 
-Sphere FacingLanes::around() const
+Ball FacingLanes::around() const
 {
     const Vec3 centre = Vec3(sumOf(middle.x), sumOf(middle.y), sumOf(middle.z)) / kFloatLanes;
     const FloatLanes3 way = middle - FloatLanes3::all(centre);

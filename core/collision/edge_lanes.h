@@ -36,7 +36,7 @@ struct FacingLanes {
     /// One of them in all lanes.
     FacingLanes all(int lane) const;
     /// A sphere that holds all eight.
-    Sphere around() const;
+    Ball around() const;
     /// In the frame of another body.
     FacingLanes placed(const Mat3& rotation, const Vec3& translation) const;
 };

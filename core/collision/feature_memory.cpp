@@ -1,11 +1,11 @@
 #include "core/collision/feature_memory.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "core/base/fetch.h"
 #include "core/collision/edge_lanes.h"
+#include "core/math/rotation.h"
 
 namespace scree {
 namespace {
@@ -78,7 +78,7 @@ void inSpheres(const std::vector<FacingLanes>& eights, std::vector<SphereLanes>&
 {
     spheres.assign((eights.size() + kFloatLanes - 1) / kFloatLanes, {{}, floatLanesOf(-kFarAway)});
     for (std::size_t i = 0; i < eights.size(); ++i) {
-        const Sphere around = eights[i].around();
+        const Ball around = eights[i].around();
         SphereLanes& eight = spheres[i / kFloatLanes];
         const int lane = static_cast<int>(i % kFloatLanes);
         eight.centre.set(lane, around.centre);
@@ -181,10 +181,8 @@ double lookAhead(const RelativePair& pair, double reach, double pace)
 
 bool FeatureMemory::isStaleAt(const RelativePair& pair, double reach)
 {
-    // The norm of what two rotations differ by is √2 times the chord of a point at unit distance.
-    const double chord = (pair.rotation - rotation_).norm() / std::numbers::sqrt2;
     const Vec3 place = placeOnWay(pair);
-    pace_ = (place - place_).norm() + chord * leverOf(pair);
+    pace_ = (place - place_).norm() + chordOfTurn(rotation_, pair.rotation) * leverOf(pair);
     moved_ += pace_;
     rotation_ = pair.rotation;
     place_ = place;

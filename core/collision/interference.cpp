@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/collision/edge_depth.h"
 #include "core/collision/moving_samples.h"
+#include "core/math/rotation.h"
 
 namespace scree {
 namespace {
@@ -119,8 +119,7 @@ std::size_t smallerOf(const PlacedPair& pair)
 double travel(const OneWay& smaller, const FieldFromSamples& past, double around)
 {
     const FieldFromSamples& now = smaller.pose;
-    const double chord =
-        (now.rotation - past.rotation).norm() / std::numbers::sqrt2;  // of the unit circle
+    const double chord = chordOfTurn(past.rotation, now.rotation);
     const double moved = (now.translation - past.translation).norm();
     return moved + chord * (smaller.sampled->boundingRadius + around);
 }

@@ -1,4 +1,4 @@
-// Symbols: phi signed distance to the other body, R radius, a unit axis of a cylinder.
+// Symbols: phi signed distance to the other body, a unit axis of a cylinder.
 #include "core/collision/moving_samples.h"
 
 #include <algorithm>

@@ -169,7 +169,7 @@ void addCorner(const RelativePair& pair, FeatureKind kind, const ToWorld& toWorl
 void faceCorners(const RelativePair& pair, FeatureKind kind, const ToWorld& toWorld, double reach,
                  FeatureMemory& memory, ContactList& list)
 {
-    const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
+    const double sharpness = sharpnessOf(pair);
     memory.visitCorners(kind, reach, [&](std::int32_t corner) {
         const FacedCorner faced = faceCorner(pair, corner, reach, sharpness);
         addCorner(pair, kind, toWorld, reach, corner, faced, list);
@@ -183,7 +183,7 @@ void faceCorners(const RelativePair& pair, FeatureKind kind, const ToWorld& toWo
 void touchEdges(const RelativePair& pair, const ToWorld& toWorld, double reach, bool isNew,
                 FeatureMemory& memory, ContactList& list)
 {
-    const double sharpness = kSharpness * smallerRadius(pair.first, pair.second);
+    const double sharpness = sharpnessOf(pair);
     thread_local std::vector<EdgePair> mayTouch;
     thread_local std::vector<std::pair<EdgePair, FeatureContact>> passing;
     memory.findEdges(pair, reach, isNew, mayTouch);

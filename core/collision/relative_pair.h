@@ -24,6 +24,9 @@ struct RelativePair {
     Vec3 operator*(const Vec3& point) const { return rotation * point + translation; }
 };
 
+/// Bounding radius of the smaller shape [m]; planes have none.
+double smallerRadius(const Shape& a, const Shape& b);
+
 /// In the frame of the second shape.
 struct FeatureContact {
     Vec3 point;   ///< on the first [m]
@@ -34,6 +37,12 @@ struct FeatureContact {
 /// Nearer to an edge or corner than this share of the smaller body, the faces beside it decide the
 /// normal: an edge is no sharper than that.
 inline constexpr double kSharpness = 1e-3;
+
+/// The same as a length [m].
+inline double sharpnessOf(const RelativePair& pair)
+{
+    return kSharpness * smallerRadius(pair.first, pair.second);
+}
 
 /// Edges deeper in each other than this are not what touches [m]: in a deep overlap every far edge
 /// "interferes", and the corners inside tell the way out. By what is thickest: a shard is thin at
@@ -50,8 +59,5 @@ inline double reachOfBlades(const RelativePair& pair)
     const bool hasBlades = pair.first.features.hasBlades() || pair.second.features.hasBlades();
     return hasBlades ? deepestEdges(pair) : 0.0;
 }
-
-/// Bounding radius of the smaller shape [m]; planes have none.
-double smallerRadius(const Shape& a, const Shape& b);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Symbols: n common normal, out of the second body; X place of the first, Y of the second; t what
+// Symbols: n common normal, out of the second body; x place of the first, y of the second; t what
 // is
 //          between them across n: of two places that face each other nothing.
 #include "core/collision/round_contacts.h"
@@ -289,8 +289,7 @@ Rounding onFlat(const RelativePair& pair, TouchingBody& first, TouchingBody& sec
     };
     const Vec3 outOfFlat = first.isRound() ? n : Vec3(-(pair.rotation.transpose() * n));
     const auto isOnFlat = [&](const Vec3& at) {
-        return isOnFace(flat, inFlat(at), outOfFlat,
-                        kSharpness * smallerRadius(pair.first, pair.second));
+        return isOnFace(flat, inFlat(at), outOfFlat, sharpnessOf(pair));
     };
     if (!isOnFlat(placeOnFlat)) return {Result::elsewhere};
     if (!flat.hollows.isEmpty()) {

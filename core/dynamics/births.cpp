@@ -14,12 +14,6 @@ Aabb boxOf(const World& world, BodyId body)
     return boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
 }
 
-bool interfere(const World& world, BodyId a, BodyId b)
-{
-    const double tau = contourValue(world.shapeOf(a), world.shapeOf(b));
-    return deepestTouch(placePair(world, {a, b}), tau).has_value();
-}
-
 /// Those who are there, and the boxes they stand in.
 class Population {
 public:
@@ -40,9 +34,8 @@ public:
     BodyId occupantOf(BodyId newcomer, const Aabb& box)
     {
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            if (!box.overlaps(boxes_[i])) continue;
-            if (!acceptEachOther(world_, {newcomer, bodies_[i]})) continue;
-            if (interfere(world_, newcomer, bodies_[i])) return bodies_[i];
+            if (box.overlaps(boxes_[i]) && standsInTheWay(world_, bodies_[i], newcomer))
+                return bodies_[i];
         }
         return -1;
     }
@@ -64,6 +57,13 @@ std::vector<PlannedBirth> dueBirths(const World& world)
 }
 
 }  // namespace
+
+bool standsInTheWay(const World& world, BodyId body, BodyId newcomer)
+{
+    if (!acceptEachOther(world, {newcomer, body})) return false;
+    const double tau = contourValue(world.shapeOf(newcomer), world.shapeOf(body));
+    return deepestTouch(placePair(world, {newcomer, body}), tau).has_value();
+}
 
 BirthReport giveBirths(World& world)
 {

@@ -10,6 +10,9 @@
 
 namespace scree {
 
+/// Whether a body stands where another is to be born. Their boxes are not compared.
+bool standsInTheWay(const World& world, BodyId body, BodyId newcomer);
+
 /// Lets in every body that is due at the frame the clock shows and whose place is free, in order of
 /// their ids: of two that want the same place the first gets it. For the others their clearance
 /// decides; one that may not wait ends the search and is named. The clock stands between frames.

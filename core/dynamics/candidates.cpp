@@ -10,6 +10,9 @@
 namespace scree {
 namespace {
 
+/// However far a body turns, no point comes farther than across the circle it is on, in radii.
+constexpr double kLongestChord = 2.0;
+
 /// Everything a keyed body may touch in the next `time`: around the present box, since a script may
 /// go anywhere at the speeds it has.
 Aabb scriptedBox(const World& world, BodyId body, double time)
@@ -21,7 +24,7 @@ Aabb scriptedBox(const World& world, BodyId body, double time)
     double speed = 0.0;
     for (const Vec3& v : bounds.velocities) speed = std::max(speed, v.norm());
     const double arm = shape.bodyFromAsset.position.norm();
-    const double turn = std::min(bounds.spin * time, 2.0);
+    const double turn = std::min(bounds.spin * time, kLongestChord);
     const double reach = speed * time + turn * (arm + shape.boundingRadius);
     return boxAt(shape, motion.worldFromBody()).grown(reach + contourValue(shape, shape));
 }
@@ -42,7 +45,7 @@ Aabb sweptBox(const World& world, BodyId body, const AppliedForce& force, double
     const double turn = spin * time;
     const Vec3 radius = Vec3::Constant(shape.boundingRadius);
     const Aabb sphere{motion.position - radius, motion.position + radius};
-    box = box.grown(std::min(turn, 2.0) * shape.boundingRadius);
+    box = box.grown(std::min(turn, kLongestChord) * shape.boundingRadius);
     box = {box.min.cwiseMax(sphere.min), box.max.cwiseMin(sphere.max)};
 
     // The path is a parabola between drift and fall: a box around both ends holds it.

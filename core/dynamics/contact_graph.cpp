@@ -73,12 +73,15 @@ double deepestPhi(PairRecord& pair, const PlacedPair& placed)
     return deepest ? deepest->phi : pair.tau;
 }
 
+/// Of the height of a fall: less may be what the field or rounding makes of a slide along it.
+constexpr double kClearly = 0.1;
+
 /// Whether the fall of one body takes it clearly away from one it overlaps.
 bool leaves(PairRecord& pair, const PlacedPair& fallen, const PlacedPair& drifted,
             double fallHeight)
 {
     if (!pair.proximity.interferes(drifted, pair.tau)) return false;
-    return deepestPhi(pair, fallen) - deepestPhi(pair, drifted) > 0.1 * fallHeight;
+    return deepestPhi(pair, fallen) - deepestPhi(pair, drifted) > kClearly * fallHeight;
 }
 
 void findFalls(const World& world, double dt, StepScratch& scratch)

@@ -64,6 +64,8 @@ Vec3 fieldAcceleration(const ForceField& field, double time, const Vec3& x, cons
             return strength * weightAt(field, fromAxis.norm()) *
                    field.direction.cross(unitOrZero(fromAxis));
         }
+        case ForceField::Kind::uniform:
+            return strength * weightAt(field, fromCentre.norm()) * field.direction;
         case ForceField::Kind::wind: {
             const Vec3 air = strength * weightAt(field, fromCentre.norm()) * field.direction;
             const Vec3 u = air - v;
@@ -90,6 +92,7 @@ void findForces(const World& world, const StepSettings& settings, double dt,
         forces[b] = {};
         if (!world.mass[b].isMovable()) return;
         const BodyMotion& motion = world.motion[b];
+        const std::uint64_t group = world.traits[b].groups.group;
         const double inverseMass = world.mass[b].inverseMass;
         const double area = 0.25 * world.shapeOf(static_cast<BodyId>(b)).unitMass.area;
         const double airGrip = 0.5 * kAirDensity * area * inverseMass;
@@ -99,6 +102,7 @@ void findForces(const World& world, const StepSettings& settings, double dt,
             Vec3 sum = Vec3::Zero();
             for (const ForceField& field : world.fields) {
                 if ((field.kind == ForceField::Kind::wind) != isWind) continue;
+                if ((field.groups & group) == 0) continue;
                 sum += fieldAcceleration(field, time, position, velocity, airGrip, dt);
             }
             forces[b].acceleration += sum;

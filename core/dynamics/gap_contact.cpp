@@ -1,5 +1,3 @@
-// Symbols: u relative velocity at a row, K response of the pair, beta share of the last direction.
-//
 // Impulses are accumulated and clamped as totals, not one by one: a row may give back what turned
 // out to be too much, and the sweeps have a fixed point. They start from what held the heap in the
 // last step; a heap at rest is at the fixed point already.

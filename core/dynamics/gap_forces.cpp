@@ -20,7 +20,7 @@ constexpr double kStops = 1e-4;
 double endOfRow(const GapRow& row, const GapBody& a, const GapBody& b, const Vec3& pull, double dt)
 {
     const double u = velocityAt(row, a, b).dot(row.normal);
-    return std::max(row.gap, 0.0) + shiftAt(row, a, b) + dt * (u + 0.5 * dt * pull.dot(row.normal));
+    return openAt(row, a, b) + dt * (u + 0.5 * dt * pull.dot(row.normal));
 }
 
 /// What rests on what is stopped is stopped too. What pulls at both alike does not tell of that:
@@ -95,8 +95,8 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
             [&](std::size_t n) { addForces(dt, scratch.bodies[block.bodies[n]]); });
     forPairs(block, [&](std::size_t i) {
         for (GapRow& row : scratch.rowsOf(scratch.pairs[i])) {
-            const double shift = shiftAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
-            row.target = -std::max(std::max(row.gap, 0.0) + shift, 0.0) / dt;
+            const double open = openAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+            row.target = -std::max(open, 0.0) / dt;
         }
     });
 }

@@ -119,8 +119,8 @@ void bringTogether(const World& world, const std::vector<GapBody>& bodies, GapRo
 {
     const Vec3 bFromA = world.motion[row.a].position - world.motion[row.b].position;
     const Vec3 slid = bFromA - (row.rB - row.rA);
-    const double easeA = row.movesA ? bodies[row.a].inverseInertia.trace() : 0.0;
-    const double easeB = row.movesB ? bodies[row.b].inverseInertia.trace() : 0.0;
+    const double easeA = easeOfTurning(bodies[row.a], row.movesA);
+    const double easeB = easeOfTurning(bodies[row.b], row.movesB);
     if (easeA + easeB > 0.0) row.rA -= easeB / (easeA + easeB) * slid;
     row.rB = row.rA + bFromA;
     prepareRow(bodies, row);

@@ -125,7 +125,7 @@ bool ImpactVisits::impactOf(const GapPair& pair, GapRow& row, Impact& impact) co
     const Vec3 relative = velocityAt(row, a, b);
     const double u = relative.dot(row.normal);
     const double s = std::max(row.gap, 0.0);
-    const double atRest = s + shiftAt(row, a, b);
+    const double atRest = openAt(row, a, b);
     const auto end = [&](double g) { return atRest + state_.dt * (u + 0.5 * g * state_.dt); };
     // Most rows are not even closed by all of gravity.
     if (end((a.pull - b.pull).dot(row.normal)) >= 0.0) return false;

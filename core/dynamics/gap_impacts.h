@@ -17,7 +17,7 @@
 namespace scree {
 
 /// The clock of an island when its visits begin.
-constexpr std::int64_t kBeforeAll = 1;
+inline constexpr std::int64_t kBeforeAll = 1;
 
 /// What the impacts of this step have done to a body so far. Two cache lines, since they are
 /// fetched by twos: two threads write to neighbours.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/math/rotation.h"
 
 namespace scree {
 namespace {
@@ -43,10 +44,8 @@ void followBodies(const World& world, GapScratch& scratch)
                         pose.orientation.coeffs() != then.orientation.coeffs();
         if (i < known && move.hasMoved) {
             const Shape& shape = world.shapeOf(static_cast<BodyId>(i));
-            const Quat turn = pose.orientation * then.orientation.conjugate();
-            // The chord of a point at unit distance.
-            const double turned = 2.0 * turn.vec().norm();
-            move.turn = turn.toRotationMatrix();
+            const double turned = chordOfTurn(then.orientation, pose.orientation);
+            move.turn = (pose.orientation * then.orientation.conjugate()).toRotationMatrix();
             move.shift = pose.position - then.position;
             const double byTurn = turned * shape.boundingRadius;
             move.way = move.shift.norm() + byTurn;

@@ -1,4 +1,4 @@
-// Symbols: u relative velocity at a row along normal n, tangents t and s; j its impulse.
+// Symbols: u relative velocity at a row, un, ut, us along its normal and tangents; j its impulse.
 #include "core/dynamics/gap_lanes.h"
 
 #include <algorithm>

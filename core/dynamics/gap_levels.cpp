@@ -45,8 +45,7 @@ void findLevels(double dt, const GapBlock& block, GapScratch& scratch)
         GapPair& pair = scratch.pairs[i];
         const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
         for (const GapRow& row : scratch.rowsOf(pair)) {
-            const double end = std::max(row.gap, 0.0) + shiftAt(row, a, b) +
-                               dt * velocityAt(row, a, b).dot(row.normal);
+            const double end = openAt(row, a, b) + dt * velocityAt(row, a, b).dot(row.normal);
             // Blows of so different masses may be far from answered when their rounds are over.
             const double drift = row.wasHit ? 0.0 : std::max(end, 0.0);
             if (row.movesA)

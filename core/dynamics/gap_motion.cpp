@@ -57,8 +57,8 @@ void addCouple(World& world, const GapScratch& scratch, const GapRow& row, const
                const Vec3& slid)
 {
     if (!row.movesA || !row.movesB) return;
-    const double easeA = scratch.bodies[row.a].inverseInertia.trace();
-    const double easeB = scratch.bodies[row.b].inverseInertia.trace();
+    const double easeA = easeOfTurning(scratch.bodies[row.a], row.movesA);
+    const double easeB = easeOfTurning(scratch.bodies[row.b], row.movesB);
     const Vec3 couple = impulse.cross(slid) / (easeA + easeB);
     world.motion[row.a].angularMomentum += easeB * couple;
     world.motion[row.b].angularMomentum += easeA * couple;

@@ -18,7 +18,7 @@ double overrun(const GapRow& row, const GapBody& a, const GapBody& b, bool bounc
     // What still closes is stopped by contacts, and what opens may be closed by them, unless it has
     // bounced.
     const double u = bounces ? std::max(velocityAt(row, a, b).dot(row.normal), 0.0) : 0.0;
-    return -(std::max(row.gap, 0.0) + shiftAt(row, a, b) + dt * u);
+    return -(openAt(row, a, b) + dt * u);
 }
 
 void moveFromTheStart(GapBody& body)

@@ -11,11 +11,11 @@ namespace {
 
 /// Around the points of either body that may touch the other when nothing moves farther than `way`
 /// before: what their bounding spheres have in common. Nothing bounds a plane.
-Sphere meetingPlace(const World& world, BodyPair bodies, double way)
+Ball meetingPlace(const World& world, BodyPair bodies, double way)
 {
     const Shape &shapeA = world.shapeOf(bodies.a), &shapeB = world.shapeOf(bodies.b);
-    const Sphere a{world.motion[bodies.a].position, shapeA.boundingRadius};
-    const Sphere b{world.motion[bodies.b].position, shapeB.boundingRadius};
+    const Ball a{world.motion[bodies.a].position, shapeA.boundingRadius};
+    const Ball b{world.motion[bodies.b].position, shapeB.boundingRadius};
     if (shapeA.isPlane) return b;
     if (shapeB.isPlane) return a;
     // They meet in a circle, in the plane that divides the line from A to B at this share.
@@ -59,7 +59,7 @@ double farthestApproach(const World& world, BodyPair bodies, const RigidMotion& 
     const double byTurns =
         shownA.norm() * shapeA.boundingRadius + shownB.norm() * shapeB.boundingRadius;
     const double anywhere = (ofA.shift - ofB.shift).norm() + byTurns;
-    const Sphere place = meetingPlace(world, bodies, anywhere);
+    const Ball place = meetingPlace(world, bodies, anywhere);
     // What rolls on another goes with it where they meet. All of a body may meet a plane, and of
     // that its own turns move what shows.
     const Vec3& turnA = shapeB.isPlane ? shownA : ofA.turn;

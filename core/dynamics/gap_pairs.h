@@ -16,7 +16,7 @@ namespace scree {
 using PairParts = std::array<std::span<const std::size_t>, 3>;
 
 /// Below this many rows a cut costs more than a second thread gains.
-constexpr std::size_t kRowsWorthACut = 1000;
+inline constexpr std::size_t kRowsWorthACut = 1000;
 
 /// Collects the pairs for which contacts have been found, by islands. Of their rows it says how
 /// many there are, not yet where.

@@ -155,14 +155,10 @@ void DeepPass::addRows(std::size_t i)
         return;
     }
     const int level = levelOf(scratch_.levels, pair.bodies);
+    const Vec3 bFromA = world_.motion[a].position - world_.motion[b].position;
     for (const GapContact& contact : contacts_) {
         GapRow row{};
-        row.a = a;
-        row.b = b;
-        row.rA = contact.rA;
-        row.rB = contact.rA + world_.motion[a].position - world_.motion[b].position;
-        row.normal = contact.normal;
-        row.gap = contact.gap;
+        placeRow(pair.bodies, contact, bFromA, row);
         row.isUnmovedA = isUnmovedBy(world_, a, b) || isFrozen(a, level);
         row.isUnmovedB = isUnmovedBy(world_, b, a) || isFrozen(b, level);
         prepareRow(scratch_.bodies, row);

@@ -186,14 +186,8 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
             while (known != memory.end() && bodiesOf(*known) == pair.bodies) ++known;
             pair.isCarried = firstKnown != known;
             for (std::size_t r = pair.begin; r < pair.end; ++r) {
-                const GapContact& contact = contacts[r - pair.begin];
                 GapRow& row = scratch.rows[r];
-                row.a = a;
-                row.b = b;
-                row.rA = contact.rA;
-                row.rB = contact.rA + bFromA;
-                row.normal = contact.normal;
-                row.gap = contact.gap;
+                placeRow(pair.bodies, contacts[r - pair.begin], bFromA, row);
                 row.friction = surface.friction;
                 row.restitution = surface.restitution;
                 row.target = 0.0;

@@ -5,8 +5,10 @@
 // (gap_lanes.h), so that a heap of a thousand rings stays in the second-level cache.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "core/collision/contact_with_gap.h"
 #include "core/dynamics/impulse.h"
 #include "core/dynamics/settings.h"
 #include "core/scene/world.h"
@@ -109,8 +111,32 @@ inline double shiftAt(const GapRow& row, const GapBody& a, const GapBody& b)
     return row.normal.dot(a.shift + a.turn.cross(row.rA) - b.shift - b.turn.cross(row.rB));
 }
 
+/// The bodies of a row, and where they touch; bFromA: the centre of A from that of B, world [m].
+inline void placeRow(BodyPair bodies, const GapContact& contact, const Vec3& bFromA, GapRow& row)
+{
+    row.a = bodies.a;
+    row.b = bodies.b;
+    row.rA = contact.rA;
+    row.rB = contact.rA + bFromA;
+    row.normal = contact.normal;
+    row.gap = contact.gap;
+}
+
 /// Everything of a row that follows from its geometry.
 void prepareRow(const std::vector<GapBody>& bodies, GapRow& row);
+
+/// How far apart the surfaces at a row would be at the end of the step if the bodies had no
+/// velocity [m].
+inline double openAt(const GapRow& row, const GapBody& a, const GapBody& b)
+{
+    return std::max(row.gap, 0.0) + shiftAt(row, a, b);
+}
+
+/// How easily a row turns a body, about one axis or another [1/(kg m²)].
+inline double easeOfTurning(const GapBody& body, bool moves)
+{
+    return moves ? body.inverseInertia.trace() : 0.0;
+}
 
 /// What the impulses of a row see of a body.
 inline PassInertia inertiaOf(const GapBody& body, bool moves)

@@ -1,4 +1,4 @@
-// Symbols: w spin, r arm from the centre to the contact, n normal, u slip.
+// Symbols: w spin, r arm from the centre to the contact, u velocity there.
 //
 // A step moves bodies along velocities that are those of its middle. A place that goes round with
 // its body is drawn towards the centre by w × (w × r) dt²/2 meanwhile, and where the body hangs by

@@ -1,5 +1,3 @@
-// Symbols: u relative velocity at a row, K response of all rows.
-//
 // Gauss–Seidel alone needs hundreds of sweeps where places lie close beside each other: of the
 // blows in a heap of a thousand rings two fifths of all visits were made by such that were given up
 // after 200. Conjugate directions bring that down to a tenth.

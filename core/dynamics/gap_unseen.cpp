@@ -73,12 +73,10 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
     return std::any_of(contacts.begin(), contacts.end(), [&](const GapContact& contact) {
         if (contact.gap < seen) return false;
         GapRow row{};
-        row.rA = contact.rA;
-        row.rB = contact.rA + bFromA;
-        row.normal = contact.normal;
+        placeRow(bodies, contact, bFromA, row);
         const double opened =
             shiftAt(row, bodyA, bodyB) + dt * velocityAt(row, bodyA, bodyB).dot(row.normal);
-        return contact.gap + opened < -visible;
+        return row.gap + opened < -visible;
     });
 }
 
@@ -208,7 +206,7 @@ void findUnseenBeyondBoxes(const World& world, double dt, GapScratch& scratch)
 
 }  // namespace
 
-bool meetsUnseen(const World& world, double dt, GapScratch& scratch)
+bool lookFartherWhereUnseen(const World& world, double dt, GapScratch& scratch)
 {
     GapUnseen& unseen = scratch.unseen;
     unseen.pairs.clear();

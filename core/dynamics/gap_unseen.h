@@ -15,6 +15,6 @@ namespace scree {
 /// Whether the step, as solved, takes a body visibly into something that lay farther away than
 /// findGaps has looked for, or that it was let pass. If so the next findGaps looks farther, and the
 /// next foreseeBlows lets none of these pass.
-bool meetsUnseen(const World& world, double dt, GapScratch& scratch);
+bool lookFartherWhereUnseen(const World& world, double dt, GapScratch& scratch);
 
 }  // namespace scree

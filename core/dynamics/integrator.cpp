@@ -1,4 +1,4 @@
-// Symbols: x centre of mass, q orientation, L angular momentum, w angular velocity, I inertia
+// Symbols: q orientation, L angular momentum, w angular velocity, I inertia
 // (world); D inverse principal moments.
 #include "core/dynamics/integrator.h"
 

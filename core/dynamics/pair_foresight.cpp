@@ -22,6 +22,8 @@ constexpr double kOfFastest = 0.1;
 /// Nobody knows how bodies go on for longer, in steps.
 constexpr double kFarAhead = 8.0;
 
+/// How often a pair is looked at where it will be: each look says when to look next, and two or
+/// three find a blow.
 constexpr int kMostLooks = 8;
 
 /// Round surfaces that slide along each other by more than this share of the smaller body until

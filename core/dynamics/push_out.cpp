@@ -1,4 +1,3 @@
-// Symbols: J first-order impulse [kg m], K collision matrix, f fraction of the depth removed now.
 #include "core/dynamics/push_out.h"
 
 #include <Eigen/Cholesky>

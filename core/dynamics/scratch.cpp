@@ -51,7 +51,7 @@ double speedOfSurface(const World& world, BodyId body)
 }
 
 /// How far a pair may move before it looks for near samples again: what it will move in a few steps
-/// if nothing happens. Only a matter of speed.
+/// if nothing happens, and a little, as a share of the thinner body. Only a matter of speed.
 double lookMargin(const World& world, const StepSettings& settings, BodyPair bodies, double dt)
 {
     const double speed =
@@ -59,7 +59,9 @@ double lookMargin(const World& world, const StepSettings& settings, BodyPair bod
         speedOfSurface(world, bodies.a) + speedOfSurface(world, bodies.b);
     const double thinner =
         std::min(world.shapeOf(bodies.a).thickness(), world.shapeOf(bodies.b).thickness());
-    return std::max(1e-3 * thinner, 8.0 * dt * (speed + dt * settings.gravity.norm()));
+    constexpr double kLeastMargin = 1e-3, kStepsAhead = 8.0;
+    return std::max(kLeastMargin * thinner,
+                    kStepsAhead * dt * (speed + dt * settings.gravity.norm()));
 }
 
 void beginPair(const World& world, const StepSettings& settings, double dt, bool isWatched,

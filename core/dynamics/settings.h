@@ -37,7 +37,7 @@ struct SubstepLimits {
 
 /// Which passes a step is made of.
 enum class Method {
-    paper,  ///< [GBF03] to the letter: the reference
+    paper,  ///< [GBF03] but for the repairs of makeStrict: the reference
     scree,  ///< the same pipeline on gaps: contacts known before they touch, impulses remembered
 };
 

@@ -37,7 +37,7 @@ double throughWall(const World& world, BodyPair bodies)
 OverlapMeasure::Inside::Inside(const Shape& shape)
     : points(pointsInside(shape.mesh, shape.innerThickness))
 {
-    std::vector<Sphere> spheres;
+    std::vector<Ball> spheres;
     for (const auto& point : points.colwise()) spheres.push_back({point, 0.0});
     tree = SphereTree(spheres);
 }

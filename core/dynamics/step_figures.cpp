@@ -9,6 +9,15 @@
 
 namespace scree {
 
+double kineticEnergy(const World& world)
+{
+    double energy = 0.0;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (world.mass[b].isMovable()) energy += kineticEnergy(world.motion[b], world.mass[b]);
+    }
+    return energy;
+}
+
 double potentialEnergy(const World& world, const Vec3& gravity)
 {
     double energy = 0.0;
@@ -17,6 +26,24 @@ double potentialEnergy(const World& world, const Vec3& gravity)
         energy -= gravity.dot(world.motion[b].position) / world.mass[b].inverseMass;
     }
     return energy;
+}
+
+double mechanicalEnergy(const World& world, const Vec3& gravity)
+{
+    return kineticEnergy(world) + potentialEnergy(world, gravity);
+}
+
+Momenta momentaOf(const World& world)
+{
+    Momenta sum;
+    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+        if (!world.mass[b].isMovable()) continue;
+        const BodyMotion& motion = world.motion[b];
+        const Vec3 momentum = motion.velocity / world.mass[b].inverseMass;
+        sum.linear += momentum;
+        sum.angular += motion.position.cross(momentum) + motion.angularMomentum;
+    }
+    return sum;
 }
 
 void findNonFinite(const World& world, Phase phase, StepReport& report)
@@ -107,14 +134,13 @@ void addStep(const StepReport& step, FrameReport& frame)
 void describeState(const World& world, const Vec3& gravity, FrameReport& report)
 {
     report.potentialEnergy = potentialEnergy(world, gravity);
+    report.kineticEnergy = kineticEnergy(world);
+    const Momenta momenta = momentaOf(world);
+    report.momentum = momenta.linear;
+    report.angularMomentum = momenta.angular;
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         if (!world.mass[b].isMovable()) continue;
         if (!world.contactMemory.isAsleep(static_cast<BodyId>(b))) ++report.bodiesAwake;
-        report.kineticEnergy += kineticEnergy(world.motion[b], world.mass[b]);
-        const BodyMotion& motion = world.motion[b];
-        const Vec3 momentum = motion.velocity / world.mass[b].inverseMass;
-        report.momentum += momentum;
-        report.angularMomentum += motion.position.cross(momentum) + motion.angularMomentum;
     }
     report.stateHash = stateHash(world);
 }

@@ -9,8 +9,21 @@ namespace scree {
 
 struct GapScratch;
 
+/// Of the movable bodies [J].
+double kineticEnergy(const World& world);
+
 /// Of the movable bodies; zero at the height of the world's origin [J].
 double potentialEnergy(const World& world, const Vec3& gravity);
+
+/// Both together [J].
+double mechanicalEnergy(const World& world, const Vec3& gravity);
+
+struct Momenta {
+    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< [kg m/s], [kg m²/s] about the origin
+};
+
+/// Of the movable bodies together.
+Momenta momentaOf(const World& world);
 
 /// Names the bodies whose state is no number, unless an earlier phase had some already.
 void findNonFinite(const World& world, Phase phase, StepReport& report);

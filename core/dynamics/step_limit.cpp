@@ -1,4 +1,3 @@
-// Symbols: s relative speed of two surfaces, l inner thickness, alpha share of it passed in a step.
 #include "core/dynamics/step_limit.h"
 
 #include <algorithm>

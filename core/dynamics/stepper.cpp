@@ -49,7 +49,8 @@ namespace {
 constexpr int kMostLooks = 64;
 
 /// As many swaps as there are bodies, each drawn for this very step: no draw depends on those
-/// before it, so a resumed run draws the same.  [A21]
+/// before it, so a resumed run draws the same. Method `scree` goes up and down the levels in a
+/// fixed order instead: what remembers its impulses gains nothing by other orders.  [A21]
 void shuffleOrder(World& world, std::uint64_t seed)
 {
     const std::uint64_t count = world.order.size();
@@ -221,12 +222,16 @@ StepReport Stepper::stepGaps(World& world, double dt)
     GapScratch& scratch = *gaps_;
     aimKeyedBodies(world, dt);
     solveGaps(world, dt, SolvedIslands(), report);
-    int looks = 0;
-    while (wakeStruck(world, dt, scratch) ||
-           (looks++ < kMostLooks && meetsUnseen(world, dt, scratch))) {
+    for (int looks = 0;;) {
+        const bool someoneWoke = wakeStruck(world, dt, scratch);
+        if (!someoneWoke && !lookFartherWhereUnseen(world, dt, scratch)) break;
+        looks += !someoneWoke;
+        if (looks > kMostLooks) {
+            ++report.loopsAtTheirCap;
+            break;
+        }
         solveGaps(world, dt, SolvedIslands(scratch), report);
     }
-    report.loopsAtTheirCap += looks > kMostLooks;
     {
         const PhaseTimer timer(report.seconds, Phase::contact);
         report.contactImpulses = countImpulses(scratch);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dynamics/impulse.h"
+#include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -36,7 +36,7 @@ constexpr double kFarInAFrame = 0.5;
 double travelled(const World& world, BodyId body, const Stay& since)
 {
     const BodyMotion& motion = world.motion[body];
-    const double turned = 2.0 * (motion.orientation * since.orientation.conjugate()).vec().norm();
+    const double turned = chordOfTurn(since.orientation, motion.orientation);
     return (motion.position - since.position).norm() + turned * world.shapeOf(body).boundingRadius;
 }
 
@@ -51,9 +51,8 @@ double travelledInSight(const World& world, BodyId body, const Stay& since)
 bool goesFarInAFrame(const World& world, BodyId body)
 {
     const BodyMotion& motion = world.motion[body];
-    const PassInertia inertia = passInertia(world.mass[body], motion.orientation);
     const double radius = world.shapeOf(body).boundingRadius;
-    const Vec3 spin = inertia.inverseInertia * motion.angularMomentum;
+    const Vec3 spin = angularVelocity(motion, world.mass[body]);
     const double speed = motion.velocity.norm() + spin.norm() * radius;
     return speed * world.frameDuration > kFarInAFrame * radius;
 }

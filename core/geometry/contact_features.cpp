@@ -44,7 +44,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
 {
     std::vector<std::vector<Vec3>> around(points_.cols()), normals(points_.cols());
     std::vector<char> isFine(points_.cols(), 1);
-    std::vector<Sphere> edgeSpheres, creaseSpheres;
+    std::vector<Ball> edgeSpheres, creaseSpheres;
     MeshEdges(mesh).forEach([&](std::span<const TriangleSide> sides) {
         const std::array<int, 2> ends = {sides[0].low, sides[0].high};
         const Vec3 start = points_.col(ends[0]), end = points_.col(ends[1]);
@@ -89,7 +89,7 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         }
         lines_.push_back(lineOf(edge));
     }
-    std::vector<Sphere> cornerSpheres;
+    std::vector<Ball> cornerSpheres;
     for (std::size_t v = 0; v < normals.size(); ++v) {
         if (normals[v].size() < 3) continue;
         corners_.push_back(static_cast<std::int32_t>(v));

@@ -15,7 +15,8 @@ struct FacingWeights {
     Mat3 change;   ///< less what keeps their sum
 };
 
-constexpr double kOutsideFacet = -1e-9;  ///< a weight above this is not outside; for rounding
+inline constexpr double kOutsideFacet =
+    -1e-9;  ///< a weight above this is not outside; for rounding
 
 /// Nothing when the normals (columns by corner) span less than `leastVolume`, that is, lie in one
 /// plane, or look the other way.

@@ -1,4 +1,3 @@
-// Symbols: w width of a side of a prism, d the angle between two, w / (2 tan d/2) its apothem.
 #include "core/geometry/hollow_facets.h"
 
 #include <algorithm>

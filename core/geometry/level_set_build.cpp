@@ -1,4 +1,4 @@
-// Symbols: h node spacing, phi signed distance. A block is coarse when no node of it, its faces
+// Symbols: h node spacing. A block is coarse when no node of it, its faces
 // included, lies in OpenVDB's band.
 #include "core/geometry/level_set_build.h"
 

@@ -1,6 +1,5 @@
-// Symbols: o base point, d = det[a−o, b−o, c−o] of a triangle (six tetrahedron volumes),
-//          C covariance of the solid about its centre, I inertia = tr(C) δ − C, D principal
-//          moments, Q their axes.
+// Symbols: a, b, c corners of a triangle from a base point, d = det[a, b, c], the volume of six
+//          tetrahedra. The inertia is tr(C) δ − C of the covariance C.
 #include "core/geometry/mass_properties.h"
 
 #include <Eigen/Eigenvalues>

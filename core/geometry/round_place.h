@@ -22,6 +22,6 @@ enum class RoundSearch { found, elsewhere, onSide, notRound };
 /// A mesh stands for something round where it turns by no more than 20° at a time (this is the
 /// cosine, and a little less for rounding). Beyond, as on a ring of ten points around its tube
 /// (36°), a facet lies flat on the ground and holds the body: taken for round it would roll off.
-constexpr double kFineTurn = 0.93969;
+inline constexpr double kFineTurn = 0.93969;
 
 }  // namespace scree

@@ -1,4 +1,5 @@
-// Symbols: t tangent, d the way that is faced, a slope t · d at an end, s place along an edge, 0…1.
+// Symbols: t tangent, a its slope along the way that is faced at an end, s place along an edge,
+// 0…1.
 #include "core/geometry/round_rims.h"
 
 #include <algorithm>

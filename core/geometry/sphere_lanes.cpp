@@ -12,7 +12,7 @@ constexpr double kRoundUp = 1e-6;  // of what single precision loses of a sphere
 
 /// Halves [begin, end) across its longest side, and both halves again, so that eights of things,
 /// and eights of eights, are near each other: cut anywhere else they would straddle what is apart.
-void sortIntoEights(std::span<const Sphere> spheres, std::uint32_t* begin, std::uint32_t* end)
+void sortIntoEights(std::span<const Ball> spheres, std::uint32_t* begin, std::uint32_t* end)
 {
     const std::ptrdiff_t count = end - begin;
     if (count <= kFloatLanes) return;
@@ -33,16 +33,16 @@ void sortIntoEights(std::span<const Sphere> spheres, std::uint32_t* begin, std::
 }
 
 /// One sphere around each eight.
-std::vector<Sphere> heldByEights(std::span<const Sphere> spheres)
+std::vector<Ball> heldByEights(std::span<const Ball> spheres)
 {
-    std::vector<Sphere> holding;
+    std::vector<Ball> holding;
     for (std::size_t begin = 0; begin < spheres.size(); begin += kFloatLanes) {
         const auto eight =
             spheres.subspan(begin, std::min<std::size_t>(kFloatLanes, spheres.size() - begin));
         Aabb centres;
-        for (const Sphere& sphere : eight) centres.include(sphere.centre);
-        Sphere& held = holding.emplace_back(Sphere{centres.centre(), 0.0});
-        for (const Sphere& sphere : eight) {
+        for (const Ball& sphere : eight) centres.include(sphere.centre);
+        Ball& held = holding.emplace_back(Ball{centres.centre(), 0.0});
+        for (const Ball& sphere : eight) {
             held.radius =
                 std::max(held.radius, (sphere.centre - held.centre).norm() + sphere.radius);
         }
@@ -52,13 +52,13 @@ std::vector<Sphere> heldByEights(std::span<const Sphere> spheres)
 
 }  // namespace
 
-std::vector<SphereLanes> inLanes(std::span<const Sphere> spheres)
+std::vector<SphereLanes> inLanes(std::span<const Ball> spheres)
 {
     std::vector<SphereLanes> lanes((spheres.size() + kFloatLanes - 1) / kFloatLanes);
     for (std::size_t i = 0; i < kFloatLanes * lanes.size(); ++i) {
         SphereLanes& eight = lanes[i / kFloatLanes];
         const int lane = static_cast<int>(i % kFloatLanes);
-        const Sphere& sphere = spheres[std::min(i, spheres.size() - 1)];
+        const Ball& sphere = spheres[std::min(i, spheres.size() - 1)];
         eight.centre.set(lane, sphere.centre);
         eight.radius[lane] =
             static_cast<float>(sphere.radius + kRoundUp * (sphere.radius + sphere.centre.norm()));
@@ -66,13 +66,13 @@ std::vector<SphereLanes> inLanes(std::span<const Sphere> spheres)
     return lanes;
 }
 
-SphereLaneTree::SphereLaneTree(std::span<const Sphere> things)
+SphereLaneTree::SphereLaneTree(std::span<const Ball> things)
 {
     cover_ = inLanes(SphereTree(things).cover());
     things_.resize(things.size());
     std::iota(things_.begin(), things_.end(), 0u);
     sortIntoEights(things, things_.data(), things_.data() + things_.size());
-    std::vector<Sphere> level;
+    std::vector<Ball> level;
     for (const std::uint32_t thing : things_) level.push_back(things[thing]);
     while (!level.empty()) {
         levels_.push_back(inLanes(level));

@@ -19,13 +19,13 @@ struct SphereLanes {
 };
 
 /// As many as it takes for all of them.
-std::vector<SphereLanes> inLanes(std::span<const Sphere> spheres);
+std::vector<SphereLanes> inLanes(std::span<const Ball> spheres);
 
 class SphereLaneTree {
 public:
     SphereLaneTree() = default;
     /// The same input gives the same tree everywhere.
-    explicit SphereLaneTree(std::span<const Sphere> things);
+    explicit SphereLaneTree(std::span<const Ball> things);
 
     /// near(spheres) tells by its bits which of eight matter; leaf(thing, lane) hears of all things
     /// that do, those near each other one after the other, right after near() heard of their

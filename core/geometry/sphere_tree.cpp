@@ -13,13 +13,13 @@ constexpr int kCoverDepth = 4;  // at most 16 spheres
 
 }  // namespace
 
-SphereTree::SphereTree(std::span<const Sphere> things) : things_(things.size())
+SphereTree::SphereTree(std::span<const Ball> things) : things_(things.size())
 {
     std::iota(things_.begin(), things_.end(), 0u);
     if (!things.empty()) build(things, 0, static_cast<std::uint32_t>(things.size()), 0);
 }
 
-void SphereTree::build(std::span<const Sphere> things, std::uint32_t begin, std::uint32_t end,
+void SphereTree::build(std::span<const Ball> things, std::uint32_t begin, std::uint32_t end,
                        int depth)
 {
     Aabb centres;
@@ -27,7 +27,7 @@ void SphereTree::build(std::span<const Sphere> things, std::uint32_t begin, std:
     Node node;
     node.sphere.centre = centres.centre();
     for (std::uint32_t i = begin; i < end; ++i) {
-        const Sphere& thing = things[things_[i]];
+        const Ball& thing = things[things_[i]];
         node.sphere.radius =
             std::max(node.sphere.radius, (thing.centre - node.sphere.centre).norm() + thing.radius);
     }

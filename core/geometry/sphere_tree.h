@@ -5,21 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "core/math/types.h"
+#include "core/math/ball.h"
 
 namespace scree {
-
-struct Sphere {
-    Vec3 centre = Vec3::Zero();
-    double radius = 0.0;
-};
 
 class SphereTree {
 public:
     SphereTree() = default;
     /// Splits at the median of the longest axis until at most 8 things are left; the same input
     /// gives the same tree everywhere.
-    explicit SphereTree(std::span<const Sphere> things);
+    explicit SphereTree(std::span<const Ball> things);
 
     /// Calls leaf(thing) for every thing below nodes that prune(centre, radius) does not reject.
     template <class Prune, class Leaf>
@@ -37,20 +32,20 @@ public:
     }
 
     /// A few spheres that together hold everything.
-    std::span<const Sphere> cover() const { return cover_; }
+    std::span<const Ball> cover() const { return cover_; }
 
 private:
     struct Node {
-        Sphere sphere;
+        Ball sphere;
         std::uint32_t begin = 0, end = 0;  // things of a leaf; empty for an inner node
         std::uint32_t next = 0;  // the node after this whole subtree, in depth-first order
     };
 
-    void build(std::span<const Sphere> things, std::uint32_t begin, std::uint32_t end, int depth);
+    void build(std::span<const Ball> things, std::uint32_t begin, std::uint32_t end, int depth);
 
     std::vector<Node> nodes_;  // depth-first
     std::vector<std::uint32_t> things_;
-    std::vector<Sphere> cover_;
+    std::vector<Ball> cover_;
 };
 
 }  // namespace scree

@@ -31,14 +31,14 @@ SurfaceSamples makeSurfaceSamples(const TriMesh& mesh, bool withEdges)
     SurfaceSamples samples;
     samples.vertices = mesh.points;
 
-    std::vector<Sphere> vertexSpheres(mesh.points.cols());
+    std::vector<Ball> vertexSpheres(mesh.points.cols());
     for (std::size_t v = 0; v < vertexSpheres.size(); ++v) {
         vertexSpheres[v].centre = mesh.points.col(v);
     }
     samples.vertexTree = SphereTree(vertexSpheres);
     if (!withEdges) return samples;
 
-    std::vector<Sphere> edgeSpheres;
+    std::vector<Ball> edgeSpheres;
     forAngles(mesh, [&](const TriangleSide& side, double angle) {
         if (angle < kFlat) return;
         const Vec3 a = mesh.points.col(side.low), b = mesh.points.col(side.high);

@@ -1,6 +1,7 @@
 #include "core/math/rotation.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace scree {
 namespace {
@@ -127,6 +128,17 @@ Quat fromEulerXyz(const Vec3& angles)
     return (exponentialMap({0.0, 0.0, angles.z()}) * exponentialMap({0.0, angles.y(), 0.0}) *
             exponentialMap({angles.x(), 0.0, 0.0}))
         .normalized();
+}
+
+double chordOfTurn(const Quat& from, const Quat& to)
+{
+    return 2.0 * (to * from.conjugate()).vec().norm();
+}
+
+double chordOfTurn(const Mat3& from, const Mat3& to)
+{
+    // All that a turn does is across its axis, twice.
+    return (to - from).norm() / std::numbers::sqrt2;
 }
 
 Mat3 inverseInertiaWorld(const Mat3& rotation, const Vec3& inverseMoments)

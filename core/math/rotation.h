@@ -31,6 +31,11 @@ Vec3 rotationVector(const Quat& rotation);
 /// The unit quaternion of R = Rz·Ry·Rx for angles [rad] about x, y, z: about x first.
 Quat fromEulerXyz(const Vec3& angles);
 
+/// How far the turn from one orientation to another takes a point at unit distance, at most: the
+/// chord of its angle.
+double chordOfTurn(const Quat& from, const Quat& to);
+double chordOfTurn(const Mat3& from, const Mat3& to);
+
 /// I⁻¹ in world axes from inverse principal moments: R diag(d) Rᵀ.
 Mat3 inverseInertiaWorld(const Mat3& rotation, const Vec3& inverseMoments);
 

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-/// Always a < b.
+/// The broad phase, and all that remembers pairs, has a < b.
 struct BodyPair {
     BodyId a = 0, b = 0;
     friend bool operator==(const BodyPair&, const BodyPair&) = default;

@@ -1,4 +1,4 @@
-// Symbols: h length of the stretch between two keys, d slope at a key, s share of the stretch.
+// Symbols: h length of the stretch between two keys, s share of it.
 #include "core/scene/camera_motion.h"
 
 #include <algorithm>

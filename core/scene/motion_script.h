@@ -5,7 +5,7 @@
 // taken. Velocities are then bounded by the steps alone, which is what the limit of the time step
 // asks for.
 //
-// Symbols: t time, T duration of a stretch, s share of it that has passed, d step of a position
+// Symbols: t time, s share of it that has passed, d step of a position
 //          [m], w of an orientation (rotation vector, axes of the body) [rad].
 #pragma once
 

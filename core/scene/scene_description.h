@@ -1,6 +1,6 @@
 // What those who show or store a scene need of it: names, meshes as the artist made them, and poses
-// of the artist's own frames. It is the one language that simulation, writers and pictures share;
-// looks and cameras are not in it.
+// of the artist's own frames, looks and cameras. It is the one language that simulation, writers
+// and pictures share.
 //
 // Lengths are in the shot's unit of length, axes are the shot's axes.
 #pragma once

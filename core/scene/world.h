@@ -67,7 +67,7 @@ public:
     const Shape& shapeOf(BodyId body) const { return *shapes_[traits[body].shape]; }
     const Material& materialOf(BodyId body) const { return materials_[traits[body].material]; }
 
-    /// Time since the start of the shot [s], and that of the frame's beginning plus `later`.
+    /// Time since the start of the shot, and what it will be `later` [s].
     double time(double later = 0.0) const
     {
         return static_cast<double>(clock.frame) * frameDuration + (clock.frameTimeDone + later);

@@ -166,10 +166,38 @@ TEST(Forces, FieldsPointAndFadeAsTheySay)
     field.kind = ForceField::Kind::vortex;
     field.direction = Vec3::UnitY();
     EXPECT_LE((at({3.0, 5.0, 0.0}) - Vec3(0.0, 0.0, -12.0)).norm(), 1e-14);
+    field.kind = ForceField::Kind::uniform;
+    EXPECT_EQ(at({3.0, 5.0, 7.0}), Vec3(0.0, 12.0, 0.0));
+    field.kind = ForceField::Kind::vortex;
     field.keys = {{1.0, 0.0}, {3.0, 8.0}};
     EXPECT_EQ(at({3.0, 5.0, 0.0}, 0.0).norm(), 0.0);
     EXPECT_NEAR(at({3.0, 5.0, 0.0}, 2.5).norm(), 6.0, 1e-14);
     EXPECT_NEAR(at({3.0, 5.0, 0.0}, 9.0).norm(), 8.0, 1e-14);
+}
+
+TEST(Forces, AFieldActsOnItsGroupsAlone)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    for (int i = 0; i < 3; ++i) {
+        addBody(world, boxShape(Vec3::Ones(), 1), material, {Vec3(3.0 * i, 0.0, 0.0)});
+        world.traits.back().groups.group = std::uint64_t{1} << i;
+    }
+    ForceField push;
+    push.kind = ForceField::Kind::uniform;
+    push.direction = Vec3::UnitZ();
+    push.strength = 2.0;
+    push.groups = 0b110;
+    world.fields.push_back(push);
+    for (const StepSettings& asked : {experimentSettings(), screeSettings()}) {
+        StepSettings settings = asked;
+        settings.gravity = Vec3::Zero();
+        World copy = world;
+        Stepper(settings).step(copy, 0.25);
+        EXPECT_EQ(copy.motion[0].velocity, Vec3::Zero());
+        EXPECT_EQ(copy.motion[1].velocity, Vec3(0.0, 0.0, 0.5));
+        EXPECT_EQ(copy.motion[2].velocity, Vec3(0.0, 0.0, 0.5));
+    }
 }
 
 /// A block thrown along +x against another that rests in its way, weightless.

@@ -224,8 +224,9 @@ TEST(GapKept, WhatStaysIsStillLookedAtForWhatItRunsInto)
     kept.scratch.bodies[ballOf(0)].velocity = Vec3(8.0, -0.9, 0.0) / kStep;
     attempt(kept.world, true, SolvedIslands(kept.scratch), kept.scratch);
     EXPECT_EQ(kept.islandsKept(), kStacks);
-    EXPECT_TRUE(meetsUnseen(kept.world, kStep, kept.scratch));
-    EXPECT_FALSE(meetsUnseen(kept.world, kStep, kept.scratch)) << "it has been looked at";
+    EXPECT_TRUE(lookFartherWhereUnseen(kept.world, kStep, kept.scratch));
+    EXPECT_FALSE(lookFartherWhereUnseen(kept.world, kStep, kept.scratch))
+        << "it has been looked at";
     EXPECT_GT(kept.scratch.gain[ballOf(0)], 700.0);
 }
 

@@ -11,6 +11,7 @@
 #include "core/collision/near_features.h"
 #include "core/diagnostics/state_hash.h"
 #include "core/dynamics/integrator.h"
+#include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
@@ -444,7 +445,7 @@ double riseOfSwingingChain(int links, double last)
     }
     const StepSettings settings = screeSettings();
     Stepper stepper(settings);
-    double rise = 0.0, before = totalEnergy(world, settings), lowest = 0.0;
+    double rise = 0.0, before = mechanicalEnergy(world, settings.gravity), lowest = 0.0;
     for (int frame = 0; frame < 96; ++frame) {
         const FrameReport report = stepper.advanceFrame(world, kFrame);
         const double energy = report.kineticEnergy + report.potentialEnergy;
@@ -469,7 +470,7 @@ WallEnergy energyOfALeaningWall(int columns, int layers)
     double given = 0.0;
     for (std::size_t b = 1; b < world.bodyCount(); ++b)
         given += kineticEnergy(world.motion[b], world.mass[b]);
-    const double lying = totalEnergy(world, settings) - given;
+    const double lying = mechanicalEnergy(world, settings.gravity) - given;
     WallEnergy energy;
     for (int frame = 0; frame < 24; ++frame) {
         const FrameReport report = stepper.advanceFrame(world, kFrame);

@@ -23,7 +23,7 @@ namespace {
 TEST(SphereLaneTree, TellsAllThingsThatAreNearAndFewOthers)
 {
     for (const std::uint64_t count : {1u, 7u, 8u, 9u, 64u, 65u, 500u}) {
-        std::vector<Sphere> things;
+        std::vector<Ball> things;
         for (std::uint64_t i = 0; i < count; ++i)
             things.push_back({signedUnits(i, 0), 0.1 * randomUnit(24, i)});
         const SphereLaneTree tree(things);
@@ -72,7 +72,7 @@ void expectLowerBounds(const SignedDistance& field, double from, const Within& w
     const Vec3 translation(0.3, 0.1, -0.2);
     const DistanceLanes lanes(field, rotation, translation, from);
     for (std::uint64_t i = 0; i < 5000; ++i) {
-        std::vector<Sphere> spheres;
+        std::vector<Ball> spheres;
         for (std::uint64_t k = 0; k < kFloatLanes; ++k)
             spheres.push_back({from * signedUnits(i, 3 * k) / 1.8, 0.2 * randomUnit(25, i, k)});
         const SphereLanes eight = inLanes(spheres).front();

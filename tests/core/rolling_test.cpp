@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/rolling_friction.h"
+#include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/surface_curvature.h"
@@ -45,7 +46,7 @@ Roll roll(const std::shared_ptr<const Shape>& ball, const RollingFriction& rolli
                                 {2.0, 0.0, 0.0}, {0.0, 3.0, -4.0});
     Stepper stepper(settings);
     Roll result;
-    double energy = totalEnergy(world, settings);
+    double energy = mechanicalEnergy(world, settings.gravity);
     for (int k = 1; k <= seconds * kRate; ++k) {
         const StepReport report = stepper.step(world, 1.0 / kRate);
         result.impulses += report.contactImpulses;
@@ -53,7 +54,7 @@ Roll roll(const std::shared_ptr<const Shape>& ball, const RollingFriction& rolli
         result.reversal = std::max({result.reversal, spin.z(), -spin.y()});
         if (std::abs(spin.z()) < 1e-9) result.rollStop = std::min(result.rollStop, k / kRate);
         if (std::abs(spin.y()) < 1e-9) result.spinStop = std::min(result.spinStop, k / kRate);
-        const double now = totalEnergy(world, settings);
+        const double now = mechanicalEnergy(world, settings.gravity);
         result.energyRise = std::max(result.energyRise, now - energy);
         energy = now;
     }

@@ -109,9 +109,10 @@ TEST(Rooms, WhatMovesBodiesCallsNoFunctionWhoseBitsDependOnTheProcessor)
     const std::regex call(
         "std::(a?(sin|cos|tan)h?|atan2|exp|log|pow|cbrt|hypot)\\b|AngleAxis|slerp");
     int lines = 0;
-    for (const std::string folder : {"math", "geometry", "collision", "dynamics"}) {
+    for (const std::string folder : {"math", "geometry", "collision", "scene", "dynamics"}) {
         for (const auto& entry :
              std::filesystem::directory_iterator(sourceFile("core/" + folder))) {
+            if (entry.path().stem() == "shaded_mesh") continue;  // pictures alone see it
             std::ifstream file(entry.path());
             for (std::string line; std::getline(file, line); ++lines)
                 EXPECT_FALSE(std::regex_search(line, call)) << entry.path() << ": " << line;

@@ -245,6 +245,33 @@ TEST(KeyedImports, WhatHangsOnANodeThatTurnsGoesRoundBetweenItsKeys)
     EXPECT_EQ(smooth.bodies[0].keys.size(), 2u);
 }
 
+// What was stretched by hand and animated then: its scale was laid along the axes of the room, and
+// seemed to change.
+TEST(KeyedImports, WhatIsStretchedInItsOwnAxesTurnsWithThem)
+{
+    const test::TemporaryFolder folder;
+    const std::string file = folder / "door.gltf";
+    writeDoor(file);
+    std::string text = readFileBytes(file);
+    const std::string hinge = "\"name\":\"hinge\",";
+    text.replace(text.find(hinge), hinge.size(), hinge + "\"scale\":[2,1,1],");
+    writeFileBytes(file, text);
+    const Shot shot = parseShotText(shotText(file, "*", ""), "s.toml");
+    ASSERT_EQ(shot.bodies.size(), 1u);
+    const MotionScript script(shot.bodies[0].keys, shot.bodies[0].interpolation);
+    for (int i = 0; i <= 4; ++i) {
+        const double angle = kPi * i / 8;
+        const Pose pose = script.at(i / 24.0);
+        const Vec3 expected(4.0 * std::cos(angle), 4.0 * std::sin(angle), 0.0);
+        EXPECT_LT((pose.position - expected).norm(), 2e-3) << i;
+        const Quat turn(std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle));
+        EXPECT_LT(pose.orientation.angularDistance(turn), 1e-3) << i;
+    }
+    const Points& points = std::get<NodeSpec>(shot.shapes.at(0).source).mesh->points;
+    EXPECT_NEAR(points.row(0).maxCoeff() - points.row(0).minCoeff(), 2.0, 1e-6);
+    EXPECT_NEAR(points.row(1).maxCoeff() - points.row(1).minCoeff(), 1.0, 1e-6);
+}
+
 TEST(KeyedImports, SamplesThatTheFileJoinsOtherwiseAreWarnedOf)
 {
     const test::TemporaryFolder folder;
@@ -261,6 +288,37 @@ TEST(KeyedImports, SamplesThatTheFileJoinsOtherwiseAreWarnedOf)
         shot.warnings[1].starts_with("s.toml:12:8: the file joins the samples of camera "
                                      "'view' by jumps (STEP)"))
         << shot.warnings[1];
+}
+
+TEST(KeyedImports, OfSeveralClipsThatMoveANodeItIsSaidWhichIsPlayed)
+{
+    const test::TemporaryFolder folder;
+    const std::string file = folder / "door.gltf";
+    writeDoor(file);
+    std::string text = readFileBytes(file);
+    const std::size_t begin = text.find("\"animations\":[") + 14, end = text.rfind("]}");
+    const std::string clip = text.substr(begin, end - begin);
+    const auto named = [&](const std::string& name) {
+        return "{\"name\":\"" + name + "\"," + clip.substr(1);
+    };
+    const auto warningsOf = [&](const std::string& clips, const std::string& more) {
+        writeFileBytes(file, text.substr(0, begin) + clips + text.substr(end));
+        return parseShotText(shotText(file, "*", more), "s.toml").warnings;
+    };
+    const std::string camera = "[[camera]]\nfile = \"" + file + "\"\n";
+    const auto warnings = warningsOf(named("open") + "," + named("close"), camera);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_EQ(warnings[0],
+              "s.toml:10:10: several clips of the file move 'door': 'open' is played, and not "
+              "'close'; export the one that is meant alone");
+    EXPECT_TRUE(
+        warnings[1].starts_with("s.toml:12:8: several clips of the file move camera 'view'"))
+        << warnings[1];
+    const auto unnamed = warningsOf(clip + "," + named("") + "," + clip, "");
+    ASSERT_EQ(unnamed.size(), 1u);
+    EXPECT_NE(unnamed[0].find("number 1 is played, and not number 2 or 1 more"), std::string::npos)
+        << unnamed[0];
+    EXPECT_TRUE(warningsOf(named("open"), "").empty());
 }
 
 TEST(KeyedImports, AnOrthographicCameraIsInNobodysWayUntilItIsChosen)

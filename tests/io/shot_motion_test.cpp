@@ -67,6 +67,11 @@ name = "swirl"
 type = "vortex"
 direction = [0, 1, 0]
 keys = [ { frame = 1001, strength = 0 }, { frame = 1013, strength = 4 } ]
+[[force]]
+type = "uniform"
+direction = [0, 0, 3]
+strength = 2
+groups = ["actors"]
 [[pair]]
 of = ["wood", "ice"]
 friction = 0.05
@@ -101,12 +106,16 @@ TEST(ShotMotion, RulesPairsGroupsAndForcesReachTheWorld)
     EXPECT_EQ(world.traits[2].groups.unmovedBy, 0u);
     EXPECT_EQ(world.info[2].force, Vec3(0.0, 0.0, 2.0));
     EXPECT_EQ(world.info[2].torque, Vec3(0.0, 1.0, 0.0));
-    ASSERT_EQ(world.fields.size(), 2u);
+    ASSERT_EQ(world.fields.size(), 3u);
     EXPECT_EQ(world.fields[0].strength, 3.0);  // 300 cm/s
     EXPECT_EQ(world.fields[0].direction, Vec3::UnitX());
     EXPECT_EQ(world.fields[0].reach, 4.0);
     EXPECT_EQ(world.fields[1].keys[1].strength, 4.0);  // m/s² whatever the unit of length
     EXPECT_EQ(world.fields[1].keys[1].time, 0.5);
+    EXPECT_EQ(world.fields[2].kind, ForceField::Kind::uniform);
+    EXPECT_EQ(world.fields[2].direction, Vec3::UnitZ());
+    EXPECT_EQ(world.fields[2].groups, world.traits[1].groups.group);
+    EXPECT_EQ(world.fields[0].groups & world.traits[2].groups.group, world.traits[2].groups.group);
     EXPECT_EQ(world.info[1].keyedUntil, 7);
 }
 
@@ -134,7 +143,8 @@ TEST(ShotMotion, TheResolvedShotIsTheShotAgain)
     const Shot again = parseShotText(shot.resolvedText, "push.toml");
     EXPECT_EQ(again.resolvedText, shot.resolvedText);
     EXPECT_EQ(again.bodies[1].keys.size(), 2u);
-    EXPECT_EQ(again.fields.size(), 2u);
+    ASSERT_EQ(again.fields.size(), 3u);
+    EXPECT_EQ(again.fields[2].groups, shot.fields[2].groups);
 }
 
 TEST(ShotMotion, StrictSetsEverythingItPromises)
@@ -255,6 +265,54 @@ material = "ice"
               (folder / "meshes/prop.obj").string());
     EXPECT_EQ(std::get<FileSpec>(parseShotText(shot.resolvedText, path).shapes[1].source).path,
               (folder / "meshes/prop.obj").string());
+}
+
+TEST(ShotExtends, ACameraWithoutANameIsTheOneThatIsMeantByItsDefaultName)
+{
+    const TemporaryFolder folder;
+    writeText(folder / "base.toml", kShot + "[[camera]]\neye = [0, 1, 9]\n");
+    for (const std::string name : {"", "name = \"main\"\n"}) {
+        writeText(folder / "over.toml",
+                  "scree = 1\nextends = \"base.toml\"\n[[camera]]\n" + name + "fov = 20\n");
+        const Shot shot =
+            parseShot((folder / "over.toml").string(), {"camera.main.target=[0,2,0]"});
+        ASSERT_EQ(shot.cameras.size(), 1u);
+        EXPECT_EQ(shot.cameras[0].eye.z(), 0.09);  // in cm
+        EXPECT_EQ(shot.cameras[0].target.y(), 0.02);
+        EXPECT_EQ(shot.cameras[0].fovDegrees, 20.0);
+    }
+}
+
+// Of two crates one was lost, and of two shapes or turns the first, without a word.
+TEST(ShotExtends, WhatTheShotItselfSaysTwiceIsNoMoreLostThanWithoutABase)
+{
+    const TemporaryFolder folder;
+    writeText(folder / "base.toml", kShot);
+    const auto complaintOf = [&](const std::string& text) {
+        writeText(folder / "over.toml", "scree = 1\nextends = \"base.toml\"\n" + text);
+        try {
+            parseShot((folder / "over.toml").string());
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto crateAt = [](const std::string& name, int x) {
+        return "[[body]]\nname = \"" + name + "\"\nshape = \"block\"\nmaterial = \"wood\"\n" +
+               "position = [" + std::to_string(x) + ", 90, 0]\n";
+    };
+    for (const std::string name : {"crate", "pushed"}) {
+        const std::string text = complaintOf(crateAt(name, 100) + crateAt(name, 200));
+        EXPECT_NE(text.find("body name '" + name + "' is taken"), std::string::npos) << text;
+    }
+    const std::string turns = complaintOf(
+        "[[body]]\nname = \"pushed\"\nrotation = [0, 9, 0]\norientation = [1, 0, 0, 1]\n");
+    EXPECT_NE(turns.find("cannot stand beside"), std::string::npos) << turns;
+    const std::string solids = complaintOf(
+        "[shape.block]\nbox = { size = [9, 9, 9] }\n"
+        "sphere = { radius = 3 }\n");
+    EXPECT_NE(solids.find("sphere"), std::string::npos) << solids;
+    EXPECT_EQ(complaintOf("[shape.block]\nsphere = { radius = 3 }\n"), "");
 }
 
 TEST(ShotExtends, AFolderWithAShotIsThatShot)

@@ -253,15 +253,4 @@ double deepestOfEdges(const Shape& a, const Shape& b, const Pose& bFromA, int pl
     return deepest;
 }
 
-double totalEnergy(const World& world, const StepSettings& settings)
-{
-    double energy = 0.0;
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (!world.mass[b].isMovable()) continue;
-        energy += kineticEnergy(world.motion[b], world.mass[b]);
-        energy -= settings.gravity.dot(world.motion[b].position) / world.mass[b].inverseMass;
-    }
-    return energy;
-}
-
 }  // namespace scree::test

@@ -79,7 +79,4 @@ double largestVertexShift(const World& before, const World& after, BodyId body);
 /// overlap should be about as much [m].
 double deepestOfEdges(const Shape& a, const Shape& b, const Pose& bFromA, int places);
 
-/// Kinetic plus potential energy of all movable bodies [J].
-double totalEnergy(const World& world, const StepSettings& settings);
-
 }  // namespace scree::test

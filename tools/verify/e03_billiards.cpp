@@ -40,7 +40,7 @@ void meshBalls(const Context& context, Findings& findings, double gap, const std
     findings.atLeast(must, name + ": last ball", last, 19.0, "m/s");
     findings.atLeast(goal, name + ": last ball, goal", last, 19.8, "m/s");
     findings.atMost(must, name + ": sum of the others", othersOf(run), 1.0, "m/s");
-    findings.near(must, name + ": momentum", momenta(run.world).linear.x(), 20.0, 20.0 * 1e-10,
+    findings.near(must, name + ": momentum", momentaOf(run.world).linear.x(), 20.0, 20.0 * 1e-10,
                   "kg m/s");
 }
 
@@ -67,7 +67,7 @@ void exactBalls(const Context& context, Findings& findings, double gap,
     }
     findings.near(must, name + ": last ball", run.motion("ball_4").velocity.x(), 20.0, 1e-9, "m/s");
     findings.atMost(must, name + ": fastest of the others", fastest, 1e-9, "m/s");
-    findings.near(must, name + ": momentum", momenta(run.world).linear.x(), 20.0, 20.0 * 1e-10,
+    findings.near(must, name + ": momentum", momentaOf(run.world).linear.x(), 20.0, 20.0 * 1e-10,
                   "kg m/s");
     findings.near(must, name + ": energy", energy, 200.0, 200.0 * 1e-10, "J");
 }

@@ -113,7 +113,7 @@ public:
         for (const BodyInfo& info : run.world.info) {
             if (info.name.starts_with("box_")) boxes_.push_back(run.body(info.name));
         }
-        energy_ = totalEnergy(run.world, run.shot.settings.gravity);
+        energy_ = mechanicalEnergy(run.world, run.shot.settings.gravity);
         for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
             if (!run.world.mass[b].isMovable()) continue;
             // m g ℓ: what an overlap of a body's own thickness is worth.
@@ -138,7 +138,7 @@ public:
         if (time > kImpact && time < kImpact + 0.1) {
             result.tiltRate = larger(result.tiltRate, spinOf(run_.world, plank_).norm());
         }
-        const double energy = totalEnergy(run_.world, run_.shot.settings.gravity);
+        const double energy = mechanicalEnergy(run_.world, run_.shot.settings.gravity);
         const double kinetic = energy - potential();
         const double rise = energy - energy_ - pushOutWork;
         result.energyRise = larger(result.energyRise, rise / (kinetic + weightScale_));

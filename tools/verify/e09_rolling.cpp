@@ -142,9 +142,10 @@ void meshedSphere(const Context& context, Findings& findings)
 void otherShapes(const Context& context, Findings& findings)
 {
     ShotRun run(context, "E09_tumbling");
-    double energy = totalEnergy(run.world, run.shot.settings.gravity), rise = 0.0, reversal = 0.0;
+    double energy = mechanicalEnergy(run.world, run.shot.settings.gravity), rise = 0.0,
+           reversal = 0.0;
     run.advance(4.0, 240.0, [&](const StepReport& report, double) {
-        const double now = totalEnergy(run.world, run.shot.settings.gravity);
+        const double now = mechanicalEnergy(run.world, run.shot.settings.gravity);
         rise = larger(rise, now - energy - report.pushOutWork);
         energy = now;
         for (const char* name : {"cube", "egg"}) {

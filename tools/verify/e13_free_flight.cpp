@@ -60,7 +60,7 @@ double orientationError(double stepsPerSecond)
         for (int k = 0; k < rate; ++k) advancePositions(world, settingsOf(), 1.0 / rate);
         return world.motion[0].orientation;
     };
-    return 2.0 * (fly(25600.0).conjugate() * fly(stepsPerSecond)).vec().norm();
+    return chordOfTurn(fly(25600.0), fly(stepsPerSecond));
 }
 
 struct Tumble {

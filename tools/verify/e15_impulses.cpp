@@ -157,7 +157,7 @@ void tripleCollision(const Context& context, Findings& findings)
         left += l;
         right += r;
         largest = larger(largest, std::abs(l - r));
-        momentum = larger(momentum, momenta(world).linear.norm());
+        momentum = larger(momentum, momentaOf(world).linear.norm());
     }
     findings.atLeast(must, "triple collision, 100 seeds: mean speed of the outer balls",
                      0.005 * (left + right), 0.1, "m/s", "they come back");

@@ -22,7 +22,7 @@ double massOf(const World& world, std::size_t body)
 Change follow(ShotRun& run, double stepsPerSecond)
 {
     const double dt = 1.0 / stepsPerSecond;
-    const Momenta before = momenta(run.start);
+    const Momenta before = momentaOf(run.start);
     Vec3 given = Vec3::Zero(), torque = Vec3::Zero();
     Change change;
     run.advance(1.0, stepsPerSecond, [&](const StepReport& report, double) {
@@ -35,7 +35,7 @@ Change follow(ShotRun& run, double stepsPerSecond)
             given += dt * weight;
             torque += dt * (body.position - dt * body.velocity).cross(weight);
         }
-        const Momenta now = momenta(run.world);
+        const Momenta now = momentaOf(run.world);
         change.linear = larger(change.linear, (now.linear - before.linear - given).norm());
         change.angular = larger(change.angular, (now.angular - before.angular - torque).norm());
     });

@@ -31,7 +31,7 @@ HeapResult dropHeap(const Context& context, int layers, int seed, const std::str
     run.advance(context.isFull() ? 5.0 : 2.5, 120.0);
     HeapResult result;
     const Vec3& gravity = run.shot.settings.gravity;
-    result.energyLost = totalEnergy(run.start, gravity) - totalEnergy(run.world, gravity);
+    result.energyLost = mechanicalEnergy(run.start, gravity) - mechanicalEnergy(run.world, gravity);
     for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
         if (run.world.mass[b].isMovable()) result.height += run.world.motion[b].position.y();
     }

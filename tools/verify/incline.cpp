@@ -22,8 +22,7 @@ void look(const ShotRun& run, const SlideTheory& theory, double t, double blur, 
     errors.position = larger(errors.position, std::abs(along - s));
     if (t < stop - blur) errors.slidingSpeed = larger(errors.slidingSpeed, speedError);
     if (t > stop + blur) errors.restSpeed = larger(errors.restSpeed, speedError);
-    const Quat turn = start.orientation.conjugate() * motion.orientation;
-    errors.rotation = larger(errors.rotation, 2.0 * turn.vec().norm());
+    errors.rotation = larger(errors.rotation, chordOfTurn(start.orientation, motion.orientation));
     errors.drift = larger(errors.drift, std::abs(moved.z()));
     errors.distance = s;
     errors.measured.x.push_back(t);

@@ -156,30 +156,6 @@ double lowestVertex(const World& world, BodyId body)
     return lowest;
 }
 
-double totalEnergy(const World& world, const Vec3& gravity)
-{
-    double energy = 0.0;
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (!world.mass[b].isMovable()) continue;
-        energy += kineticEnergy(world.motion[b], world.mass[b]);
-        energy -= gravity.dot(world.motion[b].position) / world.mass[b].inverseMass;
-    }
-    return energy;
-}
-
-Momenta momenta(const World& world)
-{
-    Momenta sum;
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        if (!world.mass[b].isMovable()) continue;
-        const BodyMotion& body = world.motion[b];
-        const Vec3 p = body.velocity / world.mass[b].inverseMass;
-        sum.linear += p;
-        sum.angular += body.position.cross(p) + body.angularMomentum;
-    }
-    return sum;
-}
-
 void addPicture(const Context& context, const ShotRun& run, const std::string& caption,
                 Findings& findings, bool isWireframe)
 {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "core/scene/world.h"
 #include "io/shot.h"
@@ -56,15 +57,6 @@ double largestVertexShift(const World& before, const World& after, BodyId body);
 
 /// Height of the body's lowest vertex [m].
 double lowestVertex(const World& world, BodyId body);
-
-/// Kinetic plus potential energy of all movable bodies [J].
-double totalEnergy(const World& world, const Vec3& gravity);
-
-struct Momenta {
-    Vec3 linear = Vec3::Zero();   ///< [kg m/s]
-    Vec3 angular = Vec3::Zero();  ///< about the origin [kg m²/s]
-};
-Momenta momenta(const World& world);
 
 /// A picture of the run as it stands, through the shot's first camera; none unless the context
 /// wants pictures.
