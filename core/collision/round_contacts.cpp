@@ -103,8 +103,7 @@ public:
         if (!shape.roundFacets.isEmpty()) {
             findFacet(rotation.transpose() * (near - translation), rotation.transpose() * outward);
         }
-        if (facet_ < 0 && part.kind == Kind::corner) rim_ = shape.rims.atCorner(part.index);
-        if (facet_ < 0 && part.kind == Kind::edge) rim_ = shape.rims.ofEdge(part.index);
+        if (facet_ < 0) rim_ = rim();
         isRound_ = isRound_ || isRoundMesh();
         if (isSide_) axis_ = rotation * *shape.roundFacets.axisOf(facet_);
         if (isRound_) return;
@@ -204,6 +203,11 @@ public:
 
 private:
     const ConvexEdge& edge() const { return shape_.features.edges()[part_.index]; }
+    std::int32_t rim() const
+    {
+        if (part_.kind == Kind::corner) return shape_.rims.atCorner(part_.index);
+        return part_.kind == Kind::edge ? shape_.rims.ofEdge(part_.index) : -1;
+    }
 
     /// All in the frame of the shape.
     void findFacet(const Vec3& near, const Vec3& outward)
@@ -219,6 +223,8 @@ private:
         const auto isOfSide = [&] { return facet_ >= 0 && shape_.roundFacets.axisOf(facet_); };
         if (part_.kind == Kind::corner || !isOfSide())
             facet_ = shape_.roundFacets.atVertex(vertex, outward);
+        // Where what is round ends in a rim, the next hair of a tilt would find no facet.
+        if (facet_ >= 0 && rim() >= 0 && !shape_.roundFacets.areRoundAround(vertex)) facet_ = -1;
         isSide_ = isOfSide();
     }
 

@@ -183,6 +183,12 @@ std::int32_t RoundFacets::atVertex(std::int32_t vertex, const Vec3& direction) c
     return best;
 }
 
+bool RoundFacets::areRoundAround(std::int32_t vertex) const
+{
+    return std::ranges::all_of(fans_.around(vertex),
+                               [&](std::int32_t triangle) { return isRound_[triangle] != 0; });
+}
+
 RoundPlace RoundFacets::placeAt(const Facet& facet, const Vec3& weights, const Mat3& change) const
 {
     RoundPlace place{facet.points * weights, 0.0, Mat3::Zero()};

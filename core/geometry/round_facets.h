@@ -30,6 +30,9 @@ public:
     /// Of the round facets around a vertex the one to begin a search with; −1 when there is none.
     std::int32_t atVertex(std::int32_t vertex, const Vec3& direction) const;
 
+    /// Whether all facets around a vertex are round.
+    bool areRoundAround(std::int32_t vertex) const;
+
     /// Walks from a round facet to the one that faces `direction` (unit), and stays there for the
     /// next search.
     RoundSearch findFacing(std::int32_t& triangle, const Vec3& direction, RoundPlace& place) const;

@@ -3,6 +3,7 @@
 #include "core/geometry/round_rims.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree {
 namespace {
@@ -64,6 +65,22 @@ std::vector<Meeting> sharpAtCorners(const ContactFeatures& features,
     return at;
 }
 
+/// How far an edge may lean towards an axis that it lies around, as a share of its length: for
+/// rounding in files.
+constexpr double kLeans = 1e-3;
+
+/// Whether an edge lies around one of the axes about which turns do not show.
+bool liesAround(const Vec3& turnsThatShow, const ConvexEdge& edge)
+{
+    const Vec3 middle = edge.start + 0.5 * edge.length * edge.direction;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (turnsThatShow[axis] > 0.0 || std::abs(edge.direction[axis]) > kLeans) continue;
+        const Vec3 out = middle - middle[axis] * Vec3::Unit(axis);
+        if (std::abs(out.dot(edge.direction)) <= kLeans * edge.length) return true;
+    }
+    return false;
+}
+
 /// Where a straight edge goes on into a fillet the curve turns half as fast as within that, or
 /// less: half because the first edge of the fillet turns to one side only. Where the next edge is
 /// the last one of the curve, its length tells.
@@ -90,13 +107,14 @@ bool isStraightBefore(const std::vector<ConvexEdge>& edges, const std::vector<Me
 
 }  // namespace
 
-RoundRims::RoundRims(const ContactFeatures& features)
+RoundRims::RoundRims(const ContactFeatures& features, const Vec3& turnsThatShow)
 {
     const std::vector<ConvexEdge>& edges = features.edges();
     std::vector<std::int32_t> sharp;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        // What is less sharp is left to the facets.
-        if (edges[e].faceNormal[0].dot(edges[e].faceNormal[1]) < kFineTurn)
+        // What is less sharp is left to the facets. Those beside something sharp are none.
+        const bool isSharp = edges[e].faceNormal[0].dot(edges[e].faceNormal[1]) < kFineTurn;
+        if (isSharp || liesAround(turnsThatShow, edges[e]))
             sharp.push_back(static_cast<std::int32_t>(e));
     }
     const std::vector<Meeting> at = sharpAtCorners(features, sharp);

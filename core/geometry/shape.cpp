@@ -260,7 +260,6 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
         settings.edgeSamples.value_or(longestEdge(shape.mesh) > 0.5 * shape.innerThickness);
     shape.samples = makeSurfaceSamples(shape.mesh, withEdges);
     shape.features = ContactFeatures(shape.mesh);
-    shape.rims = RoundRims(shape.features);
     shape.hollows = HollowFacets(shape.mesh);
     if (!shape.usesTrueNormals) {
         shape.smooth = SmoothSurface(shape.mesh);
@@ -268,6 +267,7 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
         shape.capsule = capsuleOf(shape.mesh, shape.roundFacets);
     }
     shape.turnsThatShow = shape.isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape.mesh);
+    shape.rims = RoundRims(shape.features, shape.turnsThatShow);
 
     const double spacing = chooseSpacing(name, settings, shape.box, shape.innerThickness);
     shape.distance =
@@ -329,7 +329,7 @@ std::shared_ptr<const Shape> buildExactShape(const std::string& name, const Exac
     if (solid.form() == ExactSolid::Form::sphere) shape->capsule.radius = solid.half().x();
     shape->turnsThatShow = shape->isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape->mesh);
     if (solid.form() != ExactSolid::Form::sphere) shape->features = ContactFeatures(shape->mesh);
-    shape->rims = RoundRims(shape->features);
+    shape->rims = RoundRims(shape->features, shape->turnsThatShow);
     if (!shape->samplesMove) {
         const bool withEdges =
             settings.edgeSamples.value_or(longestEdge(shape->mesh) > 0.5 * shape->innerThickness);
