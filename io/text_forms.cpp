@@ -27,6 +27,11 @@ std::string formatted(const char* format, double a, double b)
     return text;
 }
 
+std::string percent(double share)
+{
+    return formatted(share < 1.0 ? "%.2g %%" : "%.0f %%", 100.0 * share);
+}
+
 std::string toHex(std::uint64_t value)
 {
     std::string text(16, '0');

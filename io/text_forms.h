@@ -17,6 +17,9 @@ std::string shortened(const std::string& text, std::size_t longest);
 /// One or two numbers in a short phrase, in the format of printf.
 std::string formatted(const char* format, double a, double b = 0.0);
 
+/// "0.15 %", "13 %" or "250 %" of a share.
+std::string percent(double share);
+
 /// Sixteen digits.
 std::string toHex(std::uint64_t value);
 

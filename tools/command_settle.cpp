@@ -56,11 +56,6 @@ double movedRadii(const Shape& shape, const BodyMotion& before, const BodyMotion
            chordOfTurn(before.orientation, now.orientation);
 }
 
-std::string percentText(double ratio)
-{
-    return formatted(ratio < 1.0 ? "%.2g %%" : "%.0f %%", 100.0 * ratio);
-}
-
 /// What keeps a pose from being the last.
 struct Unrest {
     int moving = 0;                ///< bodies that have moved too far
@@ -184,7 +179,7 @@ private:
             return "'" + world_.info[*unrest_.unborn].name + "' has not been born yet (--seconds)";
         if (unrest_.moving == 0) return "it has not lain still for half a second yet (--seconds)";
         const std::string most = "'" + world_.info[unrest_.fastest].name + "' still moves, " +
-                                 percentText(unrest_.moved) + " of its radius in half a second";
+                                 percent(unrest_.moved) + " of its radius in half a second";
         const std::string others =
             unrest_.moving > 1 ? ", the most of " + std::to_string(unrest_.moving) : "";
         if (!rollsOn(world_, unrest_.fastest)) return most + others;

@@ -1,5 +1,6 @@
 // A take, or pictures that are there already, at a glance.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -81,7 +82,9 @@ int runSheet(const SheetOptions& options, Console& console)
     requirePngName(options.output);
     std::error_code ignored;
     const bool isTake = options.inputs.size() == 1 && fs::is_directory(options.inputs[0], ignored);
-    if (!isTake && !(options.frames.empty() && options.camera.empty()))
+    const bool areThere = std::ranges::all_of(
+        options.inputs, [&](const std::string& path) { return fs::exists(path, ignored); });
+    if (!isTake && areThere && !(options.frames.empty() && options.camera.empty()))
         throw Error(ErrorKind::usage, "--frames and --camera belong to a take, not to pictures");
     if (!isTake) {
         writeSheet(options, readPictures(options), console);

@@ -42,11 +42,6 @@ namespace {
 /// Worst frames named when a limit was broken.
 constexpr std::size_t kNamedFrames = 5;
 
-std::string percent(double ratio)
-{
-    return formatted("%.2g %%", 100.0 * ratio);
-}
-
 /// The command that goes on with the take. It repeats all that decides what the take becomes: given
 /// other settings, --resume would refuse.
 std::string commandToGoOn(const SimOptions& options, const std::string& folder)

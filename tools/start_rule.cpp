@@ -68,9 +68,8 @@ SeparationProgress progressOn(Console& console)
 std::string describe(const StartOverlap& overlap, const World& world)
 {
     return world.info[overlap.a].name + " and " + world.info[overlap.b].name +
-           formatted(": %.3g m, %.2g %% of the smaller one's length", overlap.depth,
-                     100.0 * overlap.ratio) +
-           (overlap.isThroughWall ? ", through a wall" : "");
+           formatted(": %.3g m, ", overlap.depth) + percent(overlap.ratio) +
+           " of the smaller one's length" + (overlap.isThroughWall ? ", through a wall" : "");
 }
 
 void applyStartRule(const Shot& shot, World& world, Console& console)

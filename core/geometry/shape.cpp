@@ -267,7 +267,9 @@ void describeSolid(const std::string& name, const TriMesh& solid, const ShapeSet
         shape.capsule = capsuleOf(shape.mesh, shape.roundFacets);
     }
     shape.turnsThatShow = shape.isBall() ? Vec3(Vec3::Zero()) : turnsThatShow(shape.mesh);
-    shape.rims = RoundRims(shape.features, shape.turnsThatShow);
+    // What is round all over has no rims, though edges of its mesh lie around it.
+    shape.rims = RoundRims(shape.features,
+                           shape.roundFacets.areAll() ? Vec3(Vec3::Ones()) : shape.turnsThatShow);
 
     const double spacing = chooseSpacing(name, settings, shape.box, shape.innerThickness);
     shape.distance =

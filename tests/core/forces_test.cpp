@@ -5,6 +5,7 @@
 
 #include "core/dynamics/body_pairs.h"
 #include "core/dynamics/forces.h"
+#include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
@@ -173,6 +174,27 @@ TEST(Forces, FieldsPointAndFadeAsTheySay)
     EXPECT_EQ(at({3.0, 5.0, 0.0}, 0.0).norm(), 0.0);
     EXPECT_NEAR(at({3.0, 5.0, 0.0}, 2.5).norm(), 6.0, 1e-14);
     EXPECT_NEAR(at({3.0, 5.0, 0.0}, 9.0).norm(), 8.0, 1e-14);
+}
+
+TEST(Forces, WhatACentrePullsTogetherTurnsOnAboutIt)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.9, 0.0);
+    const Vec3 spin(0.0, 1.0, 0.0);
+    for (int i = 0; i < 8; ++i) {
+        const Vec3 place(0.5 - (i & 1), 0.5 - (i >> 1 & 1), 0.5 - (i >> 2));
+        addBody(world, boxShape(Vec3::Ones(), 1), material, {place}, 1.0, spin.cross(place), spin);
+    }
+    ForceField pull;
+    pull.strength = -9.0;
+    world.fields.push_back(pull);
+    StepSettings settings = screeSettings();
+    settings.gravity = Vec3::Zero();
+    settings.substeps.min = settings.substeps.max = 4;
+    Stepper stepper(settings);
+    const double before = momentaOf(world).angular.y();
+    for (int f = 0; f < 96; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+    EXPECT_NEAR(momentaOf(world).angular.y(), before, 1e-3 * before);
 }
 
 TEST(Forces, AFieldActsOnItsGroupsAlone)
