@@ -199,6 +199,7 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane, Secti
     place(batch.a, scratch.bodies[from->a], from->movesA);
     place(batch.b, scratch.bodies[from->b], from->movesB);
     batch.bFromA.set(lane, from->rB - from->rA);
+    batch.turning.set(lane, from->turning);
     batch.squeeze[lane] = from->squeeze;
     for (std::size_t r = batch.begin; r < batch.end; ++r, ++from) {
         Row& row = section.rows[r];
@@ -252,7 +253,7 @@ inline void GapLanes::applyCouple(const Batch& batch, const Lanes3& couple, Moti
 inline Lanes3 GapLanes::velocityAt(const Row& row, const Batch& batch, const Motion& motion)
 {
     return motion.vA + cross(motion.wA, row.rA) - motion.vB -
-           cross(motion.wB, row.rA + batch.bFromA);
+           cross(motion.wB, row.rA + batch.bFromA) + batch.turning;
 }
 
 /// resistSpin of the plain twin without branches.

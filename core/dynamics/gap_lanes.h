@@ -99,6 +99,7 @@ private:
     struct Batch {
         Side a, b;
         Lanes3 bFromA;              // centres: what turns rA into rB
+        Lanes3 turning;             // of each row
         Lanes squeeze = kNoLanes;   // of each row
         std::int32_t from[kLanes];  // the first row of each in GapScratch::rows
         int lanesUsed = 0;

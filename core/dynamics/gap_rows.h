@@ -50,6 +50,8 @@ struct GapRow {
     Vec3 rA, rB;                   ///< contact point from either centre, world [m]
     Vec3 normal;                   ///< from B to A
     double gap;                    ///< [m]
+    Vec3 turning;                  ///< what A's surface gains on B's within half the step where
+                                   ///< both turn alike: gap_swings.h [m/s]
     Vec3 impulse;                  ///< along normal, tangent and second tangent, on A [N s]
     double squeeze;                ///< what presses it besides, for friction alone: gap_press.h
                                    ///< [N s]
@@ -102,7 +104,7 @@ inline bool sticks(const GapRow& row)
 /// Relative velocity of the two surfaces at a row, A's against B's [m/s].
 inline Vec3 velocityAt(const GapRow& row, const GapBody& a, const GapBody& b)
 {
-    return a.velocity + a.spin.cross(row.rA) - b.velocity - b.spin.cross(row.rB);
+    return a.velocity + a.spin.cross(row.rA) - b.velocity - b.spin.cross(row.rB) + row.turning;
 }
 
 /// What the shifts of the two bodies add to the gap [m].
@@ -120,6 +122,7 @@ inline void placeRow(BodyPair bodies, const GapContact& contact, const Vec3& bFr
     row.rB = contact.rA + bFromA;
     row.normal = contact.normal;
     row.gap = contact.gap;
+    row.turning = Vec3::Zero();
 }
 
 /// Everything of a row that follows from its geometry.

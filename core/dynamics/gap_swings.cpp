@@ -9,6 +9,10 @@
 // lost near half; a ring in a ring loses half of what it did. To ask for twice as much opens
 // contacts.
 //
+// What lies on a disc that turns crept outwards by the same, a tenth of a metre in 8 s at half a
+// metre from the middle and 20 turns a minute, and the disc lost a twentieth of its spin. Of two
+// bodies that turn alike all places gain the same on each other, so friction may be told too.
+//
 // Where bodies lie on each other going round makes room instead. That is left to the next step. Of
 // round contacts the place does not go round with its body (gap_lead.h). Heaps are left out: their
 // sweeps end long before this is heard, and a thousand rings took up to 40 % more of them.
@@ -21,6 +25,13 @@
 
 namespace scree {
 namespace {
+
+/// What is common to two spins.
+Vec3 spinOfBoth(const Vec3& a, const Vec3& b)
+{
+    if (a.dot(b) <= 0.0) return Vec3::Zero();
+    return a.squaredNorm() < b.squaredNorm() ? a : b;
+}
 
 /// How fast the surfaces at a row part half a step later because their bodies turn [m/s], ≤ 0. What
 /// slips may go along with either of the two, or with neither, as a smooth wheel does on its axle:
@@ -44,11 +55,14 @@ void holdPair(const World& world, double dt, const GapPair& pair, GapScratch& sc
     const Vec3 wA = spinOf(pair.bodies.a), wB = spinOf(pair.bodies.b);
     if (wA.isZero(0.0) && wB.isZero(0.0)) return;
     const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
+    const Vec3 w = spinOfBoth(wA, wB);
     const std::vector<GapContact>& contacts = scratch.contactsOf(pair);
     for (std::size_t r = pair.begin; r < pair.end; ++r) {
         GapRow& row = scratch.rows[r];
         if (kindOf(contacts[r - pair.begin].feature) != FeatureKind::round)
             row.target -= partingBy(row, a, b, wA, wB, dt);
+        row.turning = 0.5 * dt * w.cross(w.cross(row.rA - row.rB));
+        row.target += row.turning.dot(row.normal);
     }
 }
 

@@ -1,13 +1,13 @@
-// What swings on what it hangs from: within a step it leaves the straight way on which its velocity
-// takes it.  [algorithm 14.1]
+// What swings on what it hangs from, and what rides on something that turns: within a step both
+// leave the straight way on which their velocities take them.  [algorithm 14.1]
 #pragma once
 
 #include "core/dynamics/gap_scratch.h"
 
 namespace scree {
 
-/// Sets the targets of rows that hold what swings to where their places will be, going round, by
-/// the end of the step. They must be those of straight ways.
+/// Lets the rows of all that is no heap know where their places will be, going round: by their
+/// targets, which must be those of straight ways, and by GapRow::turning.
 void holdSwings(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
                 GapScratch& scratch);
 
