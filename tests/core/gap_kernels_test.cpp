@@ -719,6 +719,8 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling, std::uint64_t size = 12)
         pair.part = a < 2 || half(a) == half(b) ? half(b) : 2;
         pair.end += 1 + randomIndex(14, seed, 3, p);
         const Vec3 bFromA = signedUnits(seed, 9000 + 3 * p);
+        const Vec3 turning =
+            p % 3 == 1 ? Vec3(0.1 * signedUnits(seed, 15000 + 3 * p)) : Vec3(Vec3::Zero());
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             GapRow row{};
             row.a = a;
@@ -728,6 +730,7 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling, std::uint64_t size = 12)
             row.normal = signedUnits(seed, 5006 + 20 * r).normalized();
             row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
             row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
+            row.turning = turning;
             row.squeeze = p % 4 == 0 ? 0.1 * randomUnit(seed, 5014, p) : 0.0;
             prepareRow(scratch.bodies, row);
             if (rolling && p % 3 == 0) {
@@ -842,6 +845,15 @@ void expectRowsAbreastAreRowsOneByOne(bool rolling, std::uint64_t seeds = 20,
     EXPECT_EQ(resisted > 100, rolling) << resisted;
 }
 
+/// Rows that ask for no motion of bodies that stand still.
+void letNothingDrive(GapScratch& scratch)
+{
+    for (GapRow& row : scratch.rows) {
+        row.target = 0.0;
+        row.turning = Vec3::Zero();
+    }
+}
+
 TEST(GapLanes, RowsAbreastAreRowsVisitedOneByOne)
 {
     expectRowsAbreastAreRowsOneByOne(false);
@@ -908,7 +920,7 @@ TEST(GapLanes, TheirWorkIsWhatBodiesLose)
             GapScratch scratch = randomHeap(5, false, size);
             for (int fixed : {0, 1})
                 scratch.bodies[fixed].velocity = scratch.bodies[fixed].spin = Vec3::Zero();
-            for (GapRow& row : scratch.rows) row.target = 0.0;
+            letNothingDrive(scratch);
             for (GapBody& body : scratch.bodies) {
                 body.velocityBefore = body.velocity;
                 if (body.inverseMass > 0.0) body.velocityBefore -= pulled;
@@ -953,7 +965,7 @@ TEST(GapLanes, NothingIsLeftOfTheIslandBefore)
     lanes.sweep();
 
     stop(scratch.bodies);
-    for (GapRow& row : scratch.rows) row.target = 0.0;
+    letNothingDrive(scratch);
     scratch.islands[0].pairs = {0};
     lanes.build(scratch, scratch.islands[0]);
     EXPECT_EQ(lanes.sweep().residual, 0.0);
