@@ -6,6 +6,7 @@
 #include <optional>
 #include <unsupported/Eigen/BVH>
 
+#include "core/dynamics/body_pairs.h"
 #include "core/dynamics/start_overlap.h"
 #include "core/dynamics/step_limit.h"
 
@@ -49,14 +50,17 @@ public:
             if (drop && (!least || *drop < *least)) least = drop;
         };
         for (const BodyId plane : planes_) {
-            if (plane != body) add(dropOnPlane(body, plane));
+            if (plane != body && acceptEachOther(world_, {body, plane}))
+                add(dropOnPlane(body, plane));
         }
         if (isBare_) return least;
         Aabb swept = boxes_[body];
         const Vec3 way = reach_ * down_;
         swept.include(Aabb{boxes_[body].min + way, boxes_[body].max + way});
         const auto ask = [&](BodyId under) {
-            if (under != body && swept.overlaps(boxes_[under])) add(dropOnBox(body, under));
+            if (under != body && swept.overlaps(boxes_[under]) &&
+                acceptEachOther(world_, {body, under}))
+                add(dropOnBox(body, under));
         };
         Below<decltype(ask)> below{TreeBox(swept.min, swept.max), ask};
         Eigen::BVIntersect(tree_, below);

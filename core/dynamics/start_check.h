@@ -10,9 +10,9 @@
 
 namespace scree {
 
-/// Movable bodies that no static or keyed body lies under, seen along gravity: unless others hold
-/// them they fall for ever. Judged by boxes, so a body beside a hole counts as held. Empty without
-/// gravity.
+/// Movable bodies that no static or keyed body they collide with lies under, seen along gravity:
+/// unless others hold them they fall for ever. Judged by boxes, so a body beside a hole counts as
+/// held. Empty without gravity.
 std::vector<BodyId> findUnsupported(const World& world, const Vec3& gravity);
 
 struct FastBody {

@@ -273,6 +273,12 @@ TEST_F(StartCheck, BodiesBesideAllSupportAreNamed)
     EXPECT_TRUE(findUnsupported(world, Vec3::Zero()).empty());
     addGround();
     EXPECT_TRUE(findUnsupported(world, settings.gravity).empty());
+    // What passes through the ground, or the table, is not held by it.
+    world.traits[beside].groups.collidesWith = 0;
+    const BodyId above = beside - 1;
+    EXPECT_EQ(findUnsupported(world, settings.gravity), (std::vector<BodyId>{beside}));
+    world.traits[above].groups.collidesWith = 0;
+    EXPECT_EQ(findUnsupported(world, settings.gravity), (std::vector<BodyId>{above, beside}));
 }
 
 TEST_F(StartCheck, AmongManyBodiesTheSameAreNamedAsOneByOne)
