@@ -13,8 +13,8 @@
 
 #include "core/geometry/tri_mesh.h"
 #include "core/math/rotation.h"
-#include "core/scene/camera_motion.h"
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/camera_motion.h"
+#include "core/picture/shaded_mesh.h"
 #include "io/alembic_archive.h"
 #include "io/byte_order.h"
 #include "io/camera_names.h"
@@ -267,7 +267,7 @@ void AlembicWriter::writeFrame(const SceneFrame& frame)
         TransformTrack& track = bodies_[body];
         if (!scene_->bodies[body].moves && track.samples.count() > 0) continue;
         const Pose& pose = frame.worldFromAsset[body];
-        const bool isHidden = !isThere(scene_->bodies[body], frame.frame);
+        const bool isHidden = !isSeen(scene_->bodies[body], frame.frame);
         addSample(track, isHidden ? hiddenAt(pose) : channelsOf(pose));
     }
     inheritsEverySample_.append(inheritsSample_);
@@ -350,15 +350,15 @@ AlembicObject AlembicWriter::writeBody(std::size_t index)
 SampleTrack AlembicWriter::visibilityOf(const SceneBody& body)
 {
     SampleTrack track;
-    if (isThere(body, firstFrame_)) return track;
+    if (isSeen(body, firstFrame_)) return track;
     // A sample that nothing refers to would be waste.
     const AlembicSample hidden = archive_->writeScalar(std::string_view("\0", 1));
     AlembicSample shown;
     const int end = firstFrame_ + frameCount_;
-    if (isThere(body, end - 1)) shown = archive_->writeScalar(std::string_view("\x01", 1));
+    if (isSeen(body, end - 1)) shown = archive_->writeScalar(std::string_view("\x01", 1));
     for (int frame = firstFrame_; frame < end; ++frame) {
         for (std::size_t k = 0; k < offsets().size(); ++k) {
-            track.append(isThere(body, frame) ? shown : hidden);
+            track.append(isSeen(body, frame) ? shown : hidden);
         }
     }
     return track;

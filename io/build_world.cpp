@@ -12,8 +12,8 @@
 
 #include "core/base/parallel.h"
 #include "core/dynamics/births.h"
+#include "core/dynamics/gaps/sleep.h"
 #include "core/dynamics/integrator.h"
-#include "core/dynamics/sleep.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
 #include "io/mesh_import.h"
@@ -373,6 +373,7 @@ SceneDescription describeScene(const Shot& shot, const World& world, double plan
         described.material = world.materialOf(body).name;
         described.moves = world.info[i].kind != BodyKind::fixed;
         described.mass = world.massWhenFree(body);
+        described.isVisible = shot.bodies[i].isVisible;
         scene.bodies.push_back(described);
     }
     return scene;

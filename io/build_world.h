@@ -2,7 +2,7 @@
 // cameras is not the world's business; tools hand that to render.
 #pragma once
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "core/scene/world.h"
 #include "io/shot.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/math/point_box.h"
 #include "core/math/rotation.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 
 namespace scree {
 

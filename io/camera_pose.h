@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 
 namespace scree {
 

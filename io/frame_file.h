@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/diagnostics/step_observer.h"
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "core/scene/world.h"
 
 namespace scree {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 
 namespace scree {
 

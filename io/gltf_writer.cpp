@@ -16,8 +16,8 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/math/rotation.h"
-#include "core/scene/camera_motion.h"
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/camera_motion.h"
+#include "core/picture/shaded_mesh.h"
 #include "io/atomic_file.h"
 #include "io/byte_order.h"
 #include "io/camera_names.h"
@@ -327,7 +327,8 @@ void GltfWriter::addBodies(Json& rootNodes)
                      {"translation", jsonArray(pose.position.cast<float>().eval())},
                      {"rotation", jsonQuaternion(pose.orientation.normalized())},
                      {"extras", {{"bodyId", b}, {"mass", body.mass}, {"material", body.material}}}};
-        if (const std::optional<std::size_t> mesh = addMesh(body)) node["mesh"] = *mesh;
+        const std::optional<std::size_t> mesh = body.isVisible ? addMesh(body) : std::nullopt;
+        if (mesh) node["mesh"] = *mesh;
         children.push_back(json_["nodes"].size());
         json_["nodes"].push_back(node);
     }
@@ -366,13 +367,14 @@ void GltfWriter::addCameras(Json& rootNodes)
 }
 
 /// glTF 2.0 knows no visibility. A node of scale 0 is not drawn by any reader, so a body has none
-/// until it is born.
+/// until it is born; one that is never to be seen has no mesh.
 void GltfWriter::addBirths(Json& samplers, Json& channels)
 {
     const double end = motion_->times().back();
     for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
-        if (isThere(scene_->bodies[b], firstFrame_)) continue;
-        const int birthFrame = scene_->bodies[b].birthFrame;
+        const SceneBody& body = scene_->bodies[b];
+        if (!body.isVisible || isSeen(body, firstFrame_)) continue;
+        const int birthFrame = body.birthFrame;
         std::vector<float> seconds = {0.0f}, scales = {0.0f, 0.0f, 0.0f};
         if (birthFrame <= end) {
             seconds.push_back(static_cast<float>(secondsOf(birthFrame)));

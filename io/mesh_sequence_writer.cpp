@@ -55,7 +55,7 @@ void writeObjFrame(AtomicFile& file, const SceneDescription& scene, const SceneF
     std::uint64_t firstPoint = 1, nextUv = 1;  // OBJ counts from 1
     std::string text;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        if (!isThere(scene.bodies[b], frame.frame)) continue;
+        if (!isSeen(scene.bodies[b], frame.frame)) continue;
         const SceneMesh& mesh = scene.meshes[scene.bodies[b].mesh];
         text = "o " + scene.bodies[b].name + "\n";
         for (Eigen::Index v = 0; v < mesh.points.cols(); ++v) {
@@ -104,7 +104,7 @@ std::string plyHeader(const SceneDescription& scene, int frame)
     std::uint64_t pointCount = 0, faceCount = 0;
     std::string bodies;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        if (!isThere(scene.bodies[b], frame)) continue;
+        if (!isSeen(scene.bodies[b], frame)) continue;
         const SceneMesh& mesh = scene.meshes[scene.bodies[b].mesh];
         pointCount += static_cast<std::uint64_t>(mesh.points.cols());
         faceCount += static_cast<std::uint64_t>(mesh.triangles.cols());
@@ -134,7 +134,7 @@ void writePlyFrame(AtomicFile& file, const SceneDescription& scene, const SceneF
     // Points of all bodies.
     std::string bytes;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        if (!isThere(scene.bodies[b], frame.frame)) continue;
+        if (!isSeen(scene.bodies[b], frame.frame)) continue;
         const Points& points = scene.meshes[scene.bodies[b].mesh].points;
         const Pose& worldFromAsset = frame.worldFromAsset[b];
         bytes.clear();
@@ -155,7 +155,7 @@ void writePlyFrame(AtomicFile& file, const SceneDescription& scene, const SceneF
     std::int32_t firstPoint = 0;
     const bool withUvs = hasUvs(scene);
     for (const SceneBody& body : scene.bodies) {
-        if (!isThere(body, frame.frame)) continue;
+        if (!isSeen(body, frame.frame)) continue;
         const SceneMesh& mesh = scene.meshes[body.mesh];
         bytes.clear();
         for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "io/spool_file.h"
 
 namespace scree {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 
 namespace scree {
 

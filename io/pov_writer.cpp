@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/math/rotation.h"
-#include "core/scene/camera_motion.h"
-#include "core/scene/preview_light.h"
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/camera_motion.h"
+#include "core/picture/preview_light.h"
+#include "core/picture/shaded_mesh.h"
 #include "io/atomic_file.h"
 #include "io/camera_pose.h"
 #include "io/frame_pattern.h"
@@ -170,7 +170,7 @@ void PovWriter::writeFrame(const SceneFrame& frame)
     file.write(cameraText());
     file.write(lightText());
     for (std::size_t body = 0; body < scene_->bodies.size(); ++body) {
-        if (isDrawn_[scene_->bodies[body].mesh] && isThere(scene_->bodies[body], frame.frame)) {
+        if (isDrawn_[scene_->bodies[body].mesh] && isSeen(scene_->bodies[body], frame.frame)) {
             file.write(bodyText(body, frame.worldFromAsset[body]));
         }
     }

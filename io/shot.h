@@ -15,10 +15,10 @@
 #include "core/dynamics/settings.h"
 #include "core/geometry/shape.h"
 #include "core/math/types.h"
+#include "core/picture/scene_description.h"
 #include "core/scene/body.h"
 #include "core/scene/force_field.h"
 #include "core/scene/motion_script.h"
-#include "core/scene/scene_description.h"
 #include "io/import_limits.h"
 
 namespace scree {
@@ -104,6 +104,7 @@ struct ShotBody {
     Vec3 torque = Vec3::Zero();           ///< [N m]
     CollisionGroups groups;
     bool startsAsleep = false;    ///< rests until something touches it
+    bool isVisible = true;        ///< false: collides, and is left out of pictures
     std::vector<MotionKey> keys;  ///< of a keyed body; times since the first frame [s], poses [m]
     KeyInterpolation interpolation = KeyInterpolation::smooth;
     std::optional<int> keyedFromFrame;  ///< until which a keyed body is dynamic

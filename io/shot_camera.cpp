@@ -1,6 +1,6 @@
 #include "io/shot_camera.h"
 
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/emitter.h"
 #include "io/shot_import.h"
 #include "io/shot_values.h"

@@ -155,6 +155,7 @@ private:
         readSleep(node, body);
         readBodyForces(node, body, problems_);
         body.groups = groups_.read(node);
+        body.isVisible = isVisible(node);
 
         // A copy count that is wrong or too large is reported, and nothing is expanded.
         const std::vector<Pose> copies = readCopies(node);
@@ -200,6 +201,7 @@ private:
             body.keys = std::move(placed.keys);
             body.interpolation = placed.interpolation;
             body.groups = groups;
+            body.isVisible = isVisible(node);
             if (isRight) isRight = readImportedStart(node, body);
             shot_.bodies.push_back(std::move(body));
         }
@@ -377,6 +379,12 @@ private:
                 report(*mass, "a keyed body that is never released has no 'mass'");
             }
         }
+    }
+
+    static bool isVisible(const ShotNode& node)
+    {
+        const ShotNode* visible = node.find("visible");
+        return !visible || visible->boolean;
     }
 
     void readSleep(const ShotNode& node, ShotBody& body)

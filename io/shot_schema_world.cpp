@@ -142,6 +142,11 @@ const std::vector<ShotKey> kBodyKeys = {
          "under them; all that touches them, and "
          "sleeps too, wakes with them. For walls and dominoes that wait for their blow. Method "
          "\"scree\" only."},
+    {.path = "body.visible",
+     .type = boolean,
+     .help = "false for what others collide with and nobody is to see, such as a proxy of a "
+             "character or a wall in front of the camera: it is left out of pictures and of "
+             "sequences of meshes, and hidden in caches. True without this key."},
     {.path = "body.keys",
      .type = tableList,
      .excludes = "plane|position|rotation|orientation|velocity|spin|grid|poses",
@@ -347,6 +352,9 @@ const std::vector<ShotKey> kImportKeys = {
      .type = text,
      .isRequired = true,
      .help = "Name of a [material.NAME]."},
+    {.path = "import.visible",
+     .type = boolean,
+     .help = "As body.visible, of all bodies of the import."},
     {.path = "import.velocity",
      .type = numbers,
      .unit = "shot's unit of length per second",

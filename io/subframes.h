@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "core/scene/world.h"
 #include "io/shot.h"
 

@@ -268,9 +268,11 @@ void TakeWriter::refuseBranchOffItself(const TakeBranch& branch) const
                                       "folder with -o");
 }
 
-void TakeWriter::recordBranch(const TakeBranch& branch, const World& world, TakeInfo& info) const
+void TakeWriter::recordBranch(const TakeBranch& branch, const World& world, TakeInfo& info)
 {
     checkBranch(branch, shot_, world, info);
+    if (const std::string jump = jumpAtBranch(branch, shot_, world); !jump.empty())
+        notices_.push_back(jump);
     std::error_code code;
     const fs::path absolute = fs::absolute(branch.take, code).lexically_normal();
     info.branchTake = (code ? branch.take : absolute).string();
@@ -378,7 +380,7 @@ void TakeWriter::restoreBodies(const TakeInfo& now, TakeInfo& info)
 {
     const auto isSame = [](const TakeBody& a, const TakeBody& b) {
         return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
-               a.material == b.material && a.kind == b.kind;
+               a.material == b.material && a.kind == b.kind && a.isVisible == b.isVisible;
     };
     const auto isSameMesh = [](const TakeShape& a, const TakeShape& b) {
         return a.name == b.name && a.hash == b.hash;

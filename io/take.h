@@ -86,7 +86,7 @@ public:
 
     const TakePaths& paths() const { return paths_; }
 
-    /// What was found damaged or odd while resuming, one sentence each.
+    /// What was found damaged or odd while resuming or branching off, one sentence each.
     const std::vector<std::string>& notices() const { return notices_; }
 
     /// Whether a whole frame file stands there.
@@ -115,7 +115,7 @@ private:
     void refuseToDisturb(ExistingTake existing) const;
     TakeInfo describe(const World& world, const std::string& programVersion) const;
     void refuseBranchOffItself(const TakeBranch& branch) const;
-    void recordBranch(const TakeBranch& branch, const World& world, TakeInfo& info) const;
+    void recordBranch(const TakeBranch& branch, const World& world, TakeInfo& info);
     void start(const World& world, const TakeInfo& info);
     void resume(const World& world, const TakeInfo& now, const std::optional<TakeBranch>& branch);
     TakeInfo readInfo(const World& world, TakeInfo now, const std::optional<TakeBranch>& branch);

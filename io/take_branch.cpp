@@ -9,6 +9,7 @@
 #include "io/file_bytes.h"
 #include "io/frame_stats.h"
 #include "io/take_reader.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {
@@ -66,7 +67,7 @@ std::string settingsOf(const std::string& resolvedShot)
                                    [&](const char* text) { return line.starts_with(text); });
     };
     constexpr std::array kTables{"[[camera]]", "[render]", "[output]"};
-    constexpr std::array kKeys{"frames = ", "color = ", "roughness = "};
+    constexpr std::array kKeys{"frames = ", "color = ", "roughness = ", "visible = "};
     std::string settings;
     bool isFelt = true;
     std::istringstream lines(resolvedShot);
@@ -129,6 +130,37 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
             frame == shot.firstFrame && bytes != encodeFrame(captureState(shot, world));
         if (isOther) refuse(branch, "its bodies begin elsewhere, with other speeds or seed");
     }
+}
+
+std::string jumpAtBranch(const TakeBranch& branch, const Shot& shot, const World& world)
+{
+    constexpr double kSeen = 1e-3;  // of the body
+    const FrameState state = TakeReader(branch.take).readState(branch.frame);
+    World then = world;
+    then.clock = {branch.frame - shot.firstFrame, 0, 0.0};
+    then.frameDuration = 1.0 / shot.framesPerSecond;
+    then.assignKinds();
+    int jumping = 0;
+    double farthest = 0.0;
+    std::string name;
+    for (BodyId body = 0; body < static_cast<BodyId>(then.bodyCount()); ++body) {
+        if (then.info[body].kind != BodyKind::keyed) continue;
+        const Pose keyed = then.scriptedPose(body, then.time());
+        const double size = then.shapeOf(body).boundingRadius;
+        const double way = (keyed.position - state.motion[body].position).norm() +
+                           size * keyed.orientation.angularDistance(state.motion[body].orientation);
+        if (way <= kSeen * size) continue;
+        ++jumping;
+        if (way > farthest) name = then.info[body].name;
+        farthest = std::max(farthest, way);
+    }
+    if (jumping == 0) return "";
+    const std::string others =
+        jumping > 1 ? " (and so do " + std::to_string(jumping - 1) + " more)" : std::string();
+    return "'" + name + "'" + others + " stands at frame " + std::to_string(branch.frame) +
+           formatted(" %.2g m", farthest) +
+           " from where its keys have it: it gets there in one step, through whatever is in its "
+           "way";
 }
 
 std::string readBranchFrame(const TakeReader& from, const TakeBranch& branch, int frame,

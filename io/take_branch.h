@@ -30,6 +30,11 @@ TakeBranch parseBranch(const std::string& text);
 void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
                  const TakeInfo& info);
 
+/// What to tell of bodies whose keys say that they stand elsewhere when the branch begins than the
+/// frame has them: the first step takes them there through whatever is in the way. Empty when all
+/// stand right.
+std::string jumpAtBranch(const TakeBranch& branch, const Shot& shot, const World& world);
+
 /// The bytes of a frame of the branch's take as a frame of the shot. In the last one, where bodies
 /// are to feel other settings from there on, those that had fallen asleep are awake.
 std::string readBranchFrame(const TakeReader& from, const TakeBranch& branch, int frame,

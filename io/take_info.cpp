@@ -9,7 +9,7 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/file_bytes.h"
 #include "io/shot_schema.h"
 #include "io/subframes.h"
@@ -86,6 +86,7 @@ Json toJson(const TakeBody& body)
     json["material"] = body.material;
     json["motion"] = motionWord(body.kind);
     json["mass"] = body.mass;
+    if (!body.isVisible) json["visible"] = false;
     return json;
 }
 
@@ -108,6 +109,7 @@ TakeBody bodyFromJson(const Json& json)
     body.kind = kindFrom(json.at("motion"));
     body.mass = json.at("mass");
     require(body.mass >= 0.0, "mass", json.at("mass"), "no less than nothing");
+    body.isVisible = json.value("visible", true);
     return body;
 }
 
@@ -324,7 +326,7 @@ TakeInfo makeTakeInfo(const Shot& shot, const World& world, const SceneDescripti
         const SceneBody& described = scene.bodies[body];
         info.bodies.push_back({described.name, scene.meshes[described.mesh].name,
                                world.shapeOf(body).isPlane, described.material,
-                               world.info[body].kind, described.mass});
+                               world.info[body].kind, described.mass, described.isVisible});
     }
     describePictures(shot, info);
     info.offsets = sampleOffsets(shot.output.subframes);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "core/scene/world.h"
 #include "io/shot.h"
 
@@ -34,7 +34,8 @@ struct TakeBody {
     bool isPlane = false;  ///< infinite, through its asset's origin with normal +y; no mesh is kept
     std::string material;
     BodyKind kind = BodyKind::dynamic;
-    double mass = 0.0;  ///< [kg], 0 for bodies that cannot be moved
+    double mass = 0.0;      ///< [kg], 0 for bodies that cannot be moved
+    bool isVisible = true;  ///< false: left out of pictures, hidden in what is exported
 };
 
 struct TakeInfo {

@@ -70,7 +70,7 @@ SceneDescription TakeReader::describe(PlaneSize planes) const
             throw Error(ErrorKind::inputOutput, {paths_.info().string(), 0, 0},
                         "damaged: no shape \"" + body.shape + "\" for body \"" + body.name + "\"");
         scene.bodies.push_back({body.name, mesh->second, body.material, body.mass,
-                                body.kind != BodyKind::fixed, info_.firstFrame});
+                                body.kind != BodyKind::fixed, info_.firstFrame, body.isVisible});
     }
     tellBirths(scene);
     const bool isSized = planes == PlaneSize::ofAction && !planeMeshes.empty();

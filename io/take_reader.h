@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "io/frame_stats.h"
 #include "io/take.h"
 #include "io/take_info.h"

@@ -147,26 +147,26 @@ void appendHalfQuaternion(std::string& text, const MotionSample& sample)
     text += ')';
 }
 
-/// Who is not born yet, at every time at which that changes. Who is there at the first frame is
+/// Who is not to be seen, at every time at which that changes. Who is there at the first frame is
 /// there in its samples before it too.
 void writeInvisibleIds(UsdText& text, const SceneDescription& scene, int firstFrame,
                        const MotionSpool& motion)
 {
-    const auto unbornAt = [&](double time) {
+    const auto unseenAt = [&](double time) {
         std::vector<std::size_t> ids;
         for (const std::size_t body : motion.bodies()) {
-            if (std::max<double>(time, firstFrame) < scene.bodies[body].birthFrame)
+            if (std::max<double>(time, firstFrame) < seenFrom(scene.bodies[body]))
                 ids.push_back(body);
         }
         return ids;
     };
-    std::vector<std::size_t> last = unbornAt(motion.times().front());
+    std::vector<std::size_t> last = unseenAt(motion.times().front());
     const auto idsText = [&] { return usdArray(last, appendNumber<std::size_t>); };
     if (last.empty()) return text.line("int64[] invisibleIds = []");
     text.openTimes("int64[] invisibleIds");
     text.time(motion.times().front(), idsText());
     for (const double time : motion.times()) {
-        std::vector<std::size_t> now = unbornAt(time);
+        std::vector<std::size_t> now = unseenAt(time);
         if (now == last) continue;
         last = std::move(now);
         text.time(time, idsText());

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/math/rotation.h"
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/shaded_mesh.h"
 #include "io/camera_names.h"
 #include "io/camera_pose.h"
 #include "io/motion_spool.h"

@@ -115,6 +115,7 @@ void UsdWriter::openBody(UsdText& text, std::size_t body) const
     writeUsdBodyProperties(text, *names_, *scene_, scenes);
     text.line("custom int userProperties:bodyId = " + numberText(body));
     writeUsdOldName(text, scenes.name, names_->bodies[body]);
+    if (!scenes.isVisible) text.line("token visibility = \"invisible\"");
 }
 
 /// The body's order of transforms, and when it becomes visible if that is not from the first frame
@@ -122,8 +123,8 @@ void UsdWriter::openBody(UsdText& text, std::size_t body) const
 /// no size either until then.
 void UsdWriter::writeOpsAndBirth(UsdText& text, const SceneBody& body) const
 {
-    if (isThere(body, firstFrame_)) return text.line(kPlaceOps);
-    const bool comes = isThere(body, firstFrame_ + frameCount_ - 1);
+    if (!body.isVisible || isSeen(body, firstFrame_)) return text.line(kPlaceOps);
+    const bool comes = isSeen(body, firstFrame_ + frameCount_ - 1);
     text.openTimes("double3 xformOp:scale");
     text.time(firstFrame_, "(0, 0, 0)");
     if (comes) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 
 namespace scree {
 namespace {

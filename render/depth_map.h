@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/shaded_mesh.h"
 #include "render/view_fit.h"
 
 namespace scree {

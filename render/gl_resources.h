@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/shaded_mesh.h"
 #include "render/depth_map.h"
 #include "render/look.h"
 #include "render/view_fit.h"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/shaded_mesh.h"
 #include "render/depth_map.h"
 #include "render/view_fit.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/look.h"

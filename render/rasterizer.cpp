@@ -23,7 +23,7 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/shaded_mesh.h"
 #include "render/depth_map.h"
 #include "render/edge_smoothing.h"
 #include "render/gl_resources.h"
@@ -139,14 +139,14 @@ private:
     }
 
     RasterSettings settings_;
-    /// A body that is born, with a pose made of numbers.
+    /// A body that is there to be seen, with a pose made of numbers.
     bool isShown(std::size_t body, const SceneFrame& frame) const
     {
-        return frame.frame >= birthFrames_[body] && isFinite(frame.worldFromAsset[body]);
+        return frame.frame >= seenFrom_[body] && isFinite(frame.worldFromAsset[body]);
     }
 
     std::vector<Look> looks_;
-    std::vector<int> birthFrames_;  // parallel to looks_
+    std::vector<int> seenFrom_;  // parallel to looks_
     Vec3 up_, towardSun_;
     double typicalRadius_ = 1.0;
     int pointsPerEdge_ = 1;
@@ -221,9 +221,9 @@ void Rasterizer::Context::uploadScene(const SceneDescription& scene)
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const SceneBody& body = scene.bodies[i];
-        birthFrames_.push_back(body.birthFrame);
+        seenFrom_.push_back(seenFrom(body));
         if (isPlaneMesh[body.mesh]) {
-            planes_.push_back({i, planeOf(scene.meshes[body.mesh])});
+            if (body.isVisible) planes_.push_back({i, planeOf(scene.meshes[body.mesh])});
             continue;
         }
         meshes_[body.mesh].bodies.push_back(i);

@@ -20,7 +20,7 @@
 #include "core/base/parallel.h"
 #include "core/base/random.h"
 #include "core/math/rotation.h"
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/shaded_mesh.h"
 
 namespace scree {
 namespace {
@@ -137,8 +137,8 @@ private:
     std::vector<char> isPlaneMesh_;          // parallel to meshes_
     std::vector<PlaneSurface> planeMeshes_;  // likewise
     std::vector<std::size_t> bodyMesh_;
-    std::vector<int> birthFrames_;  // parallel to bodyMesh_
-    std::vector<Mat3> turns_;       // of the bodies in the present picture
+    std::vector<int> seenFrom_;  // parallel to bodyMesh_
+    std::vector<Mat3> turns_;    // of the bodies in the present picture
     std::vector<RTCScene> meshScenes_;
     RTCScene scene_ = nullptr;
     std::vector<RTCGeometry> instances_;  // parallel to the bodies; null for planes
@@ -179,7 +179,7 @@ RayTracer::Tracer::Tracer(const SceneDescription& scene, const std::vector<Look>
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
         const std::size_t mesh = scene.bodies[body].mesh;
         bodyMesh_.push_back(mesh);
-        birthFrames_.push_back(scene.bodies[body].birthFrame);
+        seenFrom_.push_back(seenFrom(scene.bodies[body]));
         instances_.push_back(nullptr);
         if (meshes_[mesh].indices.empty()) continue;
         instances_[body] = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -203,7 +203,7 @@ void RayTracer::Tracer::place(const SceneFrame& frame, const Vec3& origin)
     for (std::size_t body = 0; body < bodyMesh_.size(); ++body) {
         if (!instances_[body]) continue;
         const Pose& pose = frame.worldFromAsset[body];
-        if (frame.frame < birthFrames_[body] || !isFinite(pose)) {
+        if (frame.frame < seenFrom_[body] || !isFinite(pose)) {
             rtcDisableGeometry(instances_[body]);
             rtcCommitGeometry(instances_[body]);
             continue;
@@ -239,7 +239,8 @@ RayTracer::Tracer::View RayTracer::Tracer::measure(const SceneFrame& frame, cons
     view.forward = -viewAxes.row(2).head<3>().transpose();
     for (std::size_t body = 0; body < bodyMesh_.size(); ++body) {
         const Pose& pose = frame.worldFromAsset[body];
-        if (!isPlaneMesh_[bodyMesh_[body]] || !isFinite(pose)) continue;
+        const bool isShown = frame.frame >= seenFrom_[body] && isFinite(pose);
+        if (!isPlaneMesh_[bodyMesh_[body]] || !isShown) continue;
         const PlaneSurface& plane = planeMeshes_[bodyMesh_[body]];
         const Vec3 normal = pose.orientation * plane.normal;
         view.planes.push_back(

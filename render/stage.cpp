@@ -68,7 +68,7 @@ double typicalRadius(const SceneDescription& scene, const std::vector<double>& m
     std::vector<double> all, moving;
     for (const SceneBody& body : scene.bodies) {
         const double radius = meshRadii[body.mesh];
-        if (!(radius > 0.0)) continue;
+        if (!(radius > 0.0) || !body.isVisible) continue;
         all.push_back(radius);
         if (body.moves) moving.push_back(radius);
     }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/preview_light.h"
-#include "core/scene/scene_description.h"
+#include "core/picture/preview_light.h"
+#include "core/picture/scene_description.h"
 #include "render/view_fit.h"
 
 namespace scree {

@@ -178,7 +178,9 @@ def build_take(folder, info):
         bpy.context.collection.objects.link(body)
         if entry["motion"] != "static":
             key_motion(body, times, positions[:, number], orientations[:, number])
-        if number in births:
+        if not entry.get("visible", True):
+            body.hide_render = body.hide_viewport = True
+        elif number in births:
             hide_until(body, births[number], info["frames"][0])
 
 

@@ -43,7 +43,7 @@ def read_motion(take):
 
 
 def _slope_at(frames, values, key):
-    """As in core/scene/camera_motion.cpp: at rest at both ends and at a turn, else the weighted
+    """As in core/picture/camera_motion.cpp: at rest at both ends and at a turn, else the weighted
     harmonic mean of the slopes on both sides."""
     slope = np.zeros(values.shape[1])
     if key in (0, len(frames) - 1):

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "core/base/error.h"
-#include "core/dynamics/start_separation.h"
+#include "core/dynamics/gaps/start_separation.h"
 #include "io/text_forms.h"
 #include "tools/stop_signals.h"
 

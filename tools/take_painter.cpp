@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/math/point_box.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/nearest_word.h"
 #include "io/subframes.h"
 #include "render/rasterizer.h"
@@ -52,7 +52,7 @@ Camera frameAction(const TakeReader& take, const SceneDescription& scene, double
     take.forWholeFrames(take.frames(), [&](int number, const SceneFrame& frame) {
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
             if (take.info().bodies[body].isPlane) continue;
-            if (!isThere(scene.bodies[body], number)) continue;
+            if (!isSeen(scene.bodies[body], number)) continue;
             const Pose& pose = frame.worldFromAsset[body];
             seen[body].include(transformed(meshBoxes[scene.bodies[body].mesh],
                                            pose.orientation.toRotationMatrix(), pose.position));
@@ -165,7 +165,7 @@ std::unique_ptr<PictureEngine> TakePainter::makeEngine() const
 std::size_t TakePainter::bodyCountAt(int frame) const
 {
     return static_cast<std::size_t>(std::ranges::count_if(
-        scene_.bodies, [&](const SceneBody& body) { return isThere(body, frame); }));
+        scene_.bodies, [&](const SceneBody& body) { return isSeen(body, frame); }));
 }
 
 int TakePainter::usefulThreads() const

@@ -2,6 +2,7 @@
 // observer sees and changes nothing; the bits are the same with and without.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct StepSeen {
     std::vector<ContactSeen> contacts;  ///< sorted by bodies; the same for any number of threads
     std::vector<std::int32_t> level;    ///< per body, of the contact graph; 0: rests on nothing
     std::vector<double> overlap;        ///< per body: how deep it is in its deepest overlap [m]
+
+    /// Both bodies of a pair are as deep as the pair is.
+    void deepen(BodyId a, BodyId b, double depth)
+    {
+        for (const BodyId body : {a, b}) overlap[body] = std::max(overlap[body], depth);
+    }
 };
 
 class StepObserver {

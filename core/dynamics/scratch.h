@@ -1,6 +1,5 @@
-// What the passes of one step of method `paper` share and reuse from step to step, and what the
-// length of a step of either is chosen by. Everything here is derived:
-// dropping it between two steps changes nothing but time.
+// What the passes of one step of method `paper` share and reuse from step to step. Everything here
+// is derived: dropping it between two steps changes nothing but time.
 #pragma once
 
 #include <cstdint>

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "core/diagnostics/state_hash.h"
-#include "core/dynamics/gap_levels.h"
-#include "core/dynamics/gap_scratch.h"
 #include "core/dynamics/integrator.h"
 
 namespace scree {
@@ -77,23 +75,6 @@ void describeOverlap(const WorstOverlap& worst, StepReport& report)
     report.worstOverlapRatio = worst.ratio;
     report.worstA = worst.a;
     report.worstB = worst.b;
-}
-
-void describeGaps(const GapScratch& scratch, StepReport& report)
-{
-    report.broadPairs = static_cast<std::int64_t>(scratch.nearPairs.size());
-    report.touchingPairs = static_cast<std::int64_t>(scratch.pairs.size());
-    report.contacts = static_cast<std::int64_t>(scratch.rowCount);
-    for (const GapPair& pair : scratch.pairs) {
-        report.contactPairs += pair.bearing > 0;
-        report.levels = std::max(report.levels, levelOf(scratch.levels, pair.bodies) + 1);
-    }
-    std::vector<int> bodies(static_cast<std::size_t>(report.levels), 0);
-    for (std::size_t b = 0; b < scratch.bodies.size(); ++b) {
-        const int level = scratch.levels.level[b];
-        if (level > 0 && scratch.bodies[b].isMovable())
-            report.largestLevel = std::max(report.largestLevel, ++bodies[level]);
-    }
 }
 
 void addStep(const StepReport& step, FrameReport& frame)

@@ -7,8 +7,6 @@
 
 namespace scree {
 
-struct GapScratch;
-
 /// Of the movable bodies [J].
 double kineticEnergy(const World& world);
 
@@ -30,9 +28,6 @@ void findNonFinite(const World& world, Phase phase, StepReport& report);
 
 /// Pairs and levels of a step of method `paper`.
 void describeGraph(const ContactGraph& graph, const StepScratch& scratch, StepReport& report);
-
-/// Pairs, contacts and levels of a step of method `scree`.
-void describeGaps(const GapScratch& scratch, StepReport& report);
 
 /// The deepest overlap that the step leaves.
 void describeOverlap(const WorstOverlap& worst, StepReport& report);

@@ -166,7 +166,7 @@ bool cannotTighten(const Outlook& a, const Outlook& b, const PairLimits& limits,
            longer * longer * std::max(a.pull, b.pull) <= limits.fallen;
 }
 
-void limitByPair(const World& world, const StepSettings& settings, const StepScratch& scratch,
+void limitByPair(const World& world, const StepSettings& settings, const Prospect& prospect,
                  const std::vector<Outlook>& outlooks, BodyPair pair, double remaining,
                  Limit purpose, StepLength& limit)
 {
@@ -189,7 +189,7 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
     const double g = std::max(ofA.pull, ofB.pull);
     const double way = (s + g * remaining) * remaining;
     if (!isPaper && (isHighAbove(world, a, b, way) || isHighAbove(world, b, a, way))) return;
-    const Vec3 pull = scratch.forces[a].acceleration - scratch.forces[b].acceleration;
+    const Vec3 pull = prospect.forces[a].acceleration - prospect.forces[b].acceleration;
     tighten(limit, timeToPass(limits.passed, s, pull.norm()), StepLimit::relativeSpeed, faster);
     const double spin = std::max(ofA.spin, ofB.spin);
     if (!isPaper && spin > 0.0)
@@ -199,19 +199,19 @@ void limitByPair(const World& world, const StepSettings& settings, const StepScr
 }
 
 /// No longer than `longest` [s].
-StepLength limitByAll(const World& world, const StepSettings& settings, const StepScratch& scratch,
+StepLength limitByAll(const World& world, const StepSettings& settings, const Prospect& prospect,
                       const std::vector<Outlook>& outlooks, double remaining, double longest,
                       Limit purpose)
 {
     StepLength limit{longest, StepLimit::frame, -1, false};
     // The first of equal limits counts, in the order of the pairs, however many threads there are.
     constexpr std::size_t kPairsTogether = 1024;
-    const std::vector<BodyPair>& pairs = scratch.candidates.pairs;
+    const std::vector<BodyPair>& pairs = prospect.pairs;
     std::vector<StepLength> limits((pairs.size() + kPairsTogether - 1) / kPairsTogether, limit);
     parallelFor(limits.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin * kPairsTogether;
              i < std::min(end * kPairsTogether, pairs.size()); ++i) {
-            limitByPair(world, settings, scratch, outlooks, pairs[i], remaining, purpose,
+            limitByPair(world, settings, prospect, outlooks, pairs[i], remaining, purpose,
                         limits[i / kPairsTogether]);
         }
     });
@@ -233,11 +233,11 @@ StepLength limitByAll(const World& world, const StepSettings& settings, const St
 /// number; within a frame steps only get shorter. With multiples of four a thousand rings took six
 /// steps a frame instead of five and a half.
 double steadyStep(const World& world, const StepSettings& settings, double frameDuration,
-                  double longest, const StepScratch& scratch)
+                  double longest, const Prospect& prospect)
 {
     constexpr int kLeastSteps = 4, kStepsTogether = 2;
     const bool mayTouch = std::any_of(
-        scratch.candidates.pairs.begin(), scratch.candidates.pairs.end(),
+        prospect.pairs.begin(), prospect.pairs.end(),
         [&](const BodyPair& pair) { return world.isStepped(pair.a) || world.isStepped(pair.b); });
     int steps = static_cast<int>(std::ceil(frameDuration / longest - 1e-9));
     if (mayTouch) {
@@ -281,20 +281,20 @@ double shownSpin(const World& world, const StepSettings& settings, BodyId body)
 }
 
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
-                      double remaining, const StepScratch& scratch)
+                      double remaining, const Prospect& prospect)
 {
     thread_local std::vector<Outlook> kept;
     std::vector<Outlook>& outlooks = kept;  // of this thread, filled by all
     outlooks.resize(world.bodyCount());
     forEach(world.bodyCount(), kShortWork, [&](std::size_t b) {
         outlooks[b] =
-            outlookOf(world, settings, scratch.forces[b], static_cast<BodyId>(b), remaining);
+            outlookOf(world, settings, prospect.forces[b], static_cast<BodyId>(b), remaining);
     });
     // What is left of the frame is no wish of the motion: steps that had to fit into it would
     // halve, and halve again.
     const double longest = frameDuration / std::max(settings.substeps.min, 1);
     const auto limitFor = [&](Limit purpose) {
-        return limitByAll(world, settings, scratch, outlooks, remaining, longest, purpose);
+        return limitByAll(world, settings, prospect, outlooks, remaining, longest, purpose);
     };
     StepLength limit = limitFor(Limit::forSight);
     const double seen = settings.substeps.safety * frameDuration / kStepsSeen;
@@ -313,7 +313,7 @@ StepLength chooseStep(const World& world, const StepSettings& settings, double f
         limit.capReached = true;
     }
     if (settings.method == Method::scree) {
-        limit.dt = steadyStep(world, settings, frameDuration, limit.dt, scratch);
+        limit.dt = steadyStep(world, settings, frameDuration, limit.dt, prospect);
     }
     // Equal steps to the end of the frame; a hair of tolerance keeps rounding from adding one.
     const double steps = std::max(1.0, std::ceil(remaining / limit.dt - 1e-9));

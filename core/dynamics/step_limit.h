@@ -3,8 +3,12 @@
 // touch, and what they are only as long as nobody has gone a good part of his size.  [A16]
 #pragma once
 
+#include <vector>
+
 #include "core/diagnostics/step_report.h"
-#include "core/dynamics/scratch.h"
+#include "core/dynamics/forces.h"
+#include "core/dynamics/settings.h"
+#include "core/scene/world.h"
 
 namespace scree {
 
@@ -26,9 +30,14 @@ double passedPerStep(Method method, const Shape& shape);
 /// it in itself, as far as steps of method `scree` are concerned.
 double shownSpin(const World& world, const StepSettings& settings, BodyId body);
 
-/// The next of the equal steps that fill what remains of the frame. scratch.candidates must hold
-/// the pairs whose boxes, swept over the rest of the frame, meet.
+/// Who may meet in the rest of a frame, and what pulls them there.
+struct Prospect {
+    const std::vector<BodyPair>& pairs;       ///< whose boxes, swept over that time, meet
+    const std::vector<AppliedForce>& forces;  ///< per body
+};
+
+/// The next of the equal steps that fill what remains of the frame.
 StepLength chooseStep(const World& world, const StepSettings& settings, double frameDuration,
-                      double remaining, const StepScratch& scratch);
+                      double remaining, const Prospect& prospect);
 
 }  // namespace scree

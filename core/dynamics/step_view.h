@@ -1,9 +1,8 @@
-// What an observer is shown of a step, gathered from the scratch of either method.
+// What an observer is shown of a step of method `paper`, gathered from its scratch.
 #pragma once
 
 #include "core/diagnostics/step_observer.h"
 #include "core/dynamics/contact_graph.h"
-#include "core/dynamics/gap_scratch.h"
 #include "core/dynamics/scratch.h"
 
 namespace scree {
@@ -12,10 +11,7 @@ namespace scree {
 /// many times. Only its pair's worker calls it, so the order is that of the pair's own visits.
 void showImpulse(PairRecord& pair, std::int32_t sample, bool sampleOnA, const ContactSeen& seen);
 
-/// Method `paper`, after push-out.
+/// After push-out.
 StepSeen seePairs(const StepScratch& scratch, const GraphLevels& levels, double dt);
-
-/// Method `scree`, before bodies have moved: rows measure their points from where these are.
-StepSeen seeGaps(const World& world, const GapScratch& scratch, double dt);
 
 }  // namespace scree

@@ -1,4 +1,5 @@
-// One time step and one frame: the table of contents of this folder.
+// One time step and one frame: the table of contents of this folder. Method `scree` has its own
+// step, in gaps/gap_step.h.
 #pragma once
 
 #include <functional>
@@ -12,10 +13,9 @@
 namespace scree {
 
 struct ContactGraph;
-struct GapBlock;
+struct StepLength;
 struct StepScratch;
-struct GapScratch;
-class SolvedIslands;
+class GapStepper;
 
 /// Serves one world: what it remembers of pairs from step to step is found again by their bodies.
 class Stepper {
@@ -41,18 +41,15 @@ public:
     void observe(StepObserver* observer) { observer_ = observer; }
 
 private:
-    /// The step proper, with the pairs that may meet already in scratch.
+    StepLength chooseLength(World& world, double frameDuration, double remaining);
+    StepReport takeStep(World& world, double dt);
     StepReport stepFoundPairs(World& world, double dt);
     void separateFoundPairs(World& world, const ContactGraph& graph, StepReport& report);
-    StepReport stepGaps(World& world, double dt);
-    bool mayStopAt(const Clock& clock) const;
-    PhaseSeconds solveBlock(const World& world, double dt, GapBlock& block);
-    void solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report);
 
     StepSettings settings_;
     StepObserver* observer_ = nullptr;
-    std::unique_ptr<StepScratch> scratch_;
-    std::unique_ptr<GapScratch> gaps_;
+    std::unique_ptr<StepScratch> scratch_;  // of method `paper`
+    std::unique_ptr<GapStepper> gaps_;      // method `scree`; null: method `paper` is asked for
 };
 
 }  // namespace scree

@@ -1,5 +1,5 @@
 // What rocks comes to rest by and by; what goes somewhere does not.
-#include "core/dynamics/calming.h"
+#include "core/dynamics/gaps/calming.h"
 
 #include <gtest/gtest.h>
 

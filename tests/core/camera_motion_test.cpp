@@ -1,5 +1,5 @@
 // Keyed cameras and orbits.
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 
 #include <gtest/gtest.h>
 

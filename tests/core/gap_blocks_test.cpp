@@ -1,6 +1,6 @@
 // Islands that are solved block by block: nobody is left out or solved twice, and bits do not
 // depend on who else is there.
-#include "core/dynamics/gap_blocks.h"
+#include "core/dynamics/gaps/gap_blocks.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <set>
 #include <vector>
 
-#include "core/dynamics/gap_kept.h"
-#include "core/dynamics/gap_pairs.h"
-#include "core/dynamics/gap_search.h"
+#include "core/dynamics/gaps/gap_kept.h"
+#include "core/dynamics/gaps/gap_pairs.h"
+#include "core/dynamics/gaps/gap_search.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/dynamics/births.h"
-#include "core/dynamics/sleep.h"
+#include "core/dynamics/gaps/sleep.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
 

@@ -6,17 +6,17 @@
 #include <tuple>
 #include <vector>
 
-#include "core/dynamics/gap_blocks.h"
-#include "core/dynamics/gap_bounce.h"
-#include "core/dynamics/gap_contact.h"
-#include "core/dynamics/gap_forces.h"
-#include "core/dynamics/gap_foresight.h"
-#include "core/dynamics/gap_kept.h"
-#include "core/dynamics/gap_levels.h"
-#include "core/dynamics/gap_pairs.h"
-#include "core/dynamics/gap_search.h"
-#include "core/dynamics/gap_shock.h"
-#include "core/dynamics/gap_unseen.h"
+#include "core/dynamics/gaps/gap_blocks.h"
+#include "core/dynamics/gaps/gap_bounce.h"
+#include "core/dynamics/gaps/gap_contact.h"
+#include "core/dynamics/gaps/gap_forces.h"
+#include "core/dynamics/gaps/gap_foresight.h"
+#include "core/dynamics/gaps/gap_kept.h"
+#include "core/dynamics/gaps/gap_levels.h"
+#include "core/dynamics/gaps/gap_pairs.h"
+#include "core/dynamics/gaps/gap_search.h"
+#include "core/dynamics/gaps/gap_shock.h"
+#include "core/dynamics/gaps/gap_unseen.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
 

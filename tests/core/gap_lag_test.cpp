@@ -8,7 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/collision/near_features.h"
 #include "core/diagnostics/state_hash.h"
-#include "core/dynamics/gap_lag.h"
+#include "core/dynamics/gaps/gap_lag.h"
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/gap_pace.h"
+#include "core/dynamics/gaps/gap_pace.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/draw.h"
 #include "tests/support/scenes.h"

@@ -1,14 +1,14 @@
 // Which row begins with which impulse of the step before.
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gaps/gap_rows.h"
 
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <vector>
 
-#include "core/dynamics/gap_kept.h"
-#include "core/dynamics/gap_layout.h"
-#include "core/dynamics/gap_scratch.h"
+#include "core/dynamics/gaps/gap_kept.h"
+#include "core/dynamics/gaps/gap_layout.h"
+#include "core/dynamics/gaps/gap_scratch.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
 

@@ -1,11 +1,11 @@
 // Places that are hit at once, beside the plain twin: rows visited one by one, through their
 // bodies.
-#include "core/dynamics/gap_together.h"
+#include "core/dynamics/gaps/gap_together.h"
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "core/dynamics/gap_visit.h"
+#include "core/dynamics/gaps/gap_visit.h"
 #include "core/math/rotation.h"
 #include "tests/support/draw.h"
 #include "tests/support/gap_energy.h"

@@ -1,5 +1,5 @@
 // A blow that sends a body where nobody has looked.
-#include "core/dynamics/gap_unseen.h"
+#include "core/dynamics/gaps/gap_unseen.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/scene/shaded_mesh.h"
+#include "core/picture/shaded_mesh.h"
 
 #include <gtest/gtest.h>
 

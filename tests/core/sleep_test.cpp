@@ -1,5 +1,5 @@
 // When a body that lies still is taken out of the simulation.
-#include "core/dynamics/sleep.h"
+#include "core/dynamics/gaps/sleep.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What is said of a world before its first step.
 #include "core/dynamics/start_check.h"
+#include "core/dynamics/gaps/start_separation.h"
 #include "core/dynamics/start_overlap.h"
-#include "core/dynamics/start_separation.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/dynamics/sleep.h"
+#include "core/dynamics/gaps/sleep.h"
 #include "core/geometry/primitives.h"
 #include "core/geometry/shape.h"
 #include "core/math/rotation.h"

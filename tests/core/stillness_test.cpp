@@ -1,5 +1,5 @@
 // Which heaps are about to come to rest, and get more sweeps for it.
-#include "core/dynamics/stillness.h"
+#include "core/dynamics/gaps/stillness.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What wakes sleepers, and what does not.
-#include "core/dynamics/waking.h"
+#include "core/dynamics/gaps/waking.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/camera_pose.h"
 #include "tests/support/abc_check.h"
 #include "tests/support/export_scene.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/math/rotation.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/alembic_writer.h"
 #include "io/camera_pose.h"
 #include "io/gltf_writer.h"

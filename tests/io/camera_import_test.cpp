@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/math/rotation.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/camera_pose.h"
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"

@@ -6,7 +6,7 @@
 
 #include "core/math/point_box.h"
 #include "core/math/rotation.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/camera_pose.h"
 #include "io/frame_writer.h"
 #include "io/shot_parser.h"

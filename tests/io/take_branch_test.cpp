@@ -28,7 +28,11 @@ namespace fs = std::filesystem;
 const std::string kShotText =
     test::shotTextOf({.name = "slide", .frames = "1001-1009", .box = "[0.4, 0.2, 0.4]"},
                      test::bodyText("block", "position = [0, 0.13, 0]\nvelocity = [2, 0, 0]") +
-                         test::bodyText("away", "position = [0, 50, 0]"));
+                         test::bodyText("away", "position = [0, 50, 0]") +
+                         test::bodyText("pusher",
+                                        "motion = \"keyed\"\ninterpolate = \"linear\"\n"
+                                        "keys = [{ frame = 1003, position = [9, 1, 0] }, "
+                                        "{ frame = 1009, position = [9, 4, 0] }]"));
 
 class BranchTest : public testing::Test {
 protected:
@@ -41,6 +45,7 @@ protected:
         const Shot shot = parseShot((folder / "slide.toml").string(), overrides);
         World world = buildWorld(shot);
         TakeWriter take(folder / name, shot, world, "1.2.3", existing, branch);
+        notices = take.notices();
         Stepper stepper(shot.settings);
         for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
             if (take.hasFrame(frame)) continue;
@@ -92,6 +97,7 @@ protected:
     }
 
     test::TemporaryFolder folder;
+    std::vector<std::string> notices;  // of the last take
 };
 
 TEST_F(BranchTest, ABranchWithTheSameSettingsGivesTheSameBits)
@@ -132,6 +138,27 @@ TEST_F(BranchTest, OfTheLastFrameIsTheWholeTakeWithOtherLooks)
     EXPECT_EQ(painted.stats().size(), 9u);
 }
 
+// A pusher whose keys had changed went through the heap in front of it, and nothing had been said.
+TEST_F(BranchTest, KeysThatChangeBeforeItAreToldToJump)
+{
+    simulate("whole", {});
+    const TakeBranch branch{folder / "whole", 1005};
+    const std::string begin = "body.pusher.keys=[{frame=1003, position=[9, 1, 0]}, ";
+    const auto told = [&](const std::string& name, const std::string& change) {
+        simulate(name, {change}, branch);
+        return notices;
+    };
+    simulate("same", {}, branch);
+    EXPECT_EQ(notices, std::vector<std::string>());
+    EXPECT_EQ(told("later", begin + "{frame=1005, position=[9, 2, 0]}, "
+                                    "{frame=1009, position=[9, 9, 0]}]"),
+              std::vector<std::string>());
+    EXPECT_EQ(told("sooner", begin + "{frame=1005, position=[9, 2.5, 0]}]"),
+              std::vector<std::string>{
+                  "'pusher' stands at frame 1005 0.5 m from where its keys have it: it gets there "
+                  "in one step, through whatever is in its way"});
+}
+
 TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
 {
     const auto with = [](const std::string& change, const std::string& frames = "1001-1080") {
@@ -150,8 +177,10 @@ TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
     };
     ASSERT_TRUE(sleepsIn(whole, 1075));
     const TakeReader red = simulate("red", with("material.wood.color=[1, 0, 0]"), branch);
+    const TakeReader hidden = simulate("hidden", with("body.block.visible=false"), branch);
     const TakeReader brief = simulate("brief", with(nothing, "1001-1077"), branch);
     EXPECT_FALSE(compareTakes(whole, red).difference);
+    EXPECT_FALSE(compareTakes(whole, hidden).difference);
     EXPECT_TRUE(sleepsIn(brief, 1077));
 
     const TakeReader slippery = simulate("slippery", with("material.wood.friction=0.1"), branch);

@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/diagnostics/state_hash.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/build_world.h"
 #include "io/file_bytes.h"
 #include "io/shot_parser.h"

@@ -139,7 +139,7 @@ TEST(Framing, OneOfManyThatGoesFarAwayIsLeftOut)
 {
     const double row = distanceTo(100, {99, 0, 0});
     EXPECT_LT(distanceTo(100, {0, 0, -1000}), 1.01 * row);
-    EXPECT_GT(distanceTo(100, {180, 0, 0}), 1.7 * row);  // not so far
+    EXPECT_GT(distanceTo(100, {180, 0, 0}), 1.7 * row);                          // not so far
     EXPECT_GT(distanceTo(10, {0, 0, -1000}), 10.0 * distanceTo(10, {9, 0, 0}));  // of few
 }
 

@@ -121,6 +121,25 @@ TEST(Engines, NeitherShowsABodyBeforeItsBirthNorItsShadow)
     EXPECT_EQ(traced(missing).values, traced(unborn).values);
 }
 
+TEST(Engines, NeitherShowsWhatIsNotToBeSeen)
+{
+    test::PreviewScene hidden = heap(), missing = heap(), bare = heap(), sunk = heap();
+    hidden.scene.bodies.back().isVisible = false;
+    missing.frame.worldFromAsset.back().position.setConstant(
+        std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(rasterized(missing).values, rasterized(hidden).values);
+    EXPECT_EQ(traced(missing).values, traced(hidden).values);
+
+    // Without its ground a scene looks as if that were another one's.
+    bare.scene.bodies.front().isVisible = false;
+    sunk.scene.meshes.front().isPlane = false;
+    sunk.scene.meshes.front().triangles.resize(3, 0);
+    ASSERT_TRUE(bare.scene.meshes[bare.scene.bodies.front().mesh].isPlane);
+    EXPECT_LT(worstBlock(traced(sunk), traced(bare)), 1e-9);
+    EXPECT_LT(worstBlock(rasterized(sunk), rasterized(bare)), 1e-9);
+    EXPECT_GT(worstBlock(rasterized(heap()), rasterized(bare)), 5.0);
+}
+
 TEST(Engines, BothDrawTheSameScene)
 {
     // Light within a heap is estimated by one and sampled by the other; everything else is the

@@ -112,10 +112,13 @@ def check_births(export, take):
             continue  # between frames somebody who is about to come may be there already
         graph = set_time(time)
         for number, body in enumerate(info["bodies"]):
-            thing = bpy.data.objects[body["name"]].evaluated_get(graph)
-            place = np.array(thing.matrix_world)
-            is_seen = np.abs(place[:3, :3]).max() > 1e-6 and not thing.hide_render
-            birth = births.get(number, info["frames"][0])
+            thing = bpy.data.objects.get(body["name"])  # of USD what is hidden is not read at all
+            is_seen = thing is not None
+            if is_seen:
+                thing = thing.evaluated_get(graph)
+                place = np.array(thing.matrix_world)
+                is_seen = np.abs(place[:3, :3]).max() > 1e-6 and not thing.hide_render
+            birth = births.get(number, info["frames"][0]) if body.get("visible", True) else None
             if is_seen != (birth is not None and time >= birth):
                 return f"{body['name']}, born at {birth}, is seen at {time}: {is_seen}"
             wanted = turn[:3, :3] @ positions[number]

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/collision/near_features.h"
-#include "core/dynamics/gap_scratch.h"
+#include "core/dynamics/gaps/gap_scratch.h"
 
 namespace scree::test {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/dynamics/gap_rows.h"
+#include "core/dynamics/gaps/gap_rows.h"
 
 namespace scree::test {
 

@@ -9,7 +9,7 @@
 #include "core/base/random.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 #include "render/camera.h"
 #include "render/look.h"
 

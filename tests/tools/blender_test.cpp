@@ -114,7 +114,7 @@ TEST_P(BlenderTest, AKeyedCameraMovesAsInTheShot)
 
 // Blender reads no visibility: coins that had yet to be poured hung in the air, and in a take that
 // was opened as it is what has keys stood still.
-TEST_P(BlenderTest, NobodyIsSeenBeforeItsBirthAndWhatHasKeysMoves)
+TEST_P(BlenderTest, NobodyIsSeenBeforeItsBirthOrWhenHiddenAndWhatHasKeysMoves)
 {
     std::string text = kShotText;
     text.replace(text.find("subframes"), std::string::npos, "contacts = false\n");
@@ -122,6 +122,10 @@ TEST_P(BlenderTest, NobodyIsSeenBeforeItsBirthAndWhatHasKeysMoves)
                        "[[body]]\nname = \"pusher\"\nshape = \"box\"\nmaterial = \"paint\"\n"
                        "motion = \"keyed\"\nkeys = [{ frame = 1001, position = [9, 0, 0] }, "
                        "{ frame = 1012, position = [9, 5, 0] }]\n"
+                       "[[body]]\nname = \"proxy\"\nshape = \"box\"\nmaterial = \"paint\"\n"
+                       "motion = \"static\"\nposition = [0, -9, 0]\nvisible = false\n"
+                       "[[body]]\nname = \"ghost\"\nshape = \"box\"\nmaterial = \"paint\"\n"
+                       "position = [20, 0, 0]\nvisible = false\n"
                        "[[emitter]]\nname = \"coin\"\nshape = \"ring\"\nmaterial = \"paint\"\n"
                        "count = 4\nframes = \"1001-1010\"\n"
                        "box = { min = [-9, 3, -1], max = [-5, 9, 1] }\n");

@@ -7,13 +7,13 @@
 
 #include "core/base/error.h"
 #include "core/geometry/level_set_surface.h"
+#include "core/geometry/mesh_decimation.h"
 #include "core/geometry/mesh_defects.h"
 #include "core/geometry/primitives.h"
 #include "core/math/point_box.h"
 #include "io/byte_order.h"
 #include "io/file_bytes.h"
 #include "tools/bones/bone_forms.h"
-#include "core/geometry/mesh_decimation.h"
 #include "tools/bones/funnel.h"
 
 namespace scree {

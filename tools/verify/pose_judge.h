@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/scene/scene_description.h"
+#include "core/picture/scene_description.h"
 
 namespace scree::verify {
 

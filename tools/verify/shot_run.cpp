@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/dynamics/integrator.h"
-#include "core/scene/camera_motion.h"
+#include "core/picture/camera_motion.h"
 #include "io/build_world.h"
 #include "io/shot_parser.h"
 #include "io/shot_tree.h"

@@ -1,0 +1,156 @@
+// Symbols: gap_rows.h; U speed of keyed surfaces along the normals of their contacts.
+//
+// Sweeps over a contradiction add about m U to every impulse each time, and the next step begins
+// with what this one found. Two balls in a straight line under a plate that came down at 1 m/s
+// carried three million times their momentum after a hundred steps, and friction and the last bit
+// of their direction threw them at 700 m/s. A cap of their speeds did not hold: what was left grew
+// again in every step.
+#include "core/dynamics/gaps/gap_press.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/sorted.h"
+#include "core/dynamics/gaps/gap_visit.h"
+
+namespace scree {
+namespace {
+
+/// Impulses of keyed bodies beyond this many times the momentum of the island at their speed
+/// contradict each other.
+constexpr double kPressed = 4.0;
+
+/// What may be left of U when sweeps end, where they agree.
+constexpr double kStillCloses = 0.01;
+
+/// The share of its speed by which a keyed body runs into what it merely pushes along.
+constexpr double kYield = 0.02;
+constexpr int kMostSweeps = 200;
+constexpr double kEnough = 1e-3;  // of U
+
+/// Overlap beyond this share of the smaller body is more than steps leave: push-out would have
+/// taken it away if there were room. Then friction may hold so many times the weight of what is
+/// squeezed for each further unit of that share, and at most so many times in all. As an impulse of
+/// the contact itself it would throw what only one side overlaps.
+constexpr double kSqueezed = 1e-3, kHeldWeights = 1e4, kMostWeights = 100.0;
+constexpr double kLeastGravity = 9.81;  // of these weights, also where nothing pulls [m/s²]
+
+/// What keyed bodies do to an island.
+struct Press {
+    double speed = 0.0;    // U, the largest [m/s]
+    double impulse = 0.0;  // the sum of theirs along the normals [N s]
+    int rows = 0;          // that have one
+};
+
+Press pressOn(const GapScratch& scratch, const GapIsland& island)
+{
+    Press press;
+    for (const std::size_t i : island.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
+        if (!isDriven(a) && !isDriven(b)) continue;
+        for (const GapRow& row : scratch.rowsOf(pair)) {
+            if (row.impulse.x() == 0.0) continue;
+            const Vec3 u = isDriven(a) ? Vec3(a.velocity + a.spin.cross(row.rA))
+                                       : Vec3(b.velocity + b.spin.cross(row.rB));
+            press.speed = std::max(press.speed, std::abs(u.dot(row.normal)));
+            press.impulse += row.impulse.x();
+            ++press.rows;
+        }
+    }
+    return press;
+}
+
+double massOf(const GapScratch& scratch, const std::vector<BodyId>& bodies)
+{
+    double mass = 0.0;
+    for (const BodyId body : bodies) mass += 1.0 / scratch.bodies[body].inverseMass;
+    return mass;
+}
+
+/// visitRow() of a contact that closes by `yield` for each unit of its impulse [1/kg].
+double visitYielding(double yield, GapRow& row, GapScratch& scratch)
+{
+    const double target = row.target, response = row.inverseNormalMass;
+    row.target -= yield * row.impulse.x();
+    row.inverseNormalMass += yield;
+    const double changed = visitRow(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+    row.target = target;
+    row.inverseNormalMass = response;
+    return changed;
+}
+
+}  // namespace
+
+void gripSqueezed(const World& world, const StepSettings& settings, double dt,
+                  const GapBlock& block, GapScratch& scratch)
+{
+    const double gravity = std::max(kLeastGravity, settings.gravity.norm());
+    const auto excessOf = [&](const GapPair& pair) {
+        const double smaller = smallerRadius(world, pair.bodies.a, pair.bodies.b);
+        return scratch.nearPairs[pair.nearPair].depth / smaller - kSqueezed;
+    };
+    const auto isKeyed = [&](BodyId body) { return world.info[body].kind == BodyKind::keyed; };
+    thread_local std::vector<std::size_t> squeezed;  // islands
+    squeezed.clear();
+    for (const std::size_t i : block.pairs) {
+        const GapPair& pair = scratch.pairs[i];
+        if ((isKeyed(pair.bodies.a) || isKeyed(pair.bodies.b)) && excessOf(pair) > 0.0)
+            squeezed.push_back(pair.island);
+    }
+    sortUnique(squeezed);
+    for (const std::size_t island : squeezed) {
+        for (const std::size_t i : scratch.islands[island].pairs) {
+            const GapPair& pair = scratch.pairs[i];
+            const double weights = std::min(kHeldWeights * excessOf(pair), kMostWeights);
+            if (weights <= 0.0) continue;
+            const double mass = 1.0 / std::max(scratch.bodies[pair.bodies.a].inverseMass,
+                                               scratch.bodies[pair.bodies.b].inverseMass);
+            const double ofEach =
+                dt * weights * mass * gravity / static_cast<double>(pair.rowCount());
+            for (GapRow& row : scratch.rowsOf(pair)) {
+                if (row.gap < 0.0) row.squeeze = ofEach;
+            }
+        }
+    }
+}
+
+bool isPressed(const StepSettings& settings, double dt, const GapScratch& scratch,
+               const GapIsland& island)
+{
+    const Press press = pressOn(scratch, island);
+    if (press.speed == 0.0) return false;
+    const double momentum =
+        massOf(scratch, island.movers) * (press.speed + dt * settings.gravity.norm());
+    if (press.impulse <= kPressed * momentum) return false;
+    double closing = 0.0;
+    forRows(scratch, island.pairs, [&](std::size_t r) {
+        const GapRow& row = scratch.rows[r];
+        const Vec3 u = velocityAt(row, scratch.bodies[row.a], scratch.bodies[row.b]);
+        closing = std::max(closing, row.target - u.dot(row.normal));
+    });
+    return closing > kStillCloses * press.speed;
+}
+
+void solvePressed(double dt, const GapIsland& island, GapScratch& scratch)
+{
+    const Press press = pressOn(scratch, island);
+    const double yield = kYield * press.rows / massOf(scratch, island.movers);
+    for (const BodyId mover : island.movers) {
+        GapBody& body = scratch.bodies[mover];
+        body.velocity = body.velocityBefore + dt * body.pull;
+        body.spin = body.spinBefore + dt * body.heavier * (body.inverseInertia * body.torque);
+    }
+    forRows(scratch, island.pairs, [&](std::size_t r) {
+        scratch.rows[r].impulse = scratch.rows[r].couple = Vec3::Zero();
+    });
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+        double residual = 0.0;
+        forRows(scratch, island.pairs, [&](std::size_t r) {
+            residual = std::max(residual, visitYielding(yield, scratch.rows[r], scratch));
+        });
+        if (residual <= kEnough * press.speed) break;
+    }
+}
+
+}  // namespace scree

@@ -1,0 +1,24 @@
+// What is pressed between bodies that nothing can stop: a keyed plate and the floor, two keyed
+// walls. There are no velocities that all of its contacts allow.
+#pragma once
+
+#include "core/dynamics/gaps/gap_scratch.h"
+
+namespace scree {
+
+/// Presses the rows of what keyed bodies squeeze, for friction alone: jaws that are closed a little
+/// too far hold what is between them, although nothing closes any more and no impulse is due. The
+/// rows must have been built. `dt` [s].
+void gripSqueezed(const World& world, const StepSettings& settings, double dt,
+                  const GapBlock& block, GapScratch& scratch);
+
+/// Whether an island, as its sweeps have left it, carries far more than it would take to bring all
+/// of it to the speed of the keyed bodies it touches, and still closes. `dt` [s].
+bool isPressed(const StepSettings& settings, double dt, const GapScratch& scratch,
+               const GapIsland& island);
+
+/// Solves such an island anew, from how its bodies moved before, with contacts that yield the more
+/// they carry: how far each is run into is shared out among them, and impulses have an end.
+void solvePressed(double dt, const GapIsland& island, GapScratch& scratch);
+
+}  // namespace scree
