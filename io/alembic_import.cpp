@@ -13,6 +13,7 @@
 #include "io/alembic_mesh.h"
 #include "io/alembic_reader.h"
 #include "io/byte_order.h"
+#include "io/face_cut.h"
 
 namespace scree {
 
@@ -276,7 +277,12 @@ private:
             return addUnusable(
                 name, "changes its shape over time; only rigid motion can be played: export it so");
         }
-        TriMesh mesh = readAlembicMesh(reader_, object);
+        TriMesh mesh;
+        try {
+            mesh = readAlembicMesh(reader_, object);
+        } catch (const UncutFace& face) {
+            return addUnusable(name, "has " + face.why);
+        }
         if (mesh.triangles.cols() == 0) return;
         ImportedNode node;
         node.name = name;

@@ -1,9 +1,8 @@
 // Sets and rigid motion from an Alembic file: every polygon mesh with the transforms above it.
 //
 // Read are PolyMesh objects (points, faces, texture coordinates) and Xform objects over time, also
-// where instances repeat them. Refused, because it would be seen: polygons no fan of triangles
-// fills; and, once they are chosen, meshes whose points move, scale that changes and subdivision
-// surfaces. Cameras come with their zoom. Passed over: curves, points, lights, visibility, and
+// where instances repeat them. Refused once they are chosen, because it would be seen: faces that
+// cross themselves, meshes whose points move, scale that changes and subdivision surfaces. Cameras come with their zoom. Passed over: curves, points, lights, visibility, and
 // everything in properties of the user's own.
 #pragma once
 

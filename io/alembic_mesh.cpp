@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "io/face_cut.h"
+
 namespace scree {
 
 namespace {
@@ -88,38 +90,24 @@ private:
             if (size < 0 || static_cast<std::size_t>(size) > corners_.size() - first) {
                 refuse("has faces with more corners than there are");
             }
-            cutFace(first, static_cast<std::size_t>(size));
+            addFace(first, static_cast<std::size_t>(size));
             first += static_cast<std::size_t>(size);
         }
     }
 
-    /// As a fan from the first corner that sees all others. Alembic's faces are clockwise seen from
-    /// outside, so they are walked backwards.
-    void cutFace(std::size_t first, std::size_t size)
+    /// Alembic's faces are clockwise seen from outside, so they are walked backwards.
+    void addFace(std::size_t first, std::size_t size)
     {
         if (size < 3) return;  // loose points and lines have no surface
-        const auto corner = [&](std::size_t k) { return first + size - 1 - k % size; };
-        const auto side = [&](std::size_t apex, std::size_t k) {
-            const Vec3 a = points_.col(pointAt(corner(apex)));
-            const Vec3 b = points_.col(pointAt(corner(apex + k)));
-            const Vec3 c = points_.col(pointAt(corner(apex + k + 1)));
-            return Vec3((b - a).cross(c - a));
-        };
-        Vec3 normal = Vec3::Zero();
-        for (std::size_t k = 1; k + 1 < size; ++k) normal += side(0, k);
-        for (std::size_t apex = 0; apex < size; ++apex) {
-            bool seesAll = true;
-            for (std::size_t k = 1; seesAll && k + 1 < size; ++k) {
-                seesAll = side(apex, k).dot(normal) >= 0.0;
-            }
-            if (!seesAll) continue;
-            for (std::size_t k = 1; k + 1 < size; ++k) {
-                cut_.insert(cut_.end(), {corner(apex), corner(apex + k), corner(apex + k + 1)});
-            }
+        const auto corner = [&](int k) { return first + size - 1 - static_cast<std::size_t>(k); };
+        if (size == 3) {
+            for (int k = 0; k < 3; ++k) cut_.push_back(corner(k));
             return;
         }
-        refuse("has a polygon of " + std::to_string(size) +
-               " corners that no fan of triangles fills; triangulate it before the export");
+        Points around(3, static_cast<Eigen::Index>(size));
+        for (int k = 0; k < static_cast<int>(size); ++k)
+            around.col(k) = points_.col(pointAt(corner(k)));
+        for (const int k : cutFace(around)) cut_.push_back(corner(k));
     }
 
     Eigen::Index pointAt(std::size_t corner) const

@@ -8,7 +8,6 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
@@ -154,7 +153,7 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
         std::optional<std::string> text = textWithObjNames(readFileBytes(path));
         if (text) files->replace(path, std::move(*text));
     }
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    const aiScene* scene = importer.ReadFile(path, 0);
     if (!files->refused().empty()) {
         throw Error(ErrorKind::badInput,
                     "it refers to '" + files->refused() + "', outside its own folder");

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/math/rotation.h"
+#include "io/face_cut.h"
 #include "io/keys_between.h"
 #include "io/obj_names.h"
 #include "io/text_forms.h"
@@ -181,6 +182,20 @@ private:
     bool scaleJumps_;
 };
 
+/// A face as triangles, by the places of their corners in it.
+std::vector<int> trianglesOf(const aiMesh& part, const aiFace& polygon)
+{
+    if (polygon.mNumIndices == 3) return {0, 1, 2};
+    Points corners(3, polygon.mNumIndices);
+    for (unsigned k = 0; k < polygon.mNumIndices; ++k) {
+        if (polygon.mIndices[k] >= part.mNumVertices)
+            throw Error(ErrorKind::badInput, "it has a face with a corner that is no point");
+        const aiVector3D& p = part.mVertices[polygon.mIndices[k]];
+        corners.col(k) << p.x, p.y, p.z;
+    }
+    return cutFace(corners);
+}
+
 /// Fills `mesh` from the given point and face on.
 void append(const aiMesh& part, const aiMatrix4x4& nodeFromMesh, TriMesh& mesh, Eigen::Index& point,
             Eigen::Index& face)
@@ -197,14 +212,25 @@ void append(const aiMesh& part, const aiMatrix4x4& nodeFromMesh, TriMesh& mesh, 
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
         const aiFace& polygon = part.mFaces[i];
         // Loose points and lines have no surface.
-        if (polygon.mNumIndices != 3) continue;
-        for (unsigned k = 0; k < 3; ++k) {
-            const unsigned corner = polygon.mIndices[isMirrored ? 2 - k : k];
-            mesh.triangles(k, face) = static_cast<int>(firstPoint + corner);
-            if (uvs) mesh.cornerUvs.col(3 * face + k) << uvs[corner].x, uvs[corner].y;
+        if (polygon.mNumIndices < 3) continue;
+        const std::vector<int> cut = trianglesOf(part, polygon);
+        for (std::size_t first = 0; first < cut.size(); first += 3, ++face) {
+            for (int k = 0; k < 3; ++k) {
+                const unsigned corner = polygon.mIndices[cut[first + (isMirrored ? 2 - k : k)]];
+                mesh.triangles(k, face) = static_cast<int>(firstPoint + corner);
+                if (uvs) mesh.cornerUvs.col(3 * face + k) << uvs[corner].x, uvs[corner].y;
+            }
         }
-        ++face;
     }
+}
+
+Eigen::Index triangleCount(const aiMesh& part)
+{
+    Eigen::Index count = 0;
+    for (unsigned i = 0; i < part.mNumFaces; ++i)
+        count +=
+            std::max(static_cast<Eigen::Index>(part.mFaces[i].mNumIndices) - 2, Eigen::Index{0});
+    return count;
 }
 
 /// What a node shows, as one mesh in its axes.
@@ -215,7 +241,7 @@ TriMesh meshOf(const aiScene& scene, const aiNode& node, const aiMatrix4x4& node
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
         points += part.mNumVertices;
-        faces += part.mNumFaces;
+        faces += triangleCount(part);
         hasUvs = hasUvs || part.mTextureCoords[0] != nullptr;
     }
     TriMesh mesh{Points(3, points), Triangles(3, faces)};
@@ -333,7 +359,13 @@ private:
             nodes_.push_back(std::move(result));
             return;
         }
-        result.mesh = meshOf(scene_, node, stretches_.of(fileFromNode, parts));
+        try {
+            result.mesh = meshOf(scene_, node, stretches_.of(fileFromNode, parts));
+        } catch (const UncutFace& face) {
+            result.unusable = "has " + face.why;
+            nodes_.push_back(std::move(result));
+            return;
+        }
         if (result.mesh.triangles.cols() == 0) return;
         result.fileFromNode = parts.pose();
         result.isBent = isBent(scene_, node);

@@ -73,6 +73,74 @@ TEST(MeshImport, KeepsPositionsToSinglePrecision)
     EXPECT_EQ(mesh.points.col(0), Vec3(0.1f, -20.5, 1000.0));
 }
 
+double surfaceOf(const TriMesh& mesh)
+{
+    double area = 0.0;
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+        const Vec3 a = mesh.points.col(mesh.triangles(0, t));
+        const Vec3 b = mesh.points.col(mesh.triangles(1, t));
+        const Vec3 c = mesh.points.col(mesh.triangles(2, t));
+        area += 0.5 * (b - a).cross(c - a).norm();
+    }
+    return area;
+}
+
+// Happened: the notch of an L with arms of one length was covered by a triangle that lay on another
+// one, and the mesh was closed and of the right volume.
+TEST(MeshImport, AFaceWithANotchKeepsIt)
+{
+    const test::TemporaryFolder folder;
+    const std::string points =
+        "0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 1\n2 0 1\n2 1 1\n1 1 1\n1 2 1\n0 2 1\n";
+    std::string obj = "v " + points, ply;
+    for (std::size_t at = obj.find('\n'); at + 1 < obj.size(); at = obj.find('\n', at + 1))
+        obj.insert(at + 1, "v ");
+    obj += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
+    ply =
+        "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 8\nproperty list uchar int vertex_indices\nend_header\n" +
+        points + "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n";
+    for (int k = 0; k < 6; ++k) {
+        const int next = (k + 1) % 6;
+        const auto corners = [&](int first) {
+            return std::to_string(first + k) + " " + std::to_string(first + next) + " " +
+                   std::to_string(first + next + 6) + " " + std::to_string(first + k + 6) + "\n";
+        };
+        obj += "f " + corners(1);
+        ply += "4 " + corners(0);
+    }
+    for (const std::string& path : {write(folder, "l.obj", obj), write(folder, "l.ply", ply)}) {
+        const TriMesh mesh = test::importMesh(path);
+        EXPECT_TRUE(findDefects(mesh).empty());
+        EXPECT_NEAR(signedVolume(mesh), 3.0, 1e-12);
+        EXPECT_NEAR(surfaceOf(mesh), 14.0, 1e-12) << path;
+    }
+}
+
+TEST(MeshImport, AFaceThatCrossesItselfIsRefusedWhereItIsUsed)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = write(folder, "bow.obj", std::string(kCubeObj) + "o bow\nf 1 7 2 8\n");
+    EXPECT_EQ(messageOf(path),
+              "mesh file '" + path +
+                  "' has a mesh 'bow' that has a face of 4 corners from (0, 0, 0) "
+                  "on, which crosses itself or has no area: mend it or cut it into triangles");
+    EXPECT_EQ(importFile(path).nodes.at(0).mesh.triangles.cols(), 6);
+}
+
+TEST(MeshImport, AFaceOfManyCornersOneOfWhichIsNoPointIsRefused)
+{
+    const test::TemporaryFolder folder;
+    const std::string path =
+        write(folder, "torn.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 9999999\n");
+    EXPECT_EQ(
+        messageOf(path),
+        "mesh file '" + path + "' cannot be read: it has a face with a corner that is no point");
+}
+
 TEST(MeshImport, ReadsPlyAndStl)
 {
     const test::TemporaryFolder folder;

@@ -1,0 +1,97 @@
+// A diagonal that touches a corner on its way is none: a library that overlooked that covered the
+// notch of an L whose inner corner lies on the line between two others.
+#include "core/geometry/polygon_cut.h"
+
+namespace scree {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Points2 = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+
+/// Twice the area of a triangle, positive if it turns to the left.
+double turnOf(const Vec2& a, const Vec2& b, const Vec2& c)
+{
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// As seen along the axis that it faces most, turning to the left: so coordinates stay what they
+/// are, and what lies on a line in them still does.
+Points2 flattened(const Points& corners)
+{
+    Vec3 normal = Vec3::Zero();
+    for (Eigen::Index i = 1; i + 1 < corners.cols(); ++i) {
+        normal += (corners.col(i) - corners.col(0)).cross(corners.col(i + 1) - corners.col(0));
+    }
+    Eigen::Index axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    Eigen::Index right = (axis + 1) % 3, up = (axis + 2) % 3;
+    if (normal[axis] < 0.0) std::swap(right, up);
+    Points2 flat(2, corners.cols());
+    flat << corners.row(right), corners.row(up);
+    return flat;
+}
+
+class EarCutter {
+public:
+    explicit EarCutter(const Points& corners) : flat_(flattened(corners))
+    {
+        for (int i = 0; i < static_cast<int>(flat_.cols()); ++i) left_.push_back(i);
+    }
+
+    std::vector<int> cut()
+    {
+        std::vector<int> triangles;
+        std::size_t at = 1, refused = 0;
+        while (left_.size() > 3) {
+            at %= left_.size();
+            if (isEar(at)) {
+                triangles.insert(triangles.end(), {before(at), left_[at], after(at)});
+                left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
+                refused = 0;
+                continue;
+            }
+            ++at;
+            if (++refused > left_.size()) return {};
+        }
+        if (left_.size() < 3 || !(turnAt(1) > 0.0)) return {};
+        triangles.insert(triangles.end(), left_.begin(), left_.end());
+        return triangles;
+    }
+
+private:
+    int before(std::size_t at) const { return left_[(at + left_.size() - 1) % left_.size()]; }
+    int after(std::size_t at) const { return left_[(at + 1) % left_.size()]; }
+    Vec2 point(int corner) const { return flat_.col(corner); }
+    double turnAt(std::size_t at) const
+    {
+        return turnOf(point(before(at)), point(left_[at]), point(after(at)));
+    }
+
+    /// Whether its triangle has an area, and no corner inside or on its edge but such as lie where
+    /// its own do, as those of a slit to a hole.
+    bool isEar(std::size_t at) const
+    {
+        const Vec2 a = point(before(at)), b = point(left_[at]), c = point(after(at));
+        if (!(turnOf(a, b, c) > 0.0)) return false;
+        for (std::size_t i = 0; i < left_.size(); ++i) {
+            if (i == at) continue;
+            const Vec2 p = point(left_[i]);
+            if (p == a || p == b || p == c) continue;
+            if (turnOf(a, b, p) >= 0.0 && turnOf(b, c, p) >= 0.0 && turnOf(c, a, p) >= 0.0)
+                return false;
+        }
+        return true;
+    }
+
+    Points2 flat_;
+    std::vector<int> left_;  // corners that no triangle has cut off yet
+};
+
+}  // namespace
+
+std::vector<int> cutPolygon(const Points& corners)
+{
+    return EarCutter(corners).cut();
+}
+
+}  // namespace scree
