@@ -105,8 +105,14 @@ constexpr std::size_t kRowsOfABodyOrTwo = 8;
 constexpr int kSpan = 32;
 constexpr double kNowhere = 1e-3, kShrinks = 0.7;
 
-/// What rounding leaves of speeds, where nothing pulls [m/s].
-constexpr double kRounding = 1e-15;
+/// Two hundred columns of fifteen crates came to no end a good way above: each took its 400 sweeps
+/// as it tumbled, and 4000 where it hardly moved, five seconds a frame. What goes on as it did gets
+/// no farther either when it is below kNowhereOfSpeed of the fastest slip and tumbles, or below
+/// kNowhereForLong and has been for kLongSpan sweeps. What is new needs them: with this the first
+/// step of an arch left it to fall. So does what has few rows: of a slab on rollers that brake
+/// a twentieth of the way was lost.
+constexpr int kLongSpan = 256;
+constexpr double kNowhereOfSpeed = 1e-2, kNowhereForLong = 1e-2;
 
 /// The share of a heap's last way. Somewhere in it rows always begin or cease to carry, and who
 /// begins anew for each of them does without conjugate directions: every third or fourth sweep did.
@@ -129,21 +135,42 @@ int spareSweeps(const GapIsland& island, std::size_t times = 1, std::size_t most
 /// Whether sweeps go nowhere any more.
 class Progress {
 public:
-    explicit Progress(double speedOfFall) : nowhere_(kNowhere * speedOfFall) {}
+    Progress(double speedOfFall, bool isNew)
+        : short_{kSpan, kNowhere * speedOfFall},
+          long_{kLongSpan, isNew ? 0.0 : kNowhereForLong * speedOfFall}
+    {
+    }
+
+    /// Of what tumbles, by its fastest slip [m/s].
+    void tumbles(double fastest)
+    {
+        short_.nowhere = std::max(short_.nowhere, kNowhereOfSpeed * fastest);
+    }
 
     bool hasEnded(double residual)
     {
-        least_ = std::min(least_, residual);
-        if (++sweeps_ % kSpan != 0) return false;
-        const bool ended = least_ <= nowhere_ && least_ > kShrinks * leastBefore_;
-        leastBefore_ = std::exchange(least_, std::numeric_limits<double>::infinity());
-        return ended;
+        ++sweeps_;
+        const bool inShort = short_.hasEnded(residual, sweeps_);
+        return long_.hasEnded(residual, sweeps_) || inShort;
     }
 
 private:
-    double nowhere_;  // [m/s]
+    struct Span {
+        int sweeps;
+        double nowhere;  // [m/s]
+        double least = std::numeric_limits<double>::infinity(), leastBefore = least;
+
+        bool hasEnded(double residual, int done)
+        {
+            least = std::min(least, residual);
+            if (done % sweeps != 0) return false;
+            const bool ended = least <= nowhere && least > kShrinks * leastBefore;
+            leastBefore = std::exchange(least, std::numeric_limits<double>::infinity());
+            return ended;
+        }
+    };
+    Span short_, long_;
     int sweeps_ = 0;
-    double least_ = std::numeric_limits<double>::infinity(), leastBefore_ = least_;  // of a span
 };
 
 /// What a step may spend on an island: the sweeps of the settings on a large heap, more on a small
@@ -199,14 +226,17 @@ void solve(const World& world, const StepSettings& settings, double dt, const Ga
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
     const auto shareOfWay = isHeap(settings, island) ? shareInAHeap : shareOfLastWay;
-    Progress progress(speedOfFall);
+    Progress progress(speedOfFall, !island.isRemembered);
     double energy = 0.0, mayBeWrong = kMuchIsWrong;
     for (int done = 1;; ++done) {
         const GapSweep swept = rows.sweep();
         if (done == 1) {
             enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
             const bool isNew = !island.isRemembered && !isHeap(settings, island);
-            if (isNew || swept.fastest < kAtRest * speedOfFall) most = std::max(most, mostAtRest);
+            const bool isAtRest = swept.fastest < kAtRest * speedOfFall;
+            if (isNew || isAtRest) most = std::max(most, mostAtRest);
+            const bool mayTumble = ofSpeed > 0.0 && island.rowCount > kFewRows;
+            if (island.isRemembered && mayTumble && !isAtRest) progress.tumbles(swept.fastest);
         }
         if (swept.residual <= enough) return;
         if (progress.hasEnded(swept.residual)) most = std::min(most, done);

@@ -47,11 +47,13 @@ struct GapRow {
     bool isUnmovedA, isUnmovedB;   ///< by its group
     bool wasHit;                   ///< by an impact of this step
     bool isOfBlow;                 ///< has the arms and the normal of the moment it is hit
+    bool isRound;                  ///< its place belongs to no body
+    bool swings;                   ///< its place leaves the straight way: gap_swings.h
     Vec3 rA, rB;                   ///< contact point from either centre, world [m]
     Vec3 normal;                   ///< from B to A
     double gap;                    ///< [m]
-    Vec3 turning;                  ///< what A's surface gains on B's within half the step where
-                                   ///< both turn alike: gap_swings.h [m/s]
+    Vec3 turning;                  ///< what A's surface gains on B's within half the step as both
+                                   ///< go round: gap_swings.h [m/s]
     Vec3 impulse;                  ///< along normal, tangent and second tangent, on A [N s]
     double squeeze;                ///< what presses it besides, for friction alone: gap_press.h
                                    ///< [N s]
@@ -123,6 +125,8 @@ inline void placeRow(BodyPair bodies, const GapContact& contact, const Vec3& bFr
     row.normal = contact.normal;
     row.gap = contact.gap;
     row.turning = Vec3::Zero();
+    row.isRound = kindOf(contact.feature) == FeatureKind::round;
+    row.swings = false;
 }
 
 /// Everything of a row that follows from its geometry.

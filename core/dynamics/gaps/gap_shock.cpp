@@ -173,7 +173,8 @@ void solveNormals(GapScratch& scratch, const std::vector<std::size_t>& rows, int
 
 double solvedEnough(const StepSettings& settings, double dt)
 {
-    return 1e-9 * settings.gravity.norm() * dt;
+    const double speedOfFall = settings.gravity.norm() * dt;
+    return speedOfFall > 0.0 ? 1e-9 * speedOfFall : kRounding;
 }
 
 /// Speed at which a row closes visibly within a step, beyond its target [m/s].

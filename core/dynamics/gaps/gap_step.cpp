@@ -81,7 +81,7 @@ PhaseSeconds GapStepper::solveBlock(const World& world, double dt, GapBlock& blo
         const PhaseTimer timer(seconds, Phase::contact);
         leads = leadPlaces(world, dt, block, scratch);
         addForcesToGaps(dt, block, scratch);
-        holdSwings(world, settings_, dt, block, scratch);
+        holdSwings(world, settings_, dt, leads, block, scratch);
     }
     LadenBodies laden(settings_, dt, block, scratch);
     {

@@ -2,13 +2,21 @@
 // leave the straight way on which their velocities take them.  [algorithm 14.1]
 #pragma once
 
+#include <span>
+
+#include "core/dynamics/gaps/gap_lead.h"
 #include "core/dynamics/gaps/gap_scratch.h"
 
 namespace scree {
 
-/// Lets the rows of all that is no heap know where their places will be, going round: by their
-/// targets, which must be those of straight ways, and by GapRow::turning.
-void holdSwings(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
-                GapScratch& scratch);
+/// Lets the rows of all that is no heap know where their places will be, going round or running
+/// over what is round: by their targets, which must be those of straight ways, by GapRow::turning
+/// and GapRow::swings. Bodies with `leads` know it already.
+void holdSwings(const World& world, const StepSettings& settings, double dt,
+                std::span<const VelocityLead> leads, const GapBlock& block, GapScratch& scratch);
+
+/// Whether a row that does not swing will in the next step, by what this one, once solved, has
+/// turned its bodies.
+bool beginsToSwing(const World& world, const GapScratch& scratch, const GapRow& row);
 
 }  // namespace scree

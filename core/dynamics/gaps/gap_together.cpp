@@ -16,8 +16,6 @@ namespace {
 /// 3 % of its energy.
 constexpr int kMostSweeps = 100;
 
-using Columns = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3>>;
-
 Mat3 frameOf(const GapRow& row)
 {
     Mat3 frame;
@@ -40,58 +38,65 @@ void HitTogether::begin(const std::vector<GapBody>& bodies)
     rows_.clear();
 }
 
-void HitTogether::respond()
+std::size_t HitTogether::placeOf(BodyId body)
 {
-    sides_.clear();
-    const std::size_t count = 3 * rows_.size();
-    velocity_.clear();
-    response_.resize(count * count);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const GapRow& row = rows_[i];
+    std::int32_t& place = placeOf_[body];
+    if (place < 0) {
+        place = static_cast<std::int32_t>(taken_.size());
+        taken_.push_back(body);
+    }
+    return static_cast<std::size_t>(place);
+}
+
+void HitTogether::placeRows()
+{
+    for (const BodyId body : taken_) placeOf_[body] = -1;
+    taken_.clear();
+    placeOf_.resize(bodies_->size(), -1);
+    placed_.clear();
+    velocityBefore_.clear();
+    for (const GapRow& row : rows_) {
         const GapBody &a = (*bodies_)[row.a], &b = (*bodies_)[row.b];
         const Mat3 frame = frameOf(row);
-        velocity_.push_back(frame.transpose() * velocityAt(row, a, b));
-        const auto addSide = [&](const GapBody& body, BodyId id, bool moves, const Vec3& r,
-                                 const Mat3& along) {
-            const Mat3 turning = crossOfColumns(r, along);
-            sides_.push_back({id, moves, along, turning, body.inverseMass * along,
-                              body.inverseInertia * turning});
+        const auto side = [&](const GapBody& body, BodyId id, bool moves, const Vec3& r,
+                              const Mat3& along) -> Side {
+            const Mat3 arms = crossOfColumns(r, along);
+            return {placeOf(id), moves, body.inverseMass, arms.transpose(),
+                    body.inverseInertia * arms};
         };
-        addSide(a, row.a, row.movesA, row.rA, frame);
-        addSide(b, row.b, row.movesB, row.rB, -frame);
-    }
-    for (std::size_t j = 0; j < rows_.size(); ++j) {
-        Columns columns(&response_[3 * j * count], static_cast<Eigen::Index>(count), 3);
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            Mat3 block = Mat3::Zero();
-            for (const Side* to : {&sides_[2 * i], &sides_[2 * i + 1]}) {
-                for (const Side* from : {&sides_[2 * j], &sides_[2 * j + 1]}) {
-                    if (to->body != from->body || !from->moves) continue;
-                    block += to->along.transpose() * from->velocity +
-                             to->turning.transpose() * from->spin;
-                }
-            }
-            columns.middleRows<3>(static_cast<Eigen::Index>(3 * i)) = block;
-        }
+        placed_.push_back({frame, side(a, row.a, row.movesA, row.rA, frame),
+                           side(b, row.b, row.movesB, row.rB, -frame)});
+        velocityBefore_.push_back(frame.transpose() * velocityAt(row, a, b));
     }
 }
 
-/// A loop of its own: the sums of a library's matrix may depend on where memory happens to lie.
+Vec3 HitTogether::velocityAtRow(std::size_t i) const
+{
+    const PlacedRow& row = placed_[i];
+    const Change &a = changes_[row.a.place], &b = changes_[row.b.place];
+    return velocityBefore_[i] + row.worldFromFrame.transpose() * (a.velocity - b.velocity) +
+           row.a.surfaceFromSpin * a.spin + row.b.surfaceFromSpin * b.spin;
+}
+
 void HitTogether::push(std::size_t i, const Vec3& impulse)
 {
-    const std::size_t count = 3 * rows_.size();
-    double* velocity = velocity_[0].data();
-    const double* x = &response_[3 * i * count];
-    const double *y = x + count, *z = y + count;
-    for (std::size_t k = 0; k < count; ++k)
-        velocity[k] += x[k] * impulse.x() + y[k] * impulse.y() + z[k] * impulse.z();
+    const PlacedRow& row = placed_[i];
+    const Vec3 inWorld = row.worldFromFrame * impulse;
+    if (row.a.moves) {
+        changes_[row.a.place].velocity += row.a.inverseMass * inWorld;
+        changes_[row.a.place].spin += row.a.spinFromImpulse * impulse;
+    }
+    if (row.b.moves) {
+        changes_[row.b.place].velocity -= row.b.inverseMass * inWorld;
+        changes_[row.b.place].spin += row.b.spinFromImpulse * impulse;
+    }
 }
 
 double HitTogether::visit(std::size_t i)
 {
     GapRow& row = rows_[i];
     const Vec3 before = row.impulse;
-    const double changed = visitRow(row, velocity_[i]);
+    const double changed = visitRow(row, velocityAtRow(i));
     if (changed > 0.0) push(i, row.impulse - before);
     return changed;
 }
@@ -131,7 +136,7 @@ double HitTogether::goOn(double energyBefore)
 void HitTogether::solveAnew(double enough)
 {
     for (GapRow& row : rows_) row.impulse = Vec3::Zero();
-    velocity_ = velocityBefore_;
+    changes_.assign(taken_.size(), {});
     before_.resize(rows_.size());
     way_.assign(rows_.size(), Vec3::Zero());
     double energy = 0.0;
@@ -145,8 +150,7 @@ void HitTogether::solveAnew(double enough)
 
 double HitTogether::solve(double enough)
 {
-    respond();
-    velocityBefore_ = velocity_;
+    placeRows();
     solveAnew(enough);
     return work() > 0.0 ? leaveFriction(enough) : 1.0;
 }
@@ -166,7 +170,7 @@ double HitTogether::leaveFriction(double enough)
     const double none = std::min(work(), 0.0);
     double slope = 0.0;
     for (std::size_t i = 0; i < rows_.size(); ++i)
-        slope += (rubbed[i] - rows_[i].impulse).dot(velocity_[i]);
+        slope += (rubbed[i] - rows_[i].impulse).dot(velocityAtRow(i));
     const double share = shareWithoutGain(none, slope, whole - none - slope);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         const Vec3 step = share * (rubbed[i] - rows_[i].impulse);
@@ -181,7 +185,7 @@ double HitTogether::work() const
 {
     double work = 0.0;
     for (std::size_t i = 0; i < rows_.size(); ++i)
-        work += 0.5 * rows_[i].impulse.dot(velocityBefore_[i] + velocity_[i]);
+        work += 0.5 * rows_[i].impulse.dot(velocityBefore_[i] + velocityAtRow(i));
     return work;
 }
 

@@ -1,7 +1,6 @@
 // Places that are hit at once, solved at once.  [algorithm 14.1]
 //
-// They are few, and belong to a body or two: how each impulse changes the velocity at every other
-// place is worked out once, and no visit goes through the bodies.
+// What a visit needs of the bodies is laid out once, in the frames of the rows.
 #pragma once
 
 #include "core/dynamics/gaps/gap_rows.h"
@@ -27,16 +26,26 @@ public:
     double work() const;
 
 private:
-    /// What moves one of the two bodies of a row.
+    /// One of the two bodies of a row.
     struct Side {
-        BodyId body;
+        std::size_t place;  ///< in changes_
         bool moves;
-        Mat3 along,
-            turning;  ///< of its surface by the body's velocity and spin, in the row's frame
-        Mat3 velocity, spin;  ///< of the body by an impulse in the row's frame
+        double inverseMass;
+        Mat3 surfaceFromSpin;  ///< velocity of its surface, in the row's frame
+        Mat3 spinFromImpulse;  ///< of an impulse in that frame
+    };
+    struct PlacedRow {
+        Mat3 worldFromFrame;
+        Side a, b;
+    };
+    /// By the impulses so far.
+    struct Change {
+        Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
     };
 
-    void respond();
+    void placeRows();
+    std::size_t placeOf(BodyId body);
+    Vec3 velocityAtRow(std::size_t i) const;
     void solveAnew(double enough);
     double leaveFriction(double enough);
     double sweep(bool isUp);
@@ -46,12 +55,13 @@ private:
 
     const std::vector<GapBody>* bodies_ = nullptr;
     std::vector<GapRow> rows_;
-    std::vector<Side> sides_;  // two of each row
-    // In the frames of the rows: velocities now and without impulses, impulses before the last
-    // sweep and the way they went in it, and a column of changes of velocity for each number of
-    // an impulse.
-    std::vector<Vec3> velocity_, velocityBefore_, before_, way_;
-    std::vector<double> response_;
+    std::vector<PlacedRow> placed_;      // parallel to rows_
+    std::vector<BodyId> taken_;          // bodies that have a place
+    std::vector<std::int32_t> placeOf_;  // per body: its place, or -1
+    std::vector<Change> changes_;        // by place
+    // In the frames of the rows: velocities without impulses, impulses before the last sweep and
+    // the way they went in it.
+    std::vector<Vec3> velocityBefore_, before_, way_;
 };
 
 }  // namespace scree
