@@ -40,6 +40,18 @@ Entries entriesOf(const std::string& resolvedShot)
     return entries;
 }
 
+/// Two long values from a little before where they part.
+std::pair<std::string, std::string> fromWhereTheyPart(const std::string& a, const std::string& b)
+{
+    constexpr std::size_t kBefore = 20;
+    const auto parting = static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+    if (parting < kLongestValue - kBefore) return {a, b};
+    std::size_t from = parting - kBefore;
+    // What goes on with a character begins with the bits 10.
+    while (from > 0 && (static_cast<unsigned char>(a[from]) & 0xc0) == 0x80) --from;
+    return {"..." + a.substr(from), "..." + b.substr(from)};
+}
+
 }  // namespace
 
 std::vector<std::string> shotDifferences(const std::string& ours, const std::string& theirs,
@@ -52,11 +64,14 @@ std::vector<std::string> shotDifferences(const std::string& ours, const std::str
     for (const auto& [key, value] : mine) {
         const auto there = valueThere.find(key);
         if (there != valueThere.end() && there->second == value) continue;
-        differences.push_back(key + " = " + shortened(value, kLongestValue) + " (" + owner +
-                              (there == valueThere.end()
-                                   ? " has none"
-                                   : " has " + shortened(there->second, kLongestValue)) +
-                              ")");
+        if (there == valueThere.end()) {
+            differences.push_back(key + " = " + shortened(value, kLongestValue) + " (" + owner +
+                                  " has none)");
+            continue;
+        }
+        const auto [here, elsewhere] = fromWhereTheyPart(value, there->second);
+        differences.push_back(key + " = " + shortened(here, kLongestValue) + " (" + owner +
+                              " has " + shortened(elsewhere, kLongestValue) + ")");
     }
     for (const auto& [key, value] : other) {
         if (valueHere.contains(key)) continue;

@@ -21,8 +21,10 @@ const std::vector<ShotKey> kFileKeys = {
      .type = text,
      .isFile = true,
      .help = "Another shot file, relative to this one, whose keys hold wherever this one says "
-             "nothing. Bodies of the same name are taken together key by key, others are added; "
-             "any other list is replaced as a whole."},
+             "nothing. Of bodies, emitters and cameras those of one name are taken together key by "
+             "key; "
+             "others are added, as are forces, pairs and imports. Any other list, such as "
+             "output.export, is replaced as a whole."},
 };
 
 const std::vector<ShotKey> kShotKeys = {

@@ -58,6 +58,22 @@ void requireSameOutputs(const TakeBranch& branch, const TakeInfo& theirs, const 
                                          "from its first frame");
 }
 
+/// Whether two first frames have the same bodies in the same places, by their bits, and the same of
+/// them asleep. What pulls at sleepers is a setting.
+bool beginsAlike(FrameState theirs, FrameState ours)
+{
+    const auto isAsleep = [](const FrameState& state) {
+        std::vector<BodyId> asleep;
+        for (BodyId body = 0; body < static_cast<BodyId>(state.motion.size()); ++body)
+            if (state.contactMemory.isAsleep(body)) asleep.push_back(body);
+        return asleep;
+    };
+    if (isAsleep(theirs) != isAsleep(ours)) return false;
+    theirs.shotHash = ours.shotHash;
+    theirs.contactMemory = ours.contactMemory;
+    return encodeFrame(theirs) == encodeFrame(ours);
+}
+
 /// The lines of a resolved shot that bodies feel: not how long it is, how it looks and what is
 /// written of it.
 std::string settingsOf(const std::string& resolvedShot)
@@ -123,13 +139,10 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
         refuse(branch, "frame " + std::to_string(branch.frame) + " is none of the shot's " +
                            std::to_string(shot.firstFrame) + "-" + std::to_string(shot.lastFrame));
     }
-    for (int frame = shot.firstFrame; frame <= branch.frame; ++frame) {
-        const std::string bytes = readBranchFrame(from, branch, frame, shot);
-        // The same bodies in the same places: proved by the bits of the first frame.
-        const bool isOther =
-            frame == shot.firstFrame && bytes != encodeFrame(captureState(shot, world));
-        if (isOther) refuse(branch, "its bodies begin elsewhere, with other speeds or seed");
-    }
+    for (int frame = shot.firstFrame; frame <= branch.frame; ++frame)
+        readBranchFrame(from, branch, frame, shot);
+    if (!beginsAlike(from.readState(shot.firstFrame), captureState(shot, world)))
+        refuse(branch, "its bodies begin elsewhere, with other speeds or seed");
 }
 
 std::string jumpAtBranch(const TakeBranch& branch, const Shot& shot, const World& world)

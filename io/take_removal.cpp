@@ -54,6 +54,12 @@ void refuseForeignFiles(const TakePaths& paths)
                             readFileBytes(paths.stats()).empty() ||
                             !readStats(paths.stats()).empty();
     if (!areFigures) refuseForeign(paths.stats(), "the statistics of a take");
+    // A take that begins here is replaced one day, and what was made from it goes with it.
+    if (isThere(paths.info()) || !listFrames(paths).empty()) return;
+    for (const fs::path& folder : {paths.images(), paths.exports()}) {
+        std::error_code none;
+        if (!fs::is_empty(folder, none) && !none) refuseForeign(folder, "made from a take");
+    }
 }
 
 void removeTake(const TakePaths& paths)

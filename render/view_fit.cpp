@@ -9,7 +9,7 @@
 namespace scree {
 namespace {
 
-constexpr double kNearestShare = 1e-4;  // nearest / farthest is never smaller: 24-bit depths
+constexpr double kNearestShare = 1e-6;  // nearest / farthest is never smaller: 32-bit depths
 constexpr double kSizeStepsPerOctave = 4.0;
 constexpr int kFewestTexels = 64;
 

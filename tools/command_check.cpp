@@ -370,8 +370,8 @@ Command addCheckCommand(CLI::App& program)
     addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
     command->footer(
-        "Ends with 65 when sim would refuse the shot, with 79 when its bodies overlap too much to "
-        "start.\n"
+        "Ends with 65 when sim would refuse the shot, also for bodies that overlap where it "
+        "begins.\n"
         "Example:\n  scree check shots/rings_100.toml");
     return {command, [options](Console& console) { return checkShot(*options, console); }};
 }

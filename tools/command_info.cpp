@@ -27,6 +27,8 @@ struct InfoOptions {
 struct MovingBody {
     std::string name;
     double speed = 0.0;  ///< of its origin [m/s]
+    double degreesPerSecond = 0.0;
+    double fastest = 0.0;  ///< of any of its points, at most [m/s]
 };
 
 /// The take in a few numbers.
@@ -49,14 +51,18 @@ std::vector<MovingBody> fastestAtTheEnd(const TakeReader& take)
 {
     constexpr std::size_t kMost = 3;
     const TakeInfo& info = take.info();
+    const SceneDescription scene = take.describe(TakeReader::PlaneSize::any);
     const SceneFrame last = take.readFrame(take.frames().back());
     std::vector<MovingBody> moving;
     for (std::size_t b = 0; b < info.bodies.size(); ++b) {
         const double speed = info.metresPerUnit * last.velocity[b].norm();
-        if (info.bodies[b].mass > 0.0 && speed > 0.0)
-            moving.push_back({info.bodies[b].name, speed});
+        const double spin = last.angularVelocity[b].norm();
+        if (info.bodies[b].mass == 0.0 || (speed == 0.0 && spin == 0.0)) continue;
+        const Points& points = scene.meshes[scene.bodies[b].mesh].points;
+        const double reach = info.metresPerUnit * points.colwise().norm().maxCoeff();
+        moving.push_back({info.bodies[b].name, speed, spin * 180.0 / kPi, speed + spin * reach});
     }
-    std::ranges::stable_sort(moving, std::ranges::greater{}, &MovingBody::speed);
+    std::ranges::stable_sort(moving, std::ranges::greater{}, &MovingBody::fastest);
     moving.resize(std::min(moving.size(), kMost));
     return moving;
 }
@@ -127,8 +133,9 @@ void printText(const TakeReader& take, const TakeSummary& summary)
                     summary.untold, summary.frames.size());
     if (summary.untold < summary.frames.size()) printFigures(summary);
     for (std::size_t i = 0; i < summary.fastest.size(); ++i)
-        std::printf("%s%s at %.3g m/s%s", i == 0 ? "fastest    " : ", ",
+        std::printf("%s%s at %.3g m/s, %.3g degrees/s%s", i == 0 ? "fastest    " : "; ",
                     summary.fastest[i].name.c_str(), summary.fastest[i].speed,
+                    summary.fastest[i].degreesPerSecond,
                     i + 1 == summary.fastest.size() ? " in the last frame\n" : "");
     std::printf("made by    scree %s, shot hash %s\n", info.programVersion.c_str(),
                 toHex(info.shotHash).c_str());
@@ -163,8 +170,10 @@ void printJson(const TakeReader& take, const TakeSummary& summary)
         {"last_state_hash", summary.last.stateHash},
     };
     json["last_fastest"] = nlohmann::ordered_json::array();
-    for (const auto& [name, speed] : summary.fastest)
-        json["last_fastest"].push_back({{"body", name}, {"speed_m_per_s", speed}});
+    for (const MovingBody& body : summary.fastest)
+        json["last_fastest"].push_back({{"body", body.name},
+                                        {"speed_m_per_s", body.speed},
+                                        {"spin_degrees_per_s", body.degreesPerSecond}});
     // Zeros would be taken for figures.
     if (summary.untold == summary.frames.size())
         for (const char* key : {"wall_s", "cpu_s", "worst_overlap_ratio", "worst_overlap_frame",

@@ -350,25 +350,33 @@ private:
     /// how the first one overlaps is for start.overlap to judge.
     bool judgeOverlap()
     {
+        const std::string failed = framesBeyond("penetration.fail", shot_.penetrationFail);
+        const std::string warned = framesBeyond("penetration.warn", shot_.penetrationWarn);
+        if (failed.empty() && !warned.empty()) console_.warning(warned);
+        if (!failed.empty()) console_.error(failed);
+        return failed.empty();
+    }
+
+    /// What to say of frames that overlap by more than a limit, the worst first; empty: none do.
+    std::string framesBeyond(const std::string& name, double limit)
+    {
         std::vector<FrameSummary> broken;
         for (const FrameSummary& frame : take_->summaries())
             if (frame.frame > shot_.firstFrame && frame.frame <= lastFrame_ &&
-                frame.overlapRatio > shot_.penetrationFail)
+                frame.overlapRatio > limit)
                 broken.push_back(frame);
-        if (broken.empty()) return true;
+        if (broken.empty()) return "";
         std::stable_sort(broken.begin(), broken.end(), [](const auto& a, const auto& b) {
             return a.overlapRatio > b.overlapRatio;
         });
-        std::string text =
-            std::to_string(broken.size()) +
-            " frames overlap by more than penetration.fail = " + percent(shot_.penetrationFail) +
-            "; worst:";
+        std::string text = std::to_string(broken.size()) +
+                           (broken.size() == 1 ? " frame overlaps" : " frames overlap") +
+                           " by more than " + name + " = " + percent(limit) + "; worst:";
         for (std::size_t i = 0; i < std::min(broken.size(), kNamedFrames); ++i)
             text += (i == 0 ? " " : "; ") + std::to_string(broken[i].frame) + " (" +
                     broken[i].worstA + ", " + broken[i].worstB + ": " +
                     percent(broken[i].overlapRatio) + ")";
-        console_.error(text);
-        return false;
+        return text;
     }
 
     const SimOptions& options_;

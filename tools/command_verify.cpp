@@ -19,7 +19,7 @@ namespace {
 
 struct VerifyOptions {
     std::vector<std::string> ids;
-    std::string method = "paper", report, shots, takes = "takes";
+    std::string method = "both", report, shots, takes = "takes";
     bool full = false, judgeOnly = false, json = false, list = false;
     std::optional<int> threads;
 };
@@ -109,7 +109,7 @@ Command addVerifyCommand(CLI::App& program)
     command->add_option("EXPERIMENT", options->ids, "Which ones, like E1 E5 [all]");
     command->add_option("-o,--output", options->report,
                         "Write a report.html with plots and pictures");
-    command->add_option("--method", options->method, "paper, scree or both");
+    command->add_option("--method", options->method, "paper, scree or both [both]");
     command->add_flag("--full", options->full, "Every step length, seed and size: takes long");
     command->add_flag("--json", options->json, "The rows as JSON instead of a table");
     command->add_flag("--list", options->list, "Say what the experiments are, run none");

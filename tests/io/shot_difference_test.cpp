@@ -37,6 +37,23 @@ TEST(ShotDifference, NamesBodiesByTheirNames)
                   {"body.b.position = [4.0, 1.0, 0.0] (the take has [3.0, 1.0, 0.0])"}));
 }
 
+// Of long values both beginnings were told, which are the same.
+TEST(ShotDifference, TellsOfLongValuesWhereTheyPart)
+{
+    const auto keyed = [](const std::string& last) {
+        return test::bodyText("a",
+                              "motion = \"keyed\"\nkeys = [{ frame = 1001, position = [0, 1, 0] }, "
+                              "{ frame = 1003, position = [0, 2, 0] }, { frame = 1006, position = "
+                              "[0, " +
+                                  last + ", 0] }]");
+    };
+    const std::vector<std::string> told = between({}, keyed("3"), {}, keyed("4"));
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_EQ(told[0],
+              "body.a.keys = ...0, position = [0.0, 3.0, 0.0] }] (the take has ...0, "
+              "position = [0.0, 4.0, 0.0] }])");
+}
+
 TEST(ShotDifference, TellsWhatOnlyOneHas)
 {
     const std::string body = test::bodyText("a", "position = [0, 1, 0]"),

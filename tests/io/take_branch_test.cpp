@@ -193,6 +193,18 @@ TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
     EXPECT_NEAR(placeIn(1080).x() - placeIn(1075).x(), 0.5 * acceleration * time * time, 1e-3);
 }
 
+// What pulled at them when they fell asleep was held against other gravity: it was refused, as if
+// they began elsewhere.
+TEST_F(BranchTest, SleepersOfTheStartMayFeelOtherGravity)
+{
+    const std::string asleep = "body.away.start=\"asleep\"";
+    simulate("whole", {asleep});
+    const TakeBranch branch{folder / "whole", 1005};
+    const TakeReader light = simulate("light", {asleep, "shot.gravity=[0, -3, 0]"}, branch);
+    EXPECT_EQ(light.frames().size(), 9u);
+    EXPECT_NE(refusalOf({}, branch).find("its bodies begin elsewhere"), std::string::npos);
+}
+
 TEST_F(BranchTest, TakesThatDifferInTheSignOfAZeroDiffer)
 {
     const TakeReader whole = simulate("whole", {});

@@ -332,9 +332,12 @@ TEST_F(TakeTest, OverwritingTakesPicturesAndCachesOfTheOldTakeWithIt)
     // In a folder that holds no take they are somebody else's.
     for (const char* name : {"images", "exports"}) fs::create_directories(folder / "take" / name);
     writeFileBytes(folder / "take/images/holiday.png", "mine");
-    open(ExistingTake::overwrite, shot);
+    EXPECT_THROW(open(ExistingTake::overwrite, shot), Error);
     EXPECT_TRUE(fs::exists(folder / "take/images/holiday.png"));
+    fs::remove(folder / "take/images/holiday.png");
 
+    open(ExistingTake::overwrite, shot);
+    writeFileBytes(folder / "take/images/ours.png", "made from it");
     writeFileBytes(folder / "take/exports/old.abc", "old");
     open(ExistingTake::overwrite, shot);
     EXPECT_FALSE(fs::exists(folder / "take/images"));

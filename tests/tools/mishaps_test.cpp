@@ -173,12 +173,54 @@ TEST_F(MishapsTest, InfoSaysWhoIsFastestInTheLastFrame)
     EXPECT_EQ(fastest[0].at("body"), "fast");
     EXPECT_EQ(fastest[1].at("body"), "slow");
     EXPECT_NEAR(fastest[0].at("speed_m_per_s"), std::hypot(9.0, 9.81 * 4.0 / 24.0), 1e-3);
-    EXPECT_NE(runScree({"info", path}).out.find("fastest    fast at 9.15 m/s, slow at 1.6"),
-              std::string::npos);
+    EXPECT_NE(
+        runScree({"info", path}).out.find("fastest    fast at 9.15 m/s, 0 degrees/s; slow at 1.6"),
+        std::string::npos);
+
+    // Who only spins keeps a heap awake too, and was not named.
+    const std::string spinning =
+        test::bodyText("top", "position = [8, 20, 0]\nspin = [0, 2000, 0]") + two;
+    const nlohmann::json spinner = info(take("spin", "1001-1002", spinning)).at("last_fastest")[0];
+    EXPECT_EQ(spinner.at("body"), "top");
+    EXPECT_NEAR(spinner.at("spin_degrees_per_s"), 2000.0, 1.0);
 
     const std::string still = take("still", "1001-1060", driven);
     EXPECT_TRUE(info(still).at("last_fastest").empty());
     EXPECT_EQ(runScree({"info", still}).out.find("fastest"), std::string::npos);
+}
+
+// A take began beside somebody's pictures, and when it was replaced they went with it.
+TEST_F(MishapsTest, ATakeDoesNotBeginWherePicturesLieThatAreNotItsOwn)
+{
+    fs::create_directories(folder / "work/images");
+    std::ofstream(folder / "work/images/mine.png") << "mine";
+    std::ofstream(folder / "work/notes.txt") << "mine too";
+    const Outcome refused = runScree({"sim", shot("t"), "-o", file("work")});
+    EXPECT_EQ(refused.code, 73);
+    EXPECT_TRUE(says(refused, "images\" is not made from a take: move it away")) << refused.err;
+    EXPECT_TRUE(fs::exists(folder / "work/images/mine.png"));
+    fs::remove(folder / "work/images/mine.png");
+    EXPECT_EQ(runScree({"sim", shot("t"), "-o", file("work"), "-q"}).code, 0);
+    EXPECT_EQ(runScree({"sim", shot("t"), "-o", file("work"), "-q", "--overwrite"}).code, 0);
+    EXPECT_TRUE(fs::exists(folder / "work/notes.txt"));
+}
+
+// The first frame beyond the limit was told, and not that later ones were three times as deep.
+TEST_F(MishapsTest, ARunEndsWithTheWorstOverlapBeyondTheWarning)
+{
+    const std::string two = test::bodyText("low", "position = [3, 0.5, 0]") +
+                            test::bodyText("high", "position = [3.2, 1.35, 0.1]");
+    const Outcome outcome = runScree({"sim", shot("t", "1001-1006", two), "-o", file("t"), "--set",
+                                      "start.overlap=\"warn\"", "--set", "solver.push_out=false",
+                                      "--set", "solver.penetration.warn=0.02"});
+    EXPECT_EQ(outcome.code, 79) << outcome.err;
+    const Outcome mild =
+        runScree({"sim", shot("m", "1001-1006", two), "-o", file("m"), "--set",
+                  "start.overlap=\"warn\"", "--set", "solver.push_out=false", "--set",
+                  "solver.penetration.warn=0.02", "--set", "solver.penetration.fail=0.9"});
+    EXPECT_EQ(mild.code, 0) << mild.err;
+    EXPECT_TRUE(says(mild, " frames overlap by more than penetration.warn = 2 %; worst: "))
+        << mild.err;
 }
 
 TEST_F(MishapsTest, NothingIsWrittenOverTheFilesOfATake)

@@ -85,6 +85,11 @@ void strictBilliards(const Context& context, Findings& findings)
     run.advance(2.0, 240.0);
     findings.near(must, "strict, E3 frictionless: last ball", run.motion("ball_4").velocity.x(),
                   20.0, 1e-9, "m/s");
+    double others = 0.0;
+    for (const std::string ball : {"cue", "ball_0", "ball_1", "ball_2", "ball_3"})
+        others = larger(others, run.motion(ball).velocity.norm());
+    findings.atMost(departure, "strict, E3 frictionless: fastest of the others", others, 1e-9,
+                    "m/s", "of balls that touch; a centimetre apart they stop");
 }
 
 void strictStack(const Context& context, Findings& findings)
