@@ -177,10 +177,17 @@ void moveByTheMean(World& world, const StepSettings& settings, double dt, GapScr
         const GapIsland& island = scratch.islands[i];
         if (!lasts(world, dt, scratch, island)) return;
         if (carriesAny(scratch, island, [](const GapRow& row) { return row.swings; })) return;
-        const bool begins =
-            !isHeap(settings, island) && carriesAny(scratch, island, [&](const GapRow& row) {
-                return beginsToSwing(world, scratch, row);
+        const bool mayBegin =
+            !isHeap(settings, island) && std::ranges::all_of(island.movers, [&](BodyId mover) {
+                return scratch.bodies[mover].isStopped;
             });
+        if (mayBegin && carriesAny(scratch, island, [&](const GapRow& row) {
+                return beginsToSwing(world, scratch, row);
+            })) {
+            for (const BodyId mover : island.movers)
+                endInTheMiddle(scratch.bodies[mover], world.motion[mover]);
+            return;
+        }
         for (const std::size_t p : island.pairs) {
             for (const GapRow& row : scratch.rowsOf(scratch.pairs[p])) {
                 if (!row.carries()) continue;
@@ -190,13 +197,9 @@ void moveByTheMean(World& world, const StepSettings& settings, double dt, GapScr
         }
         for (const BodyId mover : island.movers) {
             GapBody& body = scratch.bodies[mover];
-            if (begins && body.isStopped) {
-                endInTheMiddle(body, world.motion[mover]);
-            } else {
-                const MeanMotion mean(body, dt);
-                body.shift += mean.shift;
-                body.turn += mean.turn;
-            }
+            const MeanMotion mean(body, dt);
+            body.shift += mean.shift;
+            body.turn += mean.turn;
         }
     });
 }
