@@ -94,6 +94,8 @@ public:
           startSeconds_(file.countsFramesFromZero ? shot.firstFrame / shot.framesPerSecond : 0.0)
     {
         if (const ShotNode* scale = node.find("scale")) metres_ *= scale->number;
+        if (const ShotNode* offset = node.find("offset"))
+            startSeconds_ -= offset->number / shot.framesPerSecond;
         worldFromFile_.position *= shot.metresPerUnit;
         worldFromFile_ = worldFromFile_ * uprightFromFile(shot, file);
     }
@@ -300,8 +302,10 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     const bool isKeyed = motion.text == "keyed";
     const ShotNode* interpolate = node.find("interpolate");
     if (isKeyed) requireMotion(motion, file, isChosen, problems);
-    if (interpolate && !isKeyed && !node.isUnclear("motion")) {
-        problems.add(interpolate->where, "'interpolate' is for imports with motion = \"keyed\"");
+    for (const std::string key : {"interpolate", "keyed_from", "release", "offset"}) {
+        const ShotNode* stray = node.find(key);
+        if (stray && !isKeyed && !node.isUnclear("motion"))
+            problems.add(stray->where, "'" + key + "' is for imports with motion = \"keyed\"");
     }
     requireBodies(node, file, path, isChosen, problems);
     warnOfLosses(node, file, isChosen, isKeyed, problems);

@@ -217,6 +217,7 @@ private:
                 report(*velocity, "only dynamic bodies have a 'velocity'");
             }
         }
+        if (body.kind == BodyKind::keyed) readFreeTimes(node, shot_, body, problems_);
         readSleep(node, body);
         return problems_.count() == problemsBefore;
     }

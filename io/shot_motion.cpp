@@ -170,6 +170,16 @@ private:
 
 }  // namespace
 
+void readFreeTimes(const ShotNode& node, const Shot& shot, ShotBody& body, ProblemList& problems)
+{
+    if (const ShotNode* start = node.find("keyed_from")) {
+        readTakeOver(*start, shot, body, problems);
+    }
+    if (const ShotNode* release = node.find("release")) {
+        readRelease(*release, shot, body, problems);
+    }
+}
+
 void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, ProblemList& problems)
 {
     if (body.kind != BodyKind::keyed) {
@@ -186,12 +196,7 @@ void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, Pro
         body.interpolation =
             word->text == "linear" ? KeyInterpolation::linear : KeyInterpolation::smooth;
     }
-    if (const ShotNode* start = node.find("keyed_from")) {
-        readTakeOver(*start, shot, body, problems);
-    }
-    if (const ShotNode* release = node.find("release")) {
-        readRelease(*release, shot, body, problems);
-    }
+    readFreeTimes(node, shot, body, problems);
     const ShotNode* keys = node.find("keys");
     if (!keys || keys->items.empty()) {
         if (keys || !node.mentions("keys")) {

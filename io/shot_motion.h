@@ -15,6 +15,10 @@ namespace scree {
 /// The shot's frames and units must be known.
 void readKeyedMotion(const ShotNode& node, const Shot& shot, ShotBody& body, ProblemList& problems);
 
+/// Reads `keyed_from` and `release` of a keyed [[body]], or of all bodies of an [[import]]: when
+/// they are not.
+void readFreeTimes(const ShotNode& node, const Shot& shot, ShotBody& body, ProblemList& problems);
+
 /// Reads `force` and `torque` of a [[body]].
 void readBodyForces(const ShotNode& node, ShotBody& body, ProblemList& problems);
 

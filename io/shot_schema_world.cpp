@@ -343,6 +343,26 @@ const std::vector<ShotKey> kImportKeys = {
              "key, shows what other programs show between samples; \"smooth\" has no jumps of "
              "speed, for motion that carries bodies, and goes its own way between the file's keys: "
              "what hangs on a node that turns needs one every few degrees."},
+    {.path = "import.offset",
+     .unit = "frames",
+     .min = -1000000000,
+     .max = 1000000000,
+     .help = "How much later than in the file keyed motion comes; negative: sooner. A shot that "
+             "begins ten frames earlier, for a heap to settle, has its animation 10 later. A "
+             "camera of the same file takes the same key in its [[camera]]."},
+    {.path = "import.keyed_from",
+     .type = integer,
+     .unit = "frame",
+     .min = -1000000000,
+     .max = 1000000000,
+     .help = "As body.keyed_from, of all bodies of a keyed import."},
+    {.path = "import.release",
+     .type = integer,
+     .unit = "frame",
+     .min = -1000000000,
+     .max = 1000000000,
+     .help = "As body.release, of all bodies of a keyed import: pieces that are animated first "
+             "and fly on from there."},
     {.path = "import.start",
      .type = word,
      .byDefault = "\"awake\"",

@@ -350,22 +350,24 @@ private:
     /// how the first one overlaps is for start.overlap to judge.
     bool judgeOverlap()
     {
-        const std::string failed = framesBeyond("penetration.fail", shot_.penetrationFail);
-        const std::string warned = framesBeyond("penetration.warn", shot_.penetrationWarn);
+        const std::string failed = framesBeyond("penetration.fail", shot_.penetrationFail, 1);
+        // The first has been told.
+        const std::string warned = framesBeyond("penetration.warn", shot_.penetrationWarn, 2);
         if (failed.empty() && !warned.empty()) console_.warning(warned);
         if (!failed.empty()) console_.error(failed);
         return failed.empty();
     }
 
-    /// What to say of frames that overlap by more than a limit, the worst first; empty: none do.
-    std::string framesBeyond(const std::string& name, double limit)
+    /// What to say of frames that overlap by more than a limit, the worst first; empty: fewer than
+    /// `least` do.
+    std::string framesBeyond(const std::string& name, double limit, std::size_t least)
     {
         std::vector<FrameSummary> broken;
         for (const FrameSummary& frame : take_->summaries())
             if (frame.frame > shot_.firstFrame && frame.frame <= lastFrame_ &&
                 frame.overlapRatio > limit)
                 broken.push_back(frame);
-        if (broken.empty()) return "";
+        if (broken.size() < least) return "";
         std::stable_sort(broken.begin(), broken.end(), [](const auto& a, const auto& b) {
             return a.overlapRatio > b.overlapRatio;
         });

@@ -87,6 +87,40 @@ TEST_P(KeyedImport, BodiesStandAtEveryFrameWhereTheFileHasThem)
     }
 }
 
+// With ten frames of pre-roll the animation began ten frames too soon, and nothing could be said
+// against it; and what was animated could not be let go of.
+TEST_P(KeyedImport, ItsMotionMayComeLaterAndEnd)
+{
+    const test::TemporaryFolder folder;
+    writeAsset(folder / GetParam());
+    const Shot shot = parseShotText(
+        shotText(folder / GetParam(), "mover", "offset = 2.5\nrelease = 1004\n"), "s.toml");
+    ASSERT_EQ(shot.bodies.size(), 1u);
+    EXPECT_EQ(shot.bodies[0].releaseFrame, 1004);
+    EXPECT_FALSE(shot.bodies[0].isNeverFree());
+    const MotionScript script(shot.bodies[0].keys, shot.bodies[0].interpolation);
+    for (int i = 0; i < kFrames; ++i) {
+        const Pose then = script.at((i + 2.5) / shot.framesPerSecond);
+        EXPECT_LT((then.position - moverAt(i).position).norm(), 1e-5) << i;
+    }
+    EXPECT_EQ(test::messageOfShot(shotText(folder / GetParam(), "mover", "release = 1001\n")),
+              "s.toml:11:11: 'release' must be a frame after the first, 1001; a body that is free "
+              "from the beginning has motion = \"dynamic\"");
+}
+
+TEST(KeyedImports, WhatOnlyKeyedMotionHasIsRefusedWithoutIt)
+{
+    const test::TemporaryFolder folder;
+    writeAsset(folder / "a.glb");
+    std::string text = shotText(folder / "a.glb", "mover", "release = 1004\noffset = 3\n");
+    text.replace(text.find("keyed"), 5, "dynamic");
+    const std::string message = test::messageOfShot(text);
+    for (const std::string key : {"release", "offset"})
+        EXPECT_NE(message.find("'" + key + "' is for imports with motion = \"keyed\""),
+                  std::string::npos)
+            << message;
+}
+
 TEST_P(KeyedImport, AFileThatMovesNothingIsRefused)
 {
     const test::TemporaryFolder folder;

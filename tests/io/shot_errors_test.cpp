@@ -542,11 +542,12 @@ TEST(ShotErrors, BadOverridesNameTheirOwnText)
     EXPECT_EQ(message("solver.substeps.max="),
               "--set solver.substeps.max=: 'solver.substeps.max' must be a whole number from 1 to "
               "100000, not nothing");
-    EXPECT_EQ(message("body.b=3"),
-              "--set body.b=3: 'b' is a whole [body]; name one of its keys: name, shape, plane, "
-              "material, motion, position, rotation, orientation, velocity, spin, mass, grid, "
-              "poses, force, torque, group, collides, unmoved_by, start, keys, interpolate, "
-              "release, keyed_from");
+    EXPECT_EQ(
+        message("body.b=3"),
+        "--set body.b=3: 'b' is a whole [body]; name one of its keys: name, shape, plane, "
+        "material, motion, position, rotation, orientation, velocity, spin, mass, grid, "
+        "poses, force, torque, group, collides, unmoved_by, start, visible, keys, interpolate, "
+        "release, keyed_from");
     EXPECT_EQ(message("shot.fps.x=1"), "--set shot.fps.x=1: 'fps' has no keys of its own");
     EXPECT_EQ(message("shot.frames=end"),
               "--set shot.frames=end: 'frames' must be \"FIRST-LAST\", for example "
