@@ -92,12 +92,24 @@ std::vector<int> chunkOf(const std::vector<int>& frames, const std::string& text
             frames.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
-/// A picture older than its frame shows something that is gone.
-bool isUpToDate(const fs::path& picture, const fs::path& frame)
+/// How a picture is drawn, as it says itself.
+constexpr const char* kDrawnAs = "Drawn as";
+
+/// A picture older than its frame shows something that is gone, and one that was drawn otherwise
+/// something else: those of one camera stayed where another's were asked for.
+bool isUpToDate(const fs::path& picture, const fs::path& frame, const std::string& drawnAs)
 {
     std::error_code code;
-    return fs::exists(picture, code) &&
-           fs::last_write_time(picture, code) >= fs::last_write_time(frame, code) && !code;
+    if (!fs::exists(picture, code) ||
+        fs::last_write_time(picture, code) < fs::last_write_time(frame, code) || code)
+        return false;
+    try {
+        const PngText text = readPng(picture).text;
+        return std::ranges::find(text, std::pair<std::string, std::string>(kDrawnAs, drawnAs)) !=
+               text.end();
+    } catch (const Error&) {
+        return false;  // no whole picture
+    }
 }
 
 PaintSettings paintSettings(const RenderOptions& options, const TakeInfo& info)
@@ -183,11 +195,24 @@ private:
     {
         const fs::path picture =
             hasFramePattern(pattern_) ? expandFramePattern(pattern_, frame) : pattern_;
-        if (options_.skipExisting && isUpToDate(picture, take_.paths().frame(frame))) return;
+        if (options_.skipExisting && isUpToDate(picture, take_.paths().frame(frame), drawnAs()))
+            return;
         const std::string text = hasBurnIn_
                                      ? burnInText(take_, frame, painter.bodyCountAt(frame), stats_)
                                      : std::string();
-        writePng(picture, painter.paint(frame, text), originText(take_, frame, stats_));
+        PngText origin = originText(take_, frame, stats_);
+        origin.emplace_back(kDrawnAs, drawnAs());
+        writePng(picture, painter.paint(frame, text), origin);
+    }
+
+    std::string drawnAs() const
+    {
+        return "camera \"" + options_.camera + "\", look " + options_.look + ", " +
+               options_.engine + ", " + std::to_string(options_.samples.value_or(0)) +
+               " samples, blur " +
+               std::to_string(options_.motionBlur.value_or(take_.info().motionBlur)) + ", " +
+               std::to_string(size_[0]) + "x" + std::to_string(size_[1]) +
+               (hasBurnIn_ ? ", burned in" : "");
     }
 
     const RenderOptions& options_;
@@ -216,7 +241,7 @@ Command addRenderCommand(CLI::App& program)
     command->add_option("--size", options->size, "WIDTHxHEIGHT [of the shot]");
     command->add_option("--threads", options->threads, "Number of threads [all]");
     command->add_flag("--skip-existing", options->skipExisting,
-                      "Leave pictures that are newer than their frame");
+                      "Leave pictures that are newer than their frame and were drawn as these are");
     command->add_option("--chunk", options->chunk,
                         "I/N: the I-th of N runs of frames, for N machines of a farm");
     command->add_option("--engine", options->engine, "osmesa, or embree: ray-traced [osmesa]")

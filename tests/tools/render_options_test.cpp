@@ -140,15 +140,26 @@ TEST_F(RenderOptions, SkipExistingDrawsWhatIsMissingOrOlderThanItsFrame)
 {
     ASSERT_EQ(render("--frames 1001-1003").exitCode, 0);
     const fs::path kept = pictures / "p.1001.png", old = pictures / "p.1002.png";
-    std::ofstream(kept) << "kept";
+    const auto drawn = fs::last_write_time(kept) - std::chrono::milliseconds(1);
+    fs::last_write_time(kept, drawn);
     std::ofstream(old) << "old";
     const auto simulated = fs::last_write_time(TakePaths{take()}.frame(1002));
     fs::last_write_time(old, simulated - std::chrono::seconds(1));
     fs::remove(pictures / "p.1003.png");
     ASSERT_EQ(render("--frames 1001-1003 --skip-existing").exitCode, 0);
-    EXPECT_EQ(readFileBytes(kept), "kept");
+    EXPECT_EQ(fs::last_write_time(kept), drawn);
     EXPECT_NE(readFileBytes(old), "old");
     EXPECT_TRUE(fs::exists(pictures / "p.1003.png"));
+
+    // Pictures of one camera and size stayed where those of another were asked for.
+    for (const std::string other :
+         {"--camera pan", "--look speed", "--burnin"}) {
+        ASSERT_EQ(render("--frames 1001 --skip-existing " + other).exitCode, 0);
+        EXPECT_NE(fs::last_write_time(kept), drawn) << other;
+        fs::last_write_time(kept, drawn);
+        ASSERT_EQ(render("--frames 1001 --skip-existing " + other).exitCode, 0);
+        EXPECT_EQ(fs::last_write_time(kept), drawn) << other;
+    }
 }
 
 TEST_F(RenderOptions, ACameraIsChosenByNameAndAKeyedOneMoves)
