@@ -107,6 +107,12 @@ public:
         wB_ = spinOf(pair.bodies.b);
     }
 
+    /// Of rows that know already where their places will be.
+    void noteSwings()
+    {
+        for (GapRow& row : scratch_.rowsOf(pair_)) row.swings = isShown(row);
+    }
+
     void hold()
     {
         const std::vector<GapContact>& contacts = scratch_.contactsOf(pair_);
@@ -134,14 +140,19 @@ private:
     {
         // In a hollow of facets it goes straight on each, and round all the same.
         const bool isHollow = !shapeA().hollows.isEmpty() || !shapeB().hollows.isEmpty();
-        row.swings = isHollow || showsSpin(world_, scratch_, row, row.a, wA_) ||
-                     showsSpin(world_, scratch_, row, row.b, wB_);
+        row.swings = isHollow || isShown(row);
         const RememberedContact* before = asBefore(now);
         if (!row.swings || !before) return;
         const Run ran = runSince(*before, now);
         if (isElsewhere(row, ran)) return;
         row.turning = ran.turning;
         row.target += std::max(ran.turning.dot(row.normal), 0.0);
+    }
+
+    bool isShown(const GapRow& row) const
+    {
+        return showsSpin(world_, scratch_, row, row.a, wA_) ||
+               showsSpin(world_, scratch_, row, row.b, wB_);
     }
 
     /// How a place has run on.
@@ -216,7 +227,12 @@ void holdSwings(const World& world, const StepSettings& settings, double dt,
         if (isHeap(settings, island)) return;
         for (const std::size_t p : island.pairs) {
             const GapPair& pair = scratch.pairs[p];
-            if (pair.isCarried && !isLed(pair)) SwingingPair(world, dt, pair, scratch).hold();
+            if (!pair.isCarried) continue;
+            SwingingPair swinging(world, dt, pair, scratch);
+            if (isLed(pair))
+                swinging.noteSwings();
+            else
+                swinging.hold();
         }
     });
 }
