@@ -215,7 +215,7 @@ void resizePicture(PictureTarget& target, int width, int height, int pointsPerEd
     setSampling();
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.pointColors,
                            0);
-    attachBuffer(target.pointDepths, GL_DEPTH_COMPONENT32, GL_DEPTH_ATTACHMENT, pointWidth,
+    attachBuffer(target.pointDepths, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT, pointWidth,
                  pointHeight);
     requireComplete("a picture");
     glBindFramebuffer(GL_FRAMEBUFFER, target.pixels);
