@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tools/verify/experiments.h"
+#include "tools/verify/pose_judge.h"
 #include "tools/verify/shot_run.h"
 
 namespace scree::verify {
@@ -12,9 +13,10 @@ using enum Weight;
 void runEdgeAgainstEdge(const Context& context, Findings& findings)
 {
     ShotRun run(context, "E23_beams");
+    const PoseJudge judge(run.describe());
     double deepest = 0.0;
-    run.advanceFrames(48, [&](const FrameReport& report) {
-        deepest = larger(deepest, report.sum.deepestAfterPushOut);
+    run.advanceFrames(48, {}, [&](const World&, double) {
+        deepest = larger(deepest, judge.deepestOverlap(run.capture()));
     });
     const BodyMotion& upper = run.motion("upper");
     findings.atMost(must, "overlap in any step", deepest, 1e-3, "m", "the beams are 1 m long");

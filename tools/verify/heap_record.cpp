@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::array<int, 2> kPictureSize = {960, 540};
 
-constexpr double kPlaneHalfWidth = 50.0;  // of the quad that stands for a plane [m]
-
 FrameFigures figuresOf(const FrameSummary& summary)
 {
     const nlohmann::json line = nlohmann::json::parse(summary.line);
@@ -75,12 +73,12 @@ HeapRecord readTake(const std::filesystem::path& folder)
 HeapRecord recordRun(ShotRun& run, int frames)
 {
     HeapRecord record;
-    record.scene = describeScene(run.shot, run.world, kPlaneHalfWidth);
+    record.scene = run.describe();
     record.framesOfShot = frames + 1;
-    record.frames.push_back(captureFrame(run.shot, run.world));
+    record.frames.push_back(run.capture());
     record.figures.emplace_back();
     run.advanceFrames(frames, [&](const FrameReport& report) {
-        record.frames.push_back(captureFrame(run.shot, run.world));
+        record.frames.push_back(run.capture());
         record.figures.push_back({report.steps, 0.0, 0.0, report.kineticEnergy,
                                   report.potentialEnergy, report.sum.pushOutWork});
     });

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/geometry/mesh_edges.h"
 #include "core/geometry/surface_rays.h"
 #include "core/geometry/triangle_distance.h"
 #include "core/geometry/winding_number.h"
@@ -47,6 +48,53 @@ std::vector<Vec3> sampleFaces(const TriMesh& mesh, double spacing)
     return samples;
 }
 
+/// The largest value between two places of a function with one peak there, by golden sections.
+template <class Function>
+double highest(const Function& at, double low, double high)
+{
+    constexpr double kGolden = 0.6180339887498949;
+    double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+    double leftValue = at(left), rightValue = at(right);
+    for (int i = 0; i < 20; ++i) {
+        if (leftValue < rightValue) {
+            low = left;
+            left = right;
+            leftValue = rightValue;
+            right = low + kGolden * (high - low);
+            rightValue = at(right);
+        } else {
+            high = right;
+            right = left;
+            rightValue = leftValue;
+            left = high - kGolden * (high - low);
+            leftValue = at(left);
+        }
+    }
+    return std::max(leftValue, rightValue);
+}
+
+struct Segment {
+    Vec3 a, b;
+};
+
+/// Edges at which the surface bends: those across a flat face are sampled with it.
+std::vector<Segment> bentEdges(const TriMesh& mesh)
+{
+    constexpr double kBend = 1e-6;  // sine of an angle
+    std::vector<Segment> edges;
+    MeshEdges(mesh).forEach([&](std::span<const TriangleSide> sides) {
+        const auto normal = [&](const TriangleSide& side) {
+            return cornersOf(mesh, side.triangle).normal().normalized();
+        };
+        const bool isBent =
+            sides.size() != 2 || normal(sides[0]).cross(normal(sides[1])).norm() > kBend ||
+            normal(sides[0]).dot(normal(sides[1])) < 0.0;
+        if (!isBent) return;
+        edges.push_back({mesh.points.col(sides[0].low), mesh.points.col(sides[0].high)});
+    });
+    return edges;
+}
+
 }  // namespace
 
 struct PoseJudge::Solid {
@@ -60,7 +108,9 @@ struct PoseJudge::Solid {
             radius = std::max(radius, (Vec3(mesh.points.col(v)) - centre).norm());
         }
         if (isGround) return;
-        samples = sampleFaces(mesh, kSampleSpacing * box.longestEdge());
+        spacing = kSampleSpacing * box.longestEdge();
+        samples = sampleFaces(mesh, spacing);
+        edges = bentEdges(mesh);
         rays = SurfaceRays(mesh);
         winding = std::make_unique<WindingNumber>(mesh);
         measureCells();
@@ -98,29 +148,64 @@ struct PoseJudge::Solid {
         });
     }
 
+    /// A point is no deeper than this, which is negative for what is farther outside.
+    double depthBound(const Vec3& p) const
+    {
+        std::size_t index = 0;
+        for (int k = 2; k >= 0; --k) {
+            const double place = std::clamp((p[k] - box.min[k]) / cell, 0.0, counts[k] - 0.5);
+            index = index * counts[k] + static_cast<std::size_t>(place);
+        }
+        // A little for rounding.
+        return 1.001 * (p - centreOfCell(index)).norm() - distances[index];
+    }
+
     /// Depth of a point of the artist's frame, if it is more than `least`; else 0.
     double depthAt(const Vec3& p, double least = 0.0) const
     {
         if (isGround) return std::max(0.0, centre.y() - p.y());
-        std::size_t index = 0;
-        for (int k = 2; k >= 0; --k) {
-            const double place = (p[k] - box.min[k]) / cell;
-            if (!(place >= 0.0 && place < counts[k])) return 0.0;
-            index = index * counts[k] + static_cast<std::size_t>(place);
-        }
-        // A little for rounding.
-        const double away = 1.001 * (p - centreOfCell(index)).norm();
-        if (away - distances[index] <= least) return 0.0;
+        if (depthBound(p) <= least) return 0.0;
         const double depth = -signedDistance(p);
         return depth > least ? depth : 0.0;
+    }
+
+    /// The same of the deepest point of a segment of the artist's frame. Two edges that cross meet
+    /// at points, which samples miss: between those of a segment the deepest place is searched
+    /// for, which is one, where what it lies in is convex.
+    double depthOn(const Segment& segment, double least, double apart) const
+    {
+        if (isGround) return 0.0;  // its ends are the deepest, and are samples
+        const Vec3 way = segment.b - segment.a;
+        const double length = way.norm();
+        if (depthBound(segment.a + 0.5 * way) + 0.5 * length <= least) return 0.0;
+        const auto at = [&](double s) { return -signedDistance(segment.a + s * way); };
+        const int parts = std::max(2, static_cast<int>(std::ceil(length / apart)));
+        const double part = 1.0 / parts;
+        const double flat = 1e-7 * part * length;  // what lies on a face has no peak
+        double before = at(0.0), here = before, deepest = std::max(least, here);
+        for (int i = 0; i <= parts; ++i) {
+            const double after = i < parts ? at((i + 1) * part) : here;
+            const bool isPeak = here >= before && here >= after &&
+                                here - std::min(before, after) > flat;
+            if (isPeak && here + part * length > deepest) {
+                const double low = std::max(0.0, (i - 1) * part);
+                const double high = std::min(1.0, (i + 1) * part);
+                deepest = std::max(deepest, highest(at, low, high));
+            }
+            before = here;
+            here = after;
+        }
+        return deepest > least ? deepest : 0.0;
     }
 
     TriMesh mesh;
     Aabb box;
     Vec3 centre;
     bool isGround;
-    double radius = 0.0;  // around centre
+    double radius = 0.0;   // around centre
+    double spacing = 0.0;  // of samples, at most [m]
     std::vector<Vec3> samples;
+    std::vector<Segment> edges;
     SurfaceRays rays;
     std::unique_ptr<WindingNumber> winding;
     double cell = 0.0;
@@ -157,6 +242,10 @@ double PoseJudge::deepest(const SceneFrame& frame, std::size_t a, std::size_t b)
         for (const Vec3& p : solidOf(from).samples) {
             depth = std::max(depth, solidOf(to).depthAt(relative * p, depth));
         }
+        for (const auto& [p, q] : solidOf(from).edges) {
+            depth = std::max(depth, solidOf(to).depthOn({relative * p, relative * q}, depth,
+                                                        solidOf(from).spacing));
+        }
         return depth;
     };
     return std::max(into(a, b), into(b, a));
@@ -178,6 +267,13 @@ std::vector<Overlap> PoseJudge::overlaps(const SceneFrame& frame) const
     });
     std::erase_if(pairs, [](const Overlap& pair) { return pair.depth == 0.0; });
     return pairs;
+}
+
+double PoseJudge::deepestOverlap(const SceneFrame& frame) const
+{
+    double deepest = 0.0;
+    for (const Overlap& pair : overlaps(frame)) deepest = std::max(deepest, pair.depth);
+    return deepest;
 }
 
 double PoseJudge::depthIn(const SceneFrame& frame, std::size_t body, const Vec3& point) const

@@ -1,6 +1,7 @@
-// A judge of poses that knows nothing of any solver: dense points on the faces of one mesh, and
-// how deep they lie in the other, by the closest of its triangles and, where that is no clear case,
-// by solid angle. It reads what a take or a cache holds: meshes and poses.
+// A judge of poses that knows nothing of any solver: dense points on the faces of one mesh and the
+// deepest of its edges, and how deep they lie in the other, by the closest of its triangles and,
+// where that is no clear case, by solid angle. It reads what a take or a cache holds: meshes and
+// poses.
 #pragma once
 
 #include <memory>
@@ -24,6 +25,9 @@ public:
     /// All pairs that overlap in a frame, in the order of their bodies. Pairs of bodies that
     /// neither move are left out. A mesh of two triangles is the ground below it.
     std::vector<Overlap> overlaps(const SceneFrame& frame) const;
+
+    /// The depth of the deepest of them [m].
+    double deepestOverlap(const SceneFrame& frame) const;
 
     /// How deep a point of the world lies in a body; 0 outside.
     double depthIn(const SceneFrame& frame, std::size_t body, const Vec3& point) const;

@@ -81,15 +81,26 @@ void ShotRun::advance(double seconds, double stepsPerSecond,
     }
 }
 
-void ShotRun::advanceFrames(int count, const std::function<void(const FrameReport&)>& look)
+void ShotRun::advanceFrames(int count, const std::function<void(const FrameReport&)>& look,
+                            const std::function<void(const World&, double)>& lookAtStep)
 {
     for (int frame = 0; frame < count; ++frame) {
         const FrameReport report =
-            stepper.advanceFrame(world, 1.0 / shot.framesPerSecond, stopRequested);
+            stepper.advanceFrame(world, 1.0 / shot.framesPerSecond, stopRequested, lookAtStep);
         heedStop(kOutcomeOfStop);
         refuseNonFinite(world, report.sum);
         if (look) look(report);
     }
+}
+
+SceneDescription ShotRun::describe() const
+{
+    return describeScene(shot, world, kPlaneHalfWidth);
+}
+
+SceneFrame ShotRun::capture() const
+{
+    return captureFrame(shot, world);
 }
 
 BodyId ShotRun::body(const std::string& name) const
@@ -160,14 +171,14 @@ void addPicture(const Context& context, const ShotRun& run, const std::string& c
                 Findings& findings, bool isWireframe)
 {
     if (!context.wantsPictures) return;
-    const SceneDescription scene = describeScene(run.shot, run.world, kPlaneHalfWidth);
+    const SceneDescription scene = run.describe();
     const SceneCamera& from = run.shot.cameras.at(0);
     const Camera camera{from.eye, from.target, upOf(from, run.shot.zUp), from.fovDegrees};
     RasterSettings settings;
     settings.wireframe = isWireframe;
     Rasterizer rasterizer(scene, looksOf(run.shot, scene), settings);
     const Image image =
-        rasterizer.draw(captureFrame(run.shot, run.world), camera, kPictureWidth, kPictureHeight);
+        rasterizer.draw(run.capture(), camera, kPictureWidth, kPictureHeight);
     findings.pictures.push_back({caption, encodePng(image)});
 }
 

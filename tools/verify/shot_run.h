@@ -7,6 +7,7 @@
 
 #include "core/dynamics/step_figures.h"
 #include "core/dynamics/stepper.h"
+#include "core/picture/scene_description.h"
 #include "core/scene/world.h"
 #include "io/shot.h"
 #include "tools/verify/experiment.h"
@@ -27,8 +28,14 @@ public:
     void advance(double seconds, double stepsPerSecond,
                  const std::function<void(const StepReport&, double)>& look = {});
 
-    /// A whole number of frames with the steps that the shot's settings choose.
-    void advanceFrames(int count, const std::function<void(const FrameReport&)>& look = {});
+    /// A whole number of frames with the steps that the shot's settings choose; `lookAtStep` after
+    /// each step, with the time since its frame began [s].
+    void advanceFrames(int count, const std::function<void(const FrameReport&)>& look = {},
+                       const std::function<void(const World&, double)>& lookAtStep = {});
+
+    /// The scene, and where it is now, as takes and pictures hold them.
+    SceneDescription describe() const;
+    SceneFrame capture() const;
 
     /// The body of that name. Throws Error{internal} when the shot has none.
     BodyId body(const std::string& name) const;
