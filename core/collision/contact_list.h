@@ -30,9 +30,10 @@ struct ToWorld {
 /// What a pair touches with so far, and what lies inside without being a contact.
 class ContactList {
 public:
-    /// Appends to `contacts` what is nearer than `reach` [m]. `smaller`: bounding radius of the
-    /// smaller body [m]; `isRound`: one of the bodies is, somewhere.
-    ContactList(std::vector<GapContact>& contacts, double smaller, double reach, bool isRound);
+    /// Appends to `contacts` what is nearer than `reach`. `smaller`: bounding radius of the smaller
+    /// body; `bulge`: how far facets lie below the round surfaces that they stand for, at most; 0
+    /// where no body is round [m].
+    ContactList(std::vector<GapContact>& contacts, double smaller, double reach, double bulge);
 
     /// What a pair of parts has found, or what they stand for. Answers whether that is where they
     /// touch.
@@ -58,10 +59,12 @@ private:
     /// The first that says the same; the count of all if none does.
     std::size_t knownAs(const GapContact& contact);
 
+    /// Whether round surfaces touch where `known` is and part from there to `contact`.
+    bool speaksFor(const GapContact& known, const GapContact& contact) const;
+
     std::vector<GapContact>& contacts_;
     std::size_t first_;
-    double samePlace_, sharpness_, reach_;
-    bool isRound_;
+    double smaller_, samePlace_, sharpness_, reach_, bulge_;
     std::optional<GapContact> unsupported_;
     std::optional<PlaceGrid> grid_;      // of contacts, in their order, as far as asked for
     std::vector<GapContact> elsewhere_;  // of round parts that touch at another place, if at all

@@ -257,7 +257,7 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const double smaller = smallerRadius(shapeA, shapeB);
     const double bulge = bulgeOf(pair);
     const std::size_t known = contacts.size();
-    ContactList list(contacts, smaller, reach, bulge > 0.0);
+    ContactList list(contacts, smaller, reach, bulge);
     reach += bulge;
 
     if (shapeA.isBall() || shapeB.isBall()) {

@@ -533,6 +533,32 @@ TEST(RoundContacts, ABarrelRollsAlongRailsAsOnAFloor)
     }
 }
 
+// The rim of either may touch a little past the end of the other, and the end that is nearer by a
+// hair told for both.
+TEST(RoundContacts, LogsThatLieAlongEachOtherTouchAtBothEnds)
+{
+    constexpr double kRadius = 0.2, kLength = 4.0;
+    const auto log = buildMeshShape("log", makeCylinder(kRadius, kLength, 24, 8));
+    const Quat lying = fromEulerXyz({0.5 * kPi, 0.0, 0.0});
+    const Pose below{Vec3(0.0, kRadius, 0.0), lying};
+    for (const double tilt : {1e-8, 1e-6, 1e-4}) {
+        for (std::uint64_t k = 0; k < 100; ++k) {
+            const Vec3 turn = tilt * signedUnits(6, 6 * k),
+                       shift = tilt * signedUnits(6, 6 * k + 3);
+            const Pose above{Vec3(0.0, 3.0 * kRadius, 0.0) + shift, exponentialMap(turn) * lying};
+            double least = kLength, most = -kLength;  // along the upper log
+            for (const GapContact& contact : contactsOf(*log, above, *log, below, 0.02)) {
+                if (contact.gap > 4.0 * tilt * kLength) continue;
+                const double along = contact.rA.dot(above.orientation * Vec3::UnitX());
+                least = std::min(least, along);
+                most = std::max(most, along);
+            }
+            EXPECT_LT(least, -0.48 * kLength) << tilt << " " << k;
+            EXPECT_GT(most, 0.48 * kLength) << tilt << " " << k;
+        }
+    }
+}
+
 TEST(RoundContacts, ABoxWithRoundedEdgesLiesOnItsFlatFaceAndDoesNotRollOffIt)
 {
     const auto box = buildMeshShape("box", roundedBox(0.2));
