@@ -30,16 +30,20 @@ double speedAtTheEnd(World world, BodyId body, bool mayRest, int frames)
     return fastest;
 }
 
-/// A plank balanced on a fixed ball rocks for ever.
-double rockingOfAPlank(bool mayRest, double spin)
+/// A plank balanced on a fixed ball, which is its second body, rocks for ever.
+World plankOnABall(double spin)
 {
     World world;
     const MaterialId material = addMaterial(world, 0.9, 0.0);
     addBody(world, exactSphere(0.5), material, {Vec3::Zero(), Quat::Identity()}, 0.0);
-    const BodyId plank =
-        addBody(world, boxShape({1.0, 0.1, 1.0}, 2), material,
-                {Vec3(0.0, 0.55, 0.0), Quat::Identity()}, 1.0, Vec3::Zero(), Vec3(0.0, 0.0, spin));
-    return speedAtTheEnd(world, plank, mayRest, 240);
+    addBody(world, boxShape({1.0, 0.1, 1.0}, 2), material, {Vec3(0.0, 0.55, 0.0), Quat::Identity()},
+            1.0, Vec3::Zero(), Vec3(0.0, 0.0, spin));
+    return world;
+}
+
+double rockingOfAPlank(bool mayRest, double spin)
+{
+    return speedAtTheEnd(plankOnABall(spin), 1, mayRest, 240);
 }
 
 TEST(Calming, WhatRocksInItsPlaceComesToRestTheWiderTheLaterAndWhatGoesFartherDoesNot)
@@ -49,6 +53,30 @@ TEST(Calming, WhatRocksInItsPlaceComesToRestTheWiderTheLaterAndWhatGoesFartherDo
     EXPECT_GE(rockingOfAPlank(false, 1.0), 0.9);
     EXPECT_LE(rockingOfAPlank(true, 1.0), 0.6);
     EXPECT_GE(rockingOfAPlank(true, 3.0), 2.5);
+}
+
+// At the end of each frame it is where it turns back, and has no motion to be taken.
+TEST(Calming, WhatRocksOnceInTwoFramesComesToRestToo)
+{
+    StepSettings settings = screeSettings();
+    settings.sleep = false;
+    World free = plankOnABall(0.06);
+    Stepper watched(settings);
+    int quarter = 0;  // of its period, in 240ths of a second
+    while (angularVelocityOf(free, 1).z() > 0.0) {
+        watched.advanceFrame(free, 1.0 / 240.0);
+        ASSERT_LE(++quarter, 2400);
+    }
+    settings.sleep = true;
+    World world = plankOnABall(0.06);
+    Stepper stepper(settings);
+    stepper.advanceFrame(world, quarter / 240.0);
+    for (int f = 0; f < 40; ++f) stepper.advanceFrame(world, 2.0 * quarter / 240.0);
+    double fastest = 0.0;
+    stepper.advanceFrame(world, 2.0 * quarter / 240.0, {}, [&](const World& now, double) {
+        fastest = std::max(fastest, angularVelocityOf(now, 1).norm());
+    });
+    EXPECT_EQ(fastest, 0.0);
 }
 
 /// Of a disc that rocks on a fixed ball and spins about its own axis, in the last two seconds of

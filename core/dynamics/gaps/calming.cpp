@@ -1,7 +1,9 @@
 #include "core/dynamics/gaps/calming.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/base/disjoint_sets.h"
 #include "core/dynamics/gaps/stillness.h"
@@ -70,41 +72,55 @@ bool comesBack(const World& world, BodyId body, const Stay& since)
     return way.dot(motion.velocity) + shape.boundingRadius * turn.dot(spin) < 0.0;
 }
 
-void calm(World& world, BodyId body, double acceleration, bool hangs)
+/// Whether a body has stayed for a time, in units of its own.
+bool hasStayed(const World& world, const Stay& stay, double wait, double unit)
 {
-    if (acceleration == 0.0) return;
+    return stay.frames * world.frameDuration >= wait * unit;
+}
+
+/// Whether a body has been where it is for long enough to be calmed in one way or the other.
+bool hasStayedForLong(const World& world, const GapScratch& scratch, BodyId body)
+{
+    const double acceleration = scratch.forces[body].acceleration.norm();
+    if (acceleration == 0.0 || !world.isStepped(body)) return false;
     const BodyRest& rest = world.contactMemory.rest[body];
     const double unit = unitOfTime(world, body, acceleration);
-    const auto hasStayed = [&](const Stay& stay, double wait) {
-        return stay.frames * world.frameDuration >= wait * unit;
-    };
+    return hasStayed(world, rest.nearby, kCalmWait, unit) ||
+           hasStayed(world, rest.around, kLongWait, unit);
+}
+
+/// What it loses in a step.
+void calm(World& world, const GapScratch& scratch, BodyId body, bool hangs, double dt)
+{
+    const BodyRest& rest = world.contactMemory.rest[body];
+    const double unit = unitOfTime(world, body, scratch.forces[body].acceleration.norm());
     BodyMotion& motion = world.motion[body];
     const auto take = [&](double time, const Vec3& angularMomentum) {
-        const double lost = 1.0 - 1.0 / (1.0 + world.frameDuration / time);
+        const double lost = 1.0 - 1.0 / (1.0 + dt / time);
         motion.velocity -= lost * motion.velocity;
         motion.angularMomentum -= lost * angularMomentum;
     };
-    if (hasStayed(rest.nearby, kCalmWait) && !goesOn(world, body, kCalmWait * unit, rest.nearby))
+    if (hasStayed(world, rest.nearby, kCalmWait, unit) &&
+        !goesOn(world, body, kCalmWait * unit, rest.nearby))
         take(kCalmTime * unit, motion.angularMomentum);
-    else if (!hangs && hasStayed(rest.around, kLongWait) && comesBack(world, body, rest.around))
+    else if (!hangs && hasStayed(world, rest.around, kLongWait, unit) &&
+             comesBack(world, body, rest.around))
         take(kLongTime * unit,
              world.shapeOf(body).shownOf(motion.angularMomentum, motion.orientation));
 }
 
 /// How a body is held up by others.
 struct Carriage {
-    bool mayBeCalmed = false;  ///< it is stepped, others hold it, and no script moves any of these
-    double hanging = 0.0;      ///< sum of what holds it times how far above its centre that is
+    bool isCarried = false;
+    double hanging = 0.0;  ///< sum of what holds it times how far above its centre that is
 };
 
 std::vector<Carriage> carriages(const World& world, const GapScratch& scratch)
 {
-    DisjointSets sets(world.bodyCount());
     std::vector<Carriage> carried(world.bodyCount());
-    std::vector<char> isDrivenSet(world.bodyCount(), 0);
     const auto carry = [&](BodyId body, const Vec3& r, const Vec3& impulse) {
         const Vec3& pull = scratch.forces[body].acceleration;
-        carried[body].mayBeCalmed = world.isStepped(body);
+        carried[body].isCarried = true;
         carried[body].hanging += impulse.dot(pull) * r.dot(pull);
     };
     for (const GapRow& row : scratch.rows) {
@@ -112,7 +128,20 @@ std::vector<Carriage> carriages(const World& world, const GapScratch& scratch)
         const Vec3 impulse = row.worldImpulse();
         carry(row.a, row.rA, impulse);
         carry(row.b, row.rB, -impulse);
-        if (world.isStepped(row.a) && world.isStepped(row.b))
+    }
+    return carried;
+}
+
+/// Per body, whether a script moves it or anything that it hangs together with; empty where a
+/// script moves nothing.
+std::vector<char> whoIsDriven(const World& world, const GapScratch& scratch)
+{
+    std::vector<char> isDrivenToo;
+    if (std::ranges::none_of(scratch.bodies, isDriven)) return isDrivenToo;
+    DisjointSets sets(world.bodyCount());
+    std::vector<char> isDrivenSet(world.bodyCount(), 0);
+    for (const GapRow& row : scratch.rows) {
+        if (row.carries() && world.isStepped(row.a) && world.isStepped(row.b))
             sets.join(static_cast<std::size_t>(row.a), static_cast<std::size_t>(row.b));
     }
     for (const GapRow& row : scratch.rows) {
@@ -122,20 +151,26 @@ std::vector<Carriage> carriages(const World& world, const GapScratch& scratch)
                 isDrivenSet[sets.find(static_cast<std::size_t>(other))] = 1;
         }
     }
-    for (std::size_t i = 0; i < carried.size(); ++i)
-        carried[i].mayBeCalmed = carried[i].mayBeCalmed && !isDrivenSet[sets.find(i)];
-    return carried;
+    isDrivenToo.resize(world.bodyCount());
+    for (std::size_t i = 0; i < isDrivenToo.size(); ++i) isDrivenToo[i] = isDrivenSet[sets.find(i)];
+    return isDrivenToo;
 }
 
 }  // namespace
 
-void calmWhatRocks(World& world, const GapScratch& scratch)
+void calmWhatRocks(World& world, double dt, const GapScratch& scratch)
 {
+    if (world.contactMemory.rest.empty()) return;  // no frame has ended yet
+    std::vector<BodyId> staying;
+    for (BodyId body = 0; body < static_cast<BodyId>(world.contactMemory.rest.size()); ++body) {
+        if (hasStayedForLong(world, scratch, body)) staying.push_back(body);
+    }
+    if (staying.empty()) return;
     const std::vector<Carriage> carried = carriages(world, scratch);
-    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-        const double acceleration = scratch.forces[i].acceleration.norm();
-        if (carried[i].mayBeCalmed)
-            calm(world, static_cast<BodyId>(i), acceleration, carried[i].hanging > 0.0);
+    const std::vector<char> driven = whoIsDriven(world, scratch);
+    for (const BodyId body : staying) {
+        if (!carried[body].isCarried || (!driven.empty() && driven[body])) continue;
+        calm(world, scratch, body, carried[body].hanging > 0.0, dt);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/diagnostics/phase_timer.h"
+#include "core/dynamics/gaps/calming.h"
 #include "core/dynamics/gaps/gap_blocks.h"
 #include "core/dynamics/gaps/gap_bounce.h"
 #include "core/dynamics/gaps/gap_contact.h"
@@ -83,7 +84,7 @@ PhaseSeconds GapStepper::solveBlock(const World& world, double dt, GapBlock& blo
         addForcesToGaps(dt, block, scratch);
         holdSwings(world, settings_, dt, leads, block, scratch);
     }
-    LadenBodies laden(settings_, dt, block, scratch);
+    LadenBodies laden(dt, block, scratch);
     {
         const PhaseTimer timer(seconds, Phase::contact);
         resolveGaps(world, settings_, dt, block, scratch);
@@ -148,6 +149,7 @@ StepReport GapStepper::step(World& world, double dt, StepObserver* observer)
         writeVelocities(world, dt, scratch);
         moveBodies(world, settings_, dt, scratch);
         wakeUnbalanced(world, scratch.forces);
+        if (settings_.sleep) calmWhatRocks(world, dt, scratch);
     }
     findNonFinite(world, Phase::position, report);
     report.deepestBeforePushOut = findWorstGap(world, scratch).depth;

@@ -4,7 +4,6 @@
 
 #include "core/collision/broad_phase.h"
 #include "core/collision/near_features.h"
-#include "core/dynamics/gaps/calming.h"
 #include "core/dynamics/gaps/contact_load.h"
 #include "core/dynamics/gaps/stillness.h"
 
@@ -132,7 +131,6 @@ void fallAsleep(World& world, const StepSettings& settings, const GapScratch& sc
     rest.resize(world.bodyCount());
     noteStays(world, scratch.forces);
     const std::vector<char> maySleep = whoMaySleep(world, scratch);
-    calmWhatRocks(world, scratch);
     if (std::ranges::find(maySleep, 1) == maySleep.end()) return;
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         if (!maySleep[i]) continue;

@@ -19,8 +19,8 @@ namespace scree {
 void sleepFromTheStart(World& world, const StepSettings& settings,
                        const std::vector<BodyId>& bodies);
 
-/// At the end of a frame: notes who has moved, calms what rocks in its place, and puts to sleep
-/// what lies still. `scratch` holds the rows of the last step.
+/// At the end of a frame: notes who has moved, and puts to sleep what lies still. `scratch` holds
+/// the rows of the last step.
 void fallAsleep(World& world, const StepSettings& settings, const GapScratch& scratch);
 
 }  // namespace scree
