@@ -145,6 +145,7 @@ std::vector<ContactLevel> pairsByLevel(const World& world, const StepScratch& sc
                                        const GraphLevels& graph, bool freezeUnsupported,
                                        const Takes& takes)
 {
+    if (graph.level.empty()) return {};
     std::vector<ContactLevel> levels(1 + *std::max_element(graph.level.begin(), graph.level.end()));
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         if (!world.mass[b].isMovable()) continue;

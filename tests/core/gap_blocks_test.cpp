@@ -50,7 +50,7 @@ TEST(GapBlocks, EveryPairAndEveryBodyIsInOne)
     findGaps(world, settings, kStep, scratch);
     layPairs(world, scratch);
     SolvedIslands().handOn(scratch);
-    orderPairs(world, settings, scratch);
+    orderPairs(world, scratch);
     scratch.islands[1].isKept = true;
     scratch.openIslands.erase(scratch.openIslands.begin() + 1);
     layBlocks(scratch);

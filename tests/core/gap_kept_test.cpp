@@ -66,7 +66,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
     isAgain ? findGapsAgain(world, kStep, scratch) : findGaps(world, settings, kStep, scratch);
     layPairs(world, scratch);
     solved.handOn(scratch);
-    orderPairs(world, settings, scratch);
+    orderPairs(world, scratch);
     layBlocks(scratch);
     levelOthers(scratch);
     addForcesToOthers(kStep, scratch);

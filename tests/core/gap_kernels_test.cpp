@@ -719,8 +719,6 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling, std::uint64_t size = 12)
         pair.part = a < 2 || half(a) == half(b) ? half(b) : 2;
         pair.end += 1 + randomIndex(14, seed, 3, p);
         const Vec3 bFromA = signedUnits(seed, 9000 + 3 * p);
-        const Vec3 turning =
-            p % 3 == 1 ? Vec3(0.1 * signedUnits(seed, 15000 + 3 * p)) : Vec3(Vec3::Zero());
         for (std::size_t r = pair.begin; r < pair.end; ++r) {
             GapRow row{};
             row.a = a;
@@ -730,8 +728,10 @@ GapScratch randomHeap(std::uint64_t seed, bool rolling, std::uint64_t size = 12)
             row.normal = signedUnits(seed, 5006 + 20 * r).normalized();
             row.friction = 0.5 + 0.5 * signedUnit(seed, 5009 + 20 * r);
             row.target = 0.1 * signedUnit(seed, 5010 + 20 * r);
-            row.turning = turning;
-            row.squeeze = p % 4 == 0 ? 0.1 * randomUnit(seed, 5014, p) : 0.0;
+            // The same of a pair, none, or of each row its own.
+            const std::uint64_t turn = p % 6 == 1 ? p : r;
+            if (p % 3 == 1) row.turning = 0.1 * signedUnits(seed, 15000 + 3 * turn);
+            if (p % 4 == 0) row.squeeze = 0.1 * randomUnit(seed, 5014, p % 8 == 0 ? p : r);
             prepareRow(scratch.bodies, row);
             if (rolling && p % 3 == 0) {
                 row.rollingArm = 0.2 * randomUnit(seed, 5011, r);

@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/dynamics/gaps/gap_forces.h"
 #include "core/dynamics/gaps/gap_lanes.h"
 #include "core/dynamics/gaps/gap_levels.h"
 #include "core/dynamics/gaps/gap_press.h"
@@ -220,8 +221,8 @@ int sweepsWhileWrong(const World& world, double dt, const GapScratch& scratch,
 void solve(const World& world, const StepSettings& settings, double dt, const GapScratch& scratch,
            const GapIsland& island, GapLanes& rows)
 {
-    const double speedOfFall = settings.gravity.norm() * dt;
-    double enough = std::max(kEnough * speedOfFall, kRounding);
+    const double speedOfFall = strongestPull(scratch, island) * dt;
+    double enough = std::max(kEnough * speedOfFall, roundingOfSpeeds(world, island, dt));
     auto [most, mostAtRest, left, ofSpeed] = sweepLimits(world, settings, scratch, island);
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
@@ -259,7 +260,7 @@ void solveIsland(const World& world, const StepSettings& settings, double dt, Ga
     lanes.build(scratch, island);
     solve(world, settings, dt, scratch, island, lanes);
     lanes.store(scratch);
-    if (isPressed(settings, dt, scratch, island)) solvePressed(dt, island, scratch);
+    if (isPressed(dt, scratch, island)) solvePressed(dt, island, scratch);
 }
 
 }  // namespace
@@ -269,10 +270,19 @@ bool isHeap(const StepSettings& settings, const GapIsland& island)
     return spareSweeps(island) <= settings.gapSweeps;
 }
 
+double roundingOfSpeeds(const World& world, const GapIsland& island, double dt)
+{
+    constexpr double kRoundings = 200.0;  // of the places from whose differences gaps come
+    double farthest = 0.0;
+    for (const BodyId body : island.movers)
+        farthest = std::max(farthest, world.motion[body].position.squaredNorm());
+    return kRoundings * std::numeric_limits<double>::epsilon() * std::sqrt(farthest) / dt;
+}
+
 void resolveGaps(const World& world, const StepSettings& settings, double dt, const GapBlock& block,
                  GapScratch& scratch)
 {
-    handWeightDown(settings, dt, block, scratch);
+    handWeightDown(dt, block, scratch);
     forIslands(scratch, block, [&](std::size_t i) {
         solveIsland(world, settings, dt, scratch, scratch.islands[i]);
     });

@@ -9,6 +9,11 @@ namespace scree {
 /// Too many rows for more sweeps than the settings say.
 bool isHeap(const StepSettings& settings, const GapIsland& island);
 
+/// What rounding leaves of the speeds at which the gaps of an island close in a step [m/s]: the
+/// only limit where nothing pulls. 216 cubes that touched in a lattice took all the sweeps there
+/// are.
+double roundingOfSpeeds(const World& world, const GapIsland& island, double dt);
+
 /// Sweeps over the rows of every island of a block until velocities stay as they are, or its sweeps
 /// are used up. Begins with the impulses that rows remember, or, on an island that remembers
 /// nothing, with the weights of the levels.

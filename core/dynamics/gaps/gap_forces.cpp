@@ -2,6 +2,7 @@
 #include "core/dynamics/gaps/gap_forces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -99,6 +100,23 @@ void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch)
             row.target = -std::max(open, 0.0) / dt;
         }
     });
+}
+
+double strongestPull(const GapScratch& scratch, const GapIsland& island)
+{
+    double strongest = 0.0;
+    for (const BodyId body : island.movers)
+        strongest = std::max(strongest, scratch.bodies[body].pull.squaredNorm());
+    return std::sqrt(strongest);
+}
+
+/// What is the same for all is so to the bit: of ties the order depends on it.
+Vec3 meanPull(const GapScratch& scratch, const GapIsland& island)
+{
+    const Vec3 first = scratch.bodies[island.movers.front()].pull;
+    Vec3 others = Vec3::Zero();
+    for (const BodyId body : island.movers) others += scratch.bodies[body].pull - first;
+    return first + others / static_cast<double>(island.movers.size());
 }
 
 void addForcesToOthers(double dt, GapScratch& scratch)

@@ -10,6 +10,13 @@ namespace scree {
 /// the forces to its bodies.
 void addForcesToGaps(double dt, const GapBlock& block, GapScratch& scratch);
 
+/// The strongest pull at a body of an island: beside what it does in a step all else is little or
+/// much. Of most it is gravity [m/s²].
+double strongestPull(const GapScratch& scratch, const GapIsland& island);
+
+/// The mean of what pulls at the bodies of an island [m/s²].
+Vec3 meanPull(const GapScratch& scratch, const GapIsland& island);
+
 /// The forces of all that is in no block, nor kept.
 void addForcesToOthers(double dt, GapScratch& scratch);
 

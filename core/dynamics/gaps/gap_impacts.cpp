@@ -262,6 +262,7 @@ GapRow ImpactVisits::rowAt(Impact& impact) const
     const GapBody& b = scratch_.bodies[row.b];
     const Vec3 slid = slideUntil(impact);
     row.impulse = Vec3::Zero();
+    row.squeeze = 0.0;  // presses for the whole step: a blow alone has none
     row.target = impact.velocityAfter;
     impact.slid = Vec3::Zero();
     if (row.isOfBlow) {

@@ -62,7 +62,8 @@ std::vector<const GapPair*> SolvedIslands::pairsBefore(const GapScratch& scratch
     return before;
 }
 
-/// The same pairs with the same contacts, between bodies that can be moved as before.
+/// The same pairs with the same contacts, between bodies that can be moved as before. One that was
+/// let pass and has turned out to meet has to be stopped.
 bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& island,
                                const std::vector<const GapPair*>& before) const
 {
@@ -73,7 +74,9 @@ bool SolvedIslands::isAsBefore(const GapScratch& scratch, const GapIsland& islan
     };
     return std::ranges::all_of(island.pairs, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
-        return before[i] && before[i]->island == any->island &&
+        const bool isDiverted = before[i] && before[i]->isLetPass &&
+                                std::ranges::binary_search(scratch.unseen.diverted, pair.bodies);
+        return before[i] && before[i]->island == any->island && !isDiverted &&
                scratch.nearPairs[pair.nearPair].soughtIn != scratch.attempt &&
                isMovableAsBefore(pair.bodies.a) && isMovableAsBefore(pair.bodies.b);
     });
@@ -128,6 +131,7 @@ void SolvedIslands::handOn(GapScratch& scratch) const
             GapPair& pair = scratch.pairs[i];
             pair.part = before[i]->part;
             pair.isCarried = before[i]->isCarried;
+            pair.isLetPass = before[i]->isLetPass;
             pair.fallOnB = before[i]->fallOnB;
             pair.fallOnA = before[i]->fallOnA;
             for (const BodyId body : {pair.bodies.a, pair.bodies.b}) {

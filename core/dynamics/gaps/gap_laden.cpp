@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/dynamics/gaps/gap_forces.h"
+
 namespace scree {
 namespace {
 
@@ -87,26 +89,23 @@ void prepareLadenRows(const GapIsland& island, GapScratch& scratch)
 
 }  // namespace
 
-LadenBodies::LadenBodies(const StepSettings& settings, double dt, const GapBlock& block,
-                         GapScratch& scratch)
-    : scratch_(scratch)
+LadenBodies::LadenBodies(double dt, const GapBlock& block, GapScratch& scratch) : scratch_(scratch)
 {
-    const double gravity = settings.gravity.norm();
-    if (gravity == 0.0) return;
     std::vector<Burden> burdens;
     for (const std::size_t i : block.islands) {
         const GapIsland& island = scratch.islands[i];
         const double most = mostOf(island, scratch);
-        if (most == 0.0) continue;
+        const double fall = dt * strongestPull(scratch, island);
+        if (most == 0.0 || fall == 0.0) continue;
         burdens.resize(block.bodies.size() + 1);
         addBurdens(island, scratch, burdens);
         const std::size_t before = laden_.size();
         for (const BodyId id : island.movers) {
             GapBody& body = scratch.bodies[id];
             const Burden& burden = burdens[scratch.placeInBlock[id]];
-            const double carried = std::min(burden.carried() / (dt * gravity), most);
+            const double carried = std::min(burden.carried() / fall, most);
             if (carried == 0.0) continue;
-            const double share = std::min(kLeastShare, kHeld * dt * gravity / burden.slipSpeed());
+            const double share = std::min(kLeastShare, kHeld * fall / burden.slipSpeed());
             body.heavier = std::max(1.0, share * carried * body.inverseMass);
             if (body.heavier == 1.0) continue;
             laden_.push_back({id, body.inverseMass, body.inverseInertia});

@@ -12,8 +12,7 @@ class LadenBodies {
 public:
     /// Makes them heavier, as much as GapBody::heavier says then. Rows must remember what they bore
     /// in the last step, and forces must have acted. `dt` [s].
-    LadenBodies(const StepSettings& settings, double dt, const GapBlock& block,
-                GapScratch& scratch);
+    LadenBodies(double dt, const GapBlock& block, GapScratch& scratch);
 
     /// Gives them their masses back. What they have come to weigh stays noted: their impulses have
     /// moved them so much less.

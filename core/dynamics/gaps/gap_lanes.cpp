@@ -148,6 +148,18 @@ std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest, Section
     return place;
 }
 
+/// How many rows from `first` on may share a batch: of a pair that rolls or is squeezed they may
+/// have different turns and forces besides.
+std::size_t rowsAlike(const GapScratch& scratch, std::size_t first, std::size_t end)
+{
+    const GapRow& row = scratch.rows[first];
+    std::size_t last = first + 1;
+    while (last < end && scratch.rows[last].squeeze == row.squeeze &&
+           scratch.rows[last].turning == row.turning)
+        ++last;
+    return last - first;
+}
+
 /// The rows of every pair go into batches after those of the pairs before it that share a body with
 /// it: the outcome of a sweep is that of visiting the pairs one by one.
 void GapLanes::schedule(const GapScratch& scratch, std::span<const std::size_t> pairs,
@@ -161,11 +173,11 @@ void GapLanes::schedule(const GapScratch& scratch, std::span<const std::size_t> 
         const std::int32_t a = placeOf_[pair.bodies.a], b = placeOf_[pair.bodies.b];
         const bool movesA = scratch.bodies[pair.bodies.a].isMovable();
         const bool movesB = scratch.bodies[pair.bodies.b].isMovable();
-        for (std::size_t r = pair.begin; r < pair.end; r += kRowsTogether) {
+        for (std::size_t r = pair.begin, count; r < pair.end; r += count) {
+            count = rowsAlike(scratch, r, std::min(r + kRowsTogether, pair.end));
             const std::int32_t earliest =
                 std::max(movesA ? firstFree_[a] : 0, movesB ? firstFree_[b] : 0);
-            const std::int32_t place =
-                batchFor(std::min(kRowsTogether, pair.end - r), earliest, section);
+            const std::int32_t place = batchFor(count, earliest, section);
             Batch& batch = section.batches[place];
             const int lane = batch.lanesUsed++;
             batch.from[lane] = static_cast<std::int32_t>(r);
@@ -224,7 +236,7 @@ void GapLanes::fillLane(const GapScratch& scratch, Batch& batch, int lane, Secti
             coupleResponse(*from, scratch.bodies[from->a], scratch.bodies[from->b]);
         roll.rollingArm[lane] = from->rollingArm;
         roll.spinningArm[lane] = from->spinningArm;
-        roll.lever[lane] = from->rA.norm();
+        roll.lever[lane] = leverOf(*from);
         roll.rollMass[lane] = 1.0 / from->rollResponse;
         roll.slipMass[lane] = 1.0 / response.trace();
         roll.spinMass[lane] = 1.0 / from->normal.dot(response * from->normal);

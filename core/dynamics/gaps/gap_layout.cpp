@@ -16,7 +16,7 @@ void layOutGaps(World& world, const StepSettings& settings, double dt, const Sol
         findGapsAgain(world, dt, scratch);
     layPairs(world, scratch);
     solved.handOn(scratch);
-    orderPairs(world, settings, scratch);
+    orderPairs(world, scratch);
     layBlocks(scratch);
     levelOthers(scratch);
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
+#include "core/dynamics/gaps/gap_forces.h"
 
 namespace scree {
 namespace {
@@ -94,15 +95,18 @@ void cutIntoIslands(GapScratch& scratch)
 }
 
 /// Bottom to top: what carries is solved before what is carried.
-void orderByHeight(const World& world, const Vec3& up, GapScratch& scratch)
+void orderByHeight(const World& world, GapScratch& scratch)
 {
+    std::vector<Vec3> down(scratch.islands.size());
+    forIslands(scratch, scratch.openIslands, scratch.openRowCount,
+               [&](std::size_t i) { down[i] = meanPull(scratch, scratch.islands[i]); });
     std::vector<double> heights(scratch.pairs.size());
     forEach(heights.size(), kShortWork, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
         if (scratch.islands[pair.island].isKept) return;
         fetchContactsAfter(scratch, i);
         const Vec3& centreOfA = world.motion[pair.bodies.a].position;
-        heights[i] = up.dot(centreOfA + scratch.contactsOf(pair).front().rA);
+        heights[i] = -down[pair.island].dot(centreOfA + scratch.contactsOf(pair).front().rA);
     });
     forIslands(scratch, scratch.openIslands, scratch.openRowCount, [&](std::size_t i) {
         sortInHalves(scratch.islands[i].pairs, [&](std::size_t p, std::size_t q) {
@@ -157,9 +161,9 @@ void layPairs(const World& world, GapScratch& scratch)
     cutIntoIslands(scratch);
 }
 
-void orderPairs(const World& world, const StepSettings& settings, GapScratch& scratch)
+void orderPairs(const World& world, GapScratch& scratch)
 {
-    orderByHeight(world, -settings.gravity, scratch);
+    orderByHeight(world, scratch);
     cutLargeIslands(scratch);
     // What one island needs is in the cache until it is done with.
     scratch.order.clear();

@@ -24,7 +24,7 @@ void layPairs(const World& world, GapScratch& scratch);
 
 /// Orders the pairs of all islands that are not kept bottom to top, and cuts these for two threads
 /// where they are large.
-void orderPairs(const World& world, const StepSettings& settings, GapScratch& scratch);
+void orderPairs(const World& world, GapScratch& scratch);
 
 /// Groups those of the pairs together that share movable bodies, directly or through others; pairs
 /// without any are left out. In the order of the first of each.

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/base/sorted.h"
+#include "core/dynamics/gaps/gap_forces.h"
 #include "core/dynamics/gaps/gap_visit.h"
 
 namespace scree {
@@ -115,13 +116,12 @@ void gripSqueezed(const World& world, const StepSettings& settings, double dt,
     }
 }
 
-bool isPressed(const StepSettings& settings, double dt, const GapScratch& scratch,
-               const GapIsland& island)
+bool isPressed(double dt, const GapScratch& scratch, const GapIsland& island)
 {
     const Press press = pressOn(scratch, island);
     if (press.speed == 0.0) return false;
     const double momentum =
-        massOf(scratch, island.movers) * (press.speed + dt * settings.gravity.norm());
+        massOf(scratch, island.movers) * (press.speed + dt * strongestPull(scratch, island));
     if (press.impulse <= kPressed * momentum) return false;
     double closing = 0.0;
     forRows(scratch, island.pairs, [&](std::size_t r) {

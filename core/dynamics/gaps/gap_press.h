@@ -14,8 +14,7 @@ void gripSqueezed(const World& world, const StepSettings& settings, double dt,
 
 /// Whether an island, as its sweeps have left it, carries far more than it would take to bring all
 /// of it to the speed of the keyed bodies it touches, and still closes. `dt` [s].
-bool isPressed(const StepSettings& settings, double dt, const GapScratch& scratch,
-               const GapIsland& island);
+bool isPressed(double dt, const GapScratch& scratch, const GapIsland& island);
 
 /// Solves such an island anew, from how its bodies moved before, with contacts that yield the more
 /// they carry: how far each is run into is shared out among them, and impulses have an end.

@@ -186,13 +186,10 @@ double DeepPass::look(NearPair& pair, double reach)
 }
 
 /// Of bodies that hang together. Answers whether they wanted to go farther.
-bool DeepPass::holdBack(const GapIsland& island)
+bool DeepPass::holdBack(std::span<const BodyId> bodies)
 {
     double share = 1.0;
-    for (const std::size_t i : island.pairs) {
-        if (depthShare(scratch_.nearPairs[scratch_.pairs[i].nearPair]) >= kSlight) return false;
-    }
-    for (const BodyId body : island.movers) {
+    for (const BodyId body : bodies) {
         const PushedBody& pushed = bodies_[body];
         const double radius = world_.shapeOf(body).boundingRadius;
         const double way = std::max(pushed.shift.norm(), pushed.turn.norm() * radius);
@@ -200,7 +197,7 @@ bool DeepPass::holdBack(const GapIsland& island)
         if (way > farthest) share = std::min(share, farthest / way);
     }
     if (share == 1.0) return false;
-    for (const BodyId body : island.movers) {
+    for (const BodyId body : bodies) {
         bodies_[body].shift *= share;
         bodies_[body].turn *= share;
     }
@@ -210,9 +207,19 @@ bool DeepPass::holdBack(const GapIsland& island)
 bool DeepPass::displaceAll()
 {
     bool isHeldBack = false;
-    for (const GapIsland& island : scratch_.islands) isHeldBack = holdBack(island) || isHeldBack;
+    std::vector<char> isOfIsland(bodies_.size(), 0);
+    for (const GapIsland& island : scratch_.islands) {
+        for (const BodyId body : island.movers) isOfIsland[body] = 1;
+        const bool isSlight = std::ranges::all_of(island.pairs, [&](std::size_t i) {
+            return depthShare(scratch_.nearPairs[scratch_.pairs[i].nearPair]) < kSlight;
+        });
+        if (isSlight) isHeldBack = holdBack(island.movers) || isHeldBack;
+    }
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (bodies_[i].isPushed) tally_.cut += displace(world_, static_cast<BodyId>(i), bodies_[i]);
+        const auto body = static_cast<BodyId>(i);
+        if (!bodies_[i].isPushed) continue;
+        if (!isOfIsland[i]) isHeldBack = holdBack({&body, 1}) || isHeldBack;  // had no contact yet
+        tally_.cut += displace(world_, body, bodies_[i]);
     }
     return isHeldBack;
 }
@@ -225,6 +232,7 @@ double DeepPass::lookAgain()
         NearPair& pair = scratch_.nearPairs[i];
         const auto [a, b] = pair.bodies;
         if (!isLookedAt_[i] && !isPushed_[a] && !isPushed_[b]) continue;
+        isLookedAt_[i] = 1;
         pair.depth = look(pair, 0.0);
         deepest = std::max(deepest, depthShare(pair));
     }

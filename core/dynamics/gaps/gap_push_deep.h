@@ -6,6 +6,7 @@
 // script: a fifth a step would show it coming apart for a second.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/dynamics/gaps/gap_pushes.h"
@@ -40,7 +41,7 @@ private:
     bool isFrozen(BodyId body, int level) const;
     double look(NearPair& pair, double reach);
     double depthShare(const NearPair& pair) const;
-    bool holdBack(const GapIsland& island);
+    bool holdBack(std::span<const BodyId> bodies);
     bool displaceAll();
     double lookAgain();
 

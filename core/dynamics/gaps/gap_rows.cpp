@@ -75,6 +75,7 @@ void resistRolling(const World& world, const GapScratch& scratch, const RollingF
     const double tt = row.tangent.dot(rollers * row.tangent);
     const double ss = row.secondTangent().dot(rollers * row.secondTangent());
     const double ts = row.tangent.dot(rollers * row.secondTangent());
+    if (!(tt + ss > 0.0)) return;  // it holds what numbers do not tell from fixed
     row.rollResponse = largestEigenvalue(tt, ts, ss);
     row.rollingArm = factor * (rolling.rolling + rolling.rawRolling / (0.5 * (tt + ss)));
     row.spinningArm = factor * (rolling.spinning + rolling.rawSpinning / about);

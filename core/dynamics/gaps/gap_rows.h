@@ -139,6 +139,13 @@ inline double openAt(const GapRow& row, const GapBody& a, const GapBody& b)
     return std::max(row.gap, 0.0) + shiftAt(row, a, b);
 }
 
+/// How far a row is from the centres of what it moves, at most: with no body that it does not, be
+/// it a floor whose origin is a mile away, has its spin to do [m].
+inline double leverOf(const GapRow& row)
+{
+    return std::max(row.movesA ? row.rA.norm() : 0.0, row.movesB ? row.rB.norm() : 0.0);
+}
+
 /// How easily a row turns a body, about one axis or another [1/(kg m²)].
 inline double easeOfTurning(const GapBody& body, bool moves)
 {

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/base/sorted.h"
 #include "core/dynamics/gaps/gap_contact.h"
+#include "core/dynamics/gaps/gap_forces.h"
 #include "core/dynamics/gaps/gap_levels.h"
 #include "core/dynamics/gaps/gap_pairs.h"
 #include "core/dynamics/gaps/gap_visit.h"
@@ -171,10 +172,10 @@ void solveNormals(GapScratch& scratch, const std::vector<std::size_t>& rows, int
     for (std::size_t i = 0; i < rows.size(); ++i) scratch.rows[rows[i]].friction = frictions[i];
 }
 
-double solvedEnough(const StepSettings& settings, double dt)
+/// Of weight, to rounding: what one level leaves open all below it bear [m/s].
+double solvedEnough(const GapScratch& scratch, const GapIsland& island, double dt)
 {
-    const double speedOfFall = settings.gravity.norm() * dt;
-    return speedOfFall > 0.0 ? 1e-9 * speedOfFall : kRounding;
+    return 1e-9 * dt * strongestPull(scratch, island);
 }
 
 /// Speed at which a row closes visibly within a step, beyond its target [m/s].
@@ -273,7 +274,8 @@ bool shockCluster(const World& world, const StepSettings& settings, double dt,
     });
     if (!closes) return false;
     remembered.clear();
-    double enough = solvedEnough(settings, dt);
+    double enough =
+        std::max(solvedEnough(scratch, island, dt), roundingOfSpeeds(world, island, dt));
     for (const std::size_t r : rows) {
         GapRow& row = scratch.rows[r];
         remembered.push_back({row.impulse, row.couple});
@@ -313,8 +315,8 @@ double weightOf(const GapScratch& scratch, const GapIsland& island, double dt)
 
 /// Solves the rows of a level beside bodies that belong to others: pinned, as they were before
 /// anything pulled at them.
-void solveFromAbove(const StepSettings& settings, double dt, std::size_t level,
-                    const std::vector<std::size_t>& rows, GapScratch& scratch)
+void solveFromAbove(std::size_t level, const std::vector<std::size_t>& rows, double enough,
+                    GapScratch& scratch)
 {
     PinnedBodies pinned(scratch);
     const auto pin = [&](BodyId body) {
@@ -335,8 +337,8 @@ void solveFromAbove(const StepSettings& settings, double dt, std::size_t level,
     // Friction would hold what the first of many corners turns before the others have carried
     // anything, and hand that down too: in a tower of bricks all of it slid, to keep a balance
     // that needed none.
-    solveNormals(scratch, rows, kWeightSweeps, solvedEnough(settings, dt));
-    solveRows(scratch, rows, kWeightSweeps, solvedEnough(settings, dt));
+    solveNormals(scratch, rows, kWeightSweeps, enough);
+    solveRows(scratch, rows, kWeightSweeps, enough);
     pinned.release();
 }
 
@@ -359,17 +361,17 @@ void handOn(std::size_t level, const std::vector<std::size_t>& rows, GapScratch&
     }
 }
 
-void handWeightDown(const StepSettings& settings, double dt, const GapIsland& island,
-                    GapScratch& scratch)
+void handWeightDown(double dt, const GapIsland& island, GapScratch& scratch)
 {
     const FormerMotion before(scratch, island.movers);
+    const double enough = solvedEnough(scratch, island, dt);
     const double most = kMostOfWeight * weightOf(scratch, island, dt);
     thread_local Groups byLevel;
     groupByLevel(scratch, island.pairs, byLevel);
     thread_local std::vector<std::size_t> rows;
     for (std::size_t level = byLevel.size(); level-- > 0;) {
         collectRows(scratch, byLevel[level], rows);
-        solveFromAbove(settings, dt, level, rows, scratch);
+        solveFromAbove(level, rows, enough, scratch);
         handOn(level, rows, scratch);
         const bool isWeight = std::ranges::all_of(
             rows, [&](std::size_t r) { return scratch.rows[r].impulse.x() <= most; });
@@ -384,12 +386,11 @@ void handWeightDown(const StepSettings& settings, double dt, const GapIsland& is
 
 }  // namespace
 
-void handWeightDown(const StepSettings& settings, double dt, const GapBlock& block,
-                    GapScratch& scratch)
+void handWeightDown(double dt, const GapBlock& block, GapScratch& scratch)
 {
     forIslands(scratch, block, [&](std::size_t i) {
         const GapIsland& island = scratch.islands[i];
-        if (!island.isRemembered) handWeightDown(settings, dt, island, scratch);
+        if (!island.isRemembered) handWeightDown(dt, island, scratch);
     });
 }
 

@@ -9,8 +9,7 @@ namespace scree {
 /// Impulses for islands that remember none, level by level from the top: what rests is held up by
 /// what is below as if that could not give way, and hands its weight down. Exact for a stack, and a
 /// beginning for a heap. Velocities must have felt forces and no contact yet.
-void handWeightDown(const StepSettings& settings, double dt, const GapBlock& block,
-                    GapScratch& scratch);
+void handWeightDown(double dt, const GapBlock& block, GapScratch& scratch);
 
 /// One sweep up the levels of a block: what rests is made to rest on what is below as if that could
 /// not give way. Only where solved velocities would still overlap bodies visibly: of a level those

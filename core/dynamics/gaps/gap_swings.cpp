@@ -131,7 +131,9 @@ private:
         if (wA_.isZero(0.0) && wB_.isZero(0.0)) return;
         const Vec3 w = spinOfBoth(wA_, wB_);
         row.target -= partingBy(row, bodyA(), bodyB(), wA_, wB_, dt_);
-        row.turning = 0.5 * dt_ * w.cross(w.cross(row.rA - row.rB));
+        row.turning =
+            0.5 * dt_ *
+            w.cross(w.cross(world_.motion[row.b].position - world_.motion[row.a].position));
         row.target += row.turning.dot(row.normal);
         row.swings = isSwing(scratch_, row, roundAt(row, wA_, wB_).norm());
     }

@@ -19,7 +19,7 @@ void applyCouple(const GapRow& row, GapBody& a, GapBody& b, const Vec3& couple)
 }
 
 /// Resistance to rolling and spinning: a couple that stops relative spin, as far as the normal
-/// impulse and its lever arms allow. Answers by how much it changed the speed of A's surface there
+/// impulse and its lever arms allow. Answers by how much it changed the speed of a surface there
 /// [m/s].  [A49]
 ///
 /// Where friction holds the place the couple has to stop the centre too: friction follows, and
@@ -41,7 +41,7 @@ double resistSpin(GapRow& row, GapBody& a, GapBody& b)
     const Vec3 change = about * row.normal + across - row.couple;
     row.couple += change;
     applyCouple(row, a, b, change);
-    return (response * change).norm() * row.rA.norm();
+    return (response * change).norm() * leverOf(row);
 }
 
 /// Of a row whose surfaces move along its normal with `un`.

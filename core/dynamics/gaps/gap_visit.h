@@ -7,10 +7,6 @@
 
 namespace scree {
 
-/// What rounding leaves of speeds, where nothing pulls [m/s]: 216 cubes that touched in a lattice
-/// without gravity, at coordinates of metres, took all the sweeps there are.
-inline constexpr double kRounding = 1e-12;
-
 /// One visit. Answers how much it changed the velocity there [m/s].
 double visitRow(GapRow& row, GapBody& a, GapBody& b);
 

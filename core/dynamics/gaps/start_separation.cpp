@@ -179,7 +179,9 @@ void moveOutOfEachOther(World& world, const std::vector<StartOverlap>& overlaps)
     for (std::size_t i = 0; i < overlaps.size(); ++i) {
         if (!ways[i]) continue;
         const BodyId a = overlaps[i].a, b = overlaps[i].b;
-        const double ofA = world.mass[a].inverseMass, ofB = world.mass[b].inverseMass;
+        const double ofA = isUnmovedBy(world, a, b) ? 0.0 : world.mass[a].inverseMass;
+        const double ofB = isUnmovedBy(world, b, a) ? 0.0 : world.mass[b].inverseMass;
+        if (ofA + ofB == 0.0) continue;
         world.motion[a].position += ofA / (ofA + ofB) * *ways[i];
         world.motion[b].position -= ofB / (ofA + ofB) * *ways[i];
     }
@@ -191,7 +193,8 @@ void moveOutOfAll(World& world, const std::vector<StartOverlap>& overlaps)
     const OverlapMeasure measure(world);
     const std::vector<Aabb> boxes = startBoxes(world);
     const auto moverFirst = [&](const StartOverlap& overlap) {
-        const bool isFirst = world.mass[overlap.a].isMovable();
+        const bool isFirst =
+            world.mass[overlap.a].isMovable() && !isUnmovedBy(world, overlap.a, overlap.b);
         return isFirst ? BodyPair{overlap.a, overlap.b} : BodyPair{overlap.b, overlap.a};
     };
     const auto ways = waysOf(overlaps, [&](const StartOverlap& overlap) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/disjoint_sets.h"
@@ -46,7 +47,10 @@ void wake(World& world, BodyId body)
 {
     BodyRest& rest = world.contactMemory.rest[body];
     const double pull = rest.pull.norm();
-    const double frames = pull > 0.0 ? framesToSleep(world, body, pull) : double{kStillFrames};
+    // What next to nothing pulls at takes for ever, which no counter holds.
+    constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+    const double frames =
+        pull > 0.0 ? std::min(framesToSleep(world, body, pull), kMost) : double{kStillFrames};
     rest.isAsleep = false;
     rest.still.frames = static_cast<std::int32_t>(frames - std::floor(frames / kCheckShare));
 }
