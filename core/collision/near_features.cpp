@@ -11,6 +11,7 @@
 #include "core/collision/capsule_places.h"
 #include "core/collision/contact_list.h"
 #include "core/collision/contact_reduction.h"
+#include "core/collision/convex_overlap.h"
 #include "core/collision/corner_contacts.h"
 #include "core/collision/crease_contacts.h"
 #include "core/collision/deep_contact.h"
@@ -217,6 +218,25 @@ void dropContrary(const Vec3& out, std::vector<GapContact>& contacts, std::size_
                    contacts.end());
 }
 
+/// Adds the shortest way out of each other of two convex bodies of which the contacts tell far
+/// less; they have been pressed into each other.
+void addUntold(const BothWays& ways, double smaller, std::vector<GapContact>& contacts,
+               std::size_t first)
+{
+    constexpr double kAsked = 5e-3;  // told to be less deep than this share of the smaller body
+    constexpr double kTold = 0.5;    // of what there is
+    const ContactFeatures &ofA = ways.pair.first.features, &ofB = ways.pair.second.features;
+    if (!ofA.isConvex() || !ofB.isConvex()) return;
+    double told = 0.0;
+    for (std::size_t i = first; i < contacts.size(); ++i) told = std::min(told, contacts[i].gap);
+    if (told > -kAsked * smaller) return;
+    const std::optional<FeatureContact> out = overlapOfConvex(ways.pair);
+    if (!out || told < kTold * out->gap) return;
+    const GapContact contact = ways.ofA(featureId(FeatureKind::round, kInnerBall, 2), *out);
+    dropContrary(contact.normal, contacts, first);
+    contacts.push_back(contact);
+}
+
 /// How far a pair without contacts is apart, of which its features tell `far` [m]. They tell little
 /// of what they cannot rule out to come near: of a building that falls to pieces three in four
 /// pairs were asked about in every step for nothing. Not worth while for what is not asked again
@@ -295,6 +315,7 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     touchEdges(pair, ways.ofA, reach, isNew, *memory_, list);
     list.finish();
     if (deep) dropContrary(out, contacts, known);
+    addUntold(ways, smaller, contacts, known);
     const bool turnsWithA = !shapeA.isPlane && shapeA.boundingRadius == smaller;
     reduceContacts(contacts, known, turnsWithA ? ways.worldFromA : ways.worldFromB, smaller);
     const double far = memory_->farFor(pair);

@@ -14,6 +14,11 @@ constexpr double kFlat = 1e-3;
 /// makes a notch.
 constexpr double kFine = 0.7, kNotch = 0.05;
 
+/// What is convex may bulge by this share of its size, as faces of more than three corners do; and
+/// has at most so many corners, since all are asked about.
+constexpr double kBulges = 1e-4;
+constexpr std::size_t kFewCorners = 64;
+
 void addDirection(std::vector<Vec3>& directions, const Vec3& direction)
 {
     for (const Vec3& known : directions) {
@@ -95,9 +100,24 @@ ContactFeatures::ContactFeatures(const TriMesh& mesh) : points_(mesh.points)
         corners_.push_back(static_cast<std::int32_t>(v));
         cornerSpheres.push_back({points_.col(v), 0.0});
     }
+    isConvex_ = isConvexWithFewCorners();
     cornerTree_ = SphereLaneTree(cornerSpheres);
     edgeTree_ = SphereLaneTree(edgeSpheres);
     creaseTree_ = SphereLaneTree(creaseSpheres);
+}
+
+bool ContactFeatures::isConvexWithFewCorners() const
+{
+    if (corners_.empty() || corners_.size() > kFewCorners) return false;
+    double size = 0.0;
+    for (const std::int32_t corner : corners_) size = std::max(size, points_.col(corner).norm());
+    return std::ranges::all_of(edges_, [&](const ConvexEdge& edge) {
+        return std::ranges::all_of(corners_, [&](std::int32_t corner) {
+            const Vec3 fromEdge = Vec3(points_.col(corner)) - edge.start;
+            return edge.faceNormal[0].dot(fromEdge) <= kBulges * size &&
+                   edge.faceNormal[1].dot(fromEdge) <= kBulges * size;
+        });
+    });
 }
 
 bool ContactFeatures::cornerSupports(std::int32_t corner, const Vec3& normal, double slack) const

@@ -69,6 +69,8 @@ public:
     const std::vector<std::int32_t>& corners() const { return corners_; }
     const std::vector<ConvexEdge>& edges() const { return edges_; }
     bool hasBlades() const { return hasBlades_; }
+    /// Whether the mesh is a convex solid of few corners: all of them lie behind all faces.
+    bool isConvex() const { return isConvex_; }
     const std::vector<EdgeLine>& lines() const { return lines_; }  ///< of edges()
     const std::vector<Crease>& creases() const { return creases_; }
     const SphereLaneTree& cornerTree() const { return cornerTree_; }  ///< over corners()
@@ -92,7 +94,9 @@ private:
     std::vector<ConvexEdge> edges_;
     std::vector<EdgeLine> lines_;
     std::vector<Crease> creases_;
-    bool hasBlades_ = false;
+    bool hasBlades_ = false, isConvex_ = false;
+
+    bool isConvexWithFewCorners() const;
     SphereLaneTree cornerTree_, edgeTree_, creaseTree_;
 };
 
