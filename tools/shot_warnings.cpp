@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/dynamics/births.h"
@@ -96,25 +97,45 @@ void warnOfRoughness(const World& world, std::vector<std::string>& warnings)
     }
 }
 
+/// Of the movable [kg]; 0 of the others.
+double massOf(const World& world, BodyId body)
+{
+    const BodyMass& weight = world.massWhenBorn(body);
+    return weight.isMovable() ? 1.0 / weight.inverseMass : 0.0;
+}
+
+/// One body speaks for all that are odd in the same way: the shards of a boulder are many.
 void warnOfSizes(const Shot& shot, const World& world, std::vector<std::string>& warnings)
 {
-    std::set<const Shape*> told;
+    std::set<const Shape*> seen;
+    std::map<std::string, std::vector<BodyId>> odd;  // by what they are
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
         const Shape& shape = world.shapeOf(body);
-        if (shape.isPlane || !told.insert(&shape).second) continue;
+        if (shape.isPlane || !seen.insert(&shape).second) continue;
         const double size = shape.box.longestEdge();
-        const BodyMass& weight = world.massWhenBorn(body);
-        const double mass = weight.isMovable() ? 1.0 / weight.inverseMass : 0.0;
         const bool isProp = world.info[body].kind == BodyKind::dynamic;
-        const bool isTooLong = size > (isProp ? kLargestProp : kLargestSet);
-        const bool isTooHeavy = isProp && mass > kHeaviestProp;
-        if (!isTooLong && !isTooHeavy && size >= kSmallestProp) continue;
-        warnings.push_back(
+        if (isProp && massOf(world, body) > kHeaviestProp)
+            odd["heavy"].push_back(body);
+        else if (size > (isProp ? kLargestProp : kLargestSet))
+            odd["large"].push_back(body);
+        else if (size < kSmallestProp)
+            odd["small"].push_back(body);
+    }
+    for (auto& [what, bodies] : odd) {
+        const BodyId body = bodies.front();
+        const double size = world.shapeOf(body).box.longestEdge();
+        const bool isTooHeavy = what == "heavy";
+        std::string warning =
             "'" + world.info[body].name + "' is " + formatted("%.3g m", size) + " long" +
-            (isTooHeavy ? formatted(" and weighs %.3g t", mass / 1e3) : "") + ": are shot.units" +
-            (isTooHeavy ? ", the density" : "") + " and the asset's scale right? One unit is " +
-            formatted("%.3g m", shot.metresPerUnit) +
-            likelierUnits(size / shot.metresPerUnit, shot.metresPerUnit));
+            (isTooHeavy ? formatted(" and weighs %.3g t", massOf(world, body) / 1e3) : "") +
+            ": are shot.units" + (isTooHeavy ? ", the density" : "") +
+            " and the asset's scale right? One unit is " + formatted("%.3g m", shot.metresPerUnit) +
+            likelierUnits(size / shot.metresPerUnit, shot.metresPerUnit);
+        bodies.erase(bodies.begin());
+        if (!bodies.empty())
+            warning += "; " + std::to_string(bodies.size()) + " more are as " + what + ": " +
+                       namesOf(bodies, world);
+        warnings.push_back(warning);
     }
     const double g = shot.settings.gravity.norm();
     if (g > 50.0) {

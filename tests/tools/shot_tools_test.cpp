@@ -128,6 +128,19 @@ TEST_F(ShotTools, WhatCannotBeMeantIsWarnedOf)
     EXPECT_TRUE(contains(plate.out, "'low' is 24 m long")) << plate.out;
     EXPECT_TRUE(contains(plate.out, "in cm it would be 0.24 m, in mm 0.024 m, in in 0.61 m long"))
         << plate.out;
+    // Of many as odd as each other one is described.
+    std::string shards = "scree = 1\n[shot]\nname = \"shards\"\nframes = \"1-2\"\n[material.a]\n";
+    for (const std::string name : {"a", "b", "c"}) {
+        shards += "[shape." + name + "]\nbox = { size = [60, 60, 60] }\n" + "[[body]]\nname = \"" +
+                  name + "\"\nshape = \"" + name +
+                  "\"\nmaterial = \"a\"\nmass = 1.0\nposition = [" +
+                  std::to_string(100 * (name[0] - 'a')) + ", 0, 0]\n";
+    }
+    writeFileBytes(folder / "shards.toml", shards);
+    const Outcome many = run("check shards.toml --estimate 0");
+    EXPECT_TRUE(contains(many.out, "'a' is 60 m long")) << many.out << many.err;
+    EXPECT_TRUE(contains(many.out, "; 2 more are as large: b, c")) << many.out;
+    EXPECT_FALSE(contains(many.out, "'b' is 60 m long")) << many.out;
     // A density in the wrong unit; the unit of length the shot has is no other one.
     const Outcome lead = run("check drop.toml --estimate 0 --set material.wood.density=1e8");
     EXPECT_TRUE(contains(lead.out,
