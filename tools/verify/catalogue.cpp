@@ -96,7 +96,7 @@ const std::vector<Experiment>& experiments()
         {"E24", "No missed bounce", true,
          "Contact treats inelastically only what collision has seen.", "", runNoMissedBounce},
         {"E25", "Drop to rest with all defaults", true,
-         "Cube, ring and a block of twelve triangles come to rest on the floor.", "",
+         "Cube, ring and a wedge of twelve triangles come to rest on the floor.", "",
          runDropToRest},
         {"E26", "What shock propagation buys", true,
          "With shock propagation a stack needs a fraction of the contact sweeps.", "",

@@ -1,14 +1,17 @@
-// E15: impulses obey Newton, Coulomb and the conservation laws. [A29–A35]  Random pairs are built
-// in code; the triple collision is a shot.
+// E15: impulses obey Newton, Coulomb and the conservation laws. [A29–A35]  Random pairs and mirror
+// images of single impulses are built in code; the other collisions and the jam are shots, of
+// either method.
 #include <array>
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/diagnostics/step_observer.h"
 #include "core/dynamics/friction.h"
 #include "core/dynamics/impulse.h"
 #include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
 #include "tools/verify/experiments.h"
+#include "tools/verify/pose_judge.h"
 #include "tools/verify/shot_run.h"
 
 namespace scree::verify {
@@ -69,7 +72,7 @@ RandomBody randomBody(Draw& draw, double mass)
 }
 
 struct WorstOfPairs {
-    double normal = 0.0, cone = 0.0, work = 0.0, momentum = 0.0;
+    double normal = 0.0, cone = 0.0, work = 0.0, momentum = 0.0, angular = 0.0;
     double leastPush = 1e300;
     std::int64_t fallbacks = 0;
 };
@@ -90,6 +93,12 @@ void tryPair(std::uint64_t sample, WorstOfPairs& worst)
 
     const double energy = kineticEnergy(a.motion, a.mass) + kineticEnergy(b.motion, b.mass);
     const Vec3 pA = massA * a.motion.velocity, pB = massB * b.motion.velocity;
+    // About the place of the contact.
+    const auto spinOfBoth = [&] {
+        return Vec3(a.motion.angularMomentum - a.r.cross(massA * a.motion.velocity) +
+                    b.motion.angularMomentum - b.r.cross(massB * b.motion.velocity));
+    };
+    const Vec3 turning = spinOfBoth();
     applyImpulse(a.motion, a.inertia, a.r, j.impulse);
     applyImpulse(b.motion, b.inertia, b.r, -j.impulse);
     const Vec3 after = a.velocityAtContact() - b.velocityAtContact();
@@ -103,6 +112,9 @@ void tryPair(std::uint64_t sample, WorstOfPairs& worst)
         const Vec3 sum = massA * a.motion.velocity + massB * b.motion.velocity - pA - pB;
         worst.momentum =
             larger(worst.momentum, sum.norm() / (pA.norm() + pB.norm() + j.impulse.norm()));
+        worst.angular =
+            larger(worst.angular, (spinOfBoth() - turning).norm() /
+                                      (turning.norm() + j.impulse.norm() + pA.norm() + pB.norm()));
     }
 }
 
@@ -117,6 +129,8 @@ void randomPairs(Findings& findings)
     findings.atLeast(must, "100 000 pairs: least normal impulse", worst.leastPush, 0.0, "N s");
     findings.atMost(must, "100 000 pairs: work over kinetic energy", worst.work, 1e-12, "-");
     findings.atMost(must, "100 000 pairs: momentum changes", worst.momentum, 1e-13, "relative");
+    findings.atMost(must, "100 000 pairs: angular momentum changes", worst.angular, 1e-13,
+                    "relative");
     findings.atLeast(must, "100 000 pairs: uses of the fallback",
                      static_cast<double>(worst.fallbacks), 100.0, "");
 }
@@ -139,6 +153,84 @@ void mirrorImages(Findings& findings)
         worst = larger(worst, (mirror * image - original).norm() / (1.0 + original.norm()));
     }
     findings.atMost(must, "mirror images: difference of the impulses", worst, 1e-12, "relative");
+}
+
+/// A ball that runs into another, `aside` of its centre, a quarter of a second later.
+struct Strike : ShotRun {
+    Strike(const Context& context, double aside, double restitution, double friction)
+        : ShotRun(context, "E15_two_balls",
+                  {setVector("body.still.position", {0.0, aside, 0.0}),
+                   setNumber("material.ball.restitution", restitution),
+                   setNumber("material.ball.friction", friction), "shape.ball.collide=\"exact\""})
+    {
+        advance(0.25, 240.0);
+    }
+};
+
+void headOn(const Context& context, Findings& findings)
+{
+    const Strike elastic(context, 0.0, 1.0, 0.0), plastic(context, 0.0, 0.0, 0.0);
+    const auto alongX = [](double speed) { return Vec3(speed, 0.0, 0.0); };
+    findings.atMost(must, "head-on, e = 1: balls exchange their velocities, off by",
+                    larger(elastic.motion("moving").velocity.norm(),
+                           (elastic.motion("still").velocity - alongX(2.0)).norm()),
+                    1e-12, "m/s");
+    findings.atMost(must, "head-on, e = 0: both go on together, off by",
+                    larger((plastic.motion("moving").velocity - alongX(1.0)).norm(),
+                           (plastic.motion("still").velocity - alongX(1.0)).norm()),
+                    1e-12, "m/s");
+}
+
+void offCentre(const Context& context, Findings& findings)
+{
+    const Strike run(context, 0.5, 0.5, 0.5), image(context, -0.5, 0.5, 0.5);
+    const Momenta before = momentaOf(run.start), after = momentaOf(run.world);
+    findings.atMost(must, "off centre: momentum changes", (after.linear - before.linear).norm(),
+                    1e-12, "kg m/s");
+    const double turned = (after.angular - before.angular).norm();
+    if (context.method == "scree") {
+        findings.atMost(must, "off centre: angular momentum changes", turned, 1e-12, "kg m^2/s");
+    } else {
+        findings.atMost(departure, "off centre: angular momentum changes", turned, 1e-12,
+                        "kg m^2/s",
+                        "lever arms are those of predicted positions (A22): first order in dt");
+    }
+    const double kept = kineticEnergy(run.world) / kineticEnergy(run.start);
+    findings.atMost(must, "off centre: kinetic energy that is left", kept, 0.95, "of it");
+    const Vec3 mirror(1.0, -1.0, 1.0);  // of velocities; spins the other way round
+    double unlike = 0.0;
+    for (const char* name : {"moving", "still"}) {
+        const Vec3 v = image.motion(name).velocity.cwiseProduct(mirror);
+        const Vec3 l = -image.motion(name).angularMomentum.cwiseProduct(mirror);
+        unlike = larger(unlike, (v - run.motion(name).velocity).norm());
+        unlike = larger(unlike, (l - run.motion(name).angularMomentum).norm());
+    }
+    findings.atMost(must, "off centre, mirrored: unlike the mirror image", unlike, 1e-12, "SI");
+}
+
+/// A rod that jams: it may neither be pulled nor gain, nor sink in.
+void jam(const Context& context, Findings& findings)
+{
+    ShotRun run(context, "E15_jam");
+    const PoseJudge judge(run.describe());
+    LastStep last;
+    run.stepper.observe(&last);
+    double energy = mechanicalEnergy(run.world, run.shot.settings.gravity);
+    double gain = 0.0, depth = 0.0, leastPush = 1e300;
+    run.advance(0.5, 240.0, [&](const StepReport& report, double) {
+        const double now = mechanicalEnergy(run.world, run.shot.settings.gravity);
+        gain = larger(gain, now - energy - report.pushOutWork);
+        energy = now;
+        depth = larger(depth, judge.deepestOverlap(run.capture()));
+        for (const ContactSeen& contact : last.seen.contacts)
+            leastPush = smaller(leastPush, contact.impulse.dot(contact.normal));
+    });
+    findings.atLeast(must, "jammed rod: least push of the floor", leastPush, -1e-12, "N s");
+    findings.atMost(must, "jammed rod: energy gained in a step", gain, 1e-9, "J",
+                    "work of push-out apart");
+    findings.atMost(must, "jammed rod: in the floor, any step", depth, 1e-3, "m",
+                    "a thousandth of its length");
+    addPicture(context, run, "The rod half a second after it jammed", findings);
 }
 
 /// Two balls of 1 kg run into a third between them; which is struck first is the order's choice.
@@ -173,7 +265,10 @@ void runImpulses(const Context& context, Findings& findings)
 {
     randomPairs(findings);
     mirrorImages(findings);
+    headOn(context, findings);
+    offCentre(context, findings);
     tripleCollision(context, findings);
+    jam(context, findings);
 }
 
 }  // namespace scree::verify

@@ -75,6 +75,9 @@ void runFreeCluster(const Context& context, Findings& findings)
                             small.angular / usual.angular, 0.2, "-",
                             "first order in dt: 1/16 if the same points are struck");
         }
+        ShotRun pushed(context, "E18_cluster", {weight});
+        findings.atMost(must, name + "momentum of the six changes, with push-out",
+                        follow(pushed, 240.0).linear, 1e-12 * 63.0, "kg m/s");
         if (gravity == 0.0) addPicture(context, coarse, "The cluster a second later", findings);
     }
     if (context.method != "paper") return;

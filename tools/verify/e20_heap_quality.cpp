@@ -60,6 +60,17 @@ double deepestAtTheEnd(const HeapRecord& record)
     return deepest;
 }
 
+double bodiesMoved(const HeapRecord& record, std::size_t before, std::size_t after)
+{
+    double moved = 0.0;
+    for (std::size_t b = 0; b < record.scene.bodies.size(); ++b) {
+        const Pose &was = record.frames[before].worldFromAsset[b],
+                   &is = record.frames[after].worldFromAsset[b];
+        moved += was.position != is.position || was.orientation.coeffs() != is.orientation.coeffs();
+    }
+    return moved;
+}
+
 void heap(const Context& context, Findings& findings)
 {
     const int bodies = context.isFull() ? 200 : 16, frames = context.isFull() ? 480 : 72;
@@ -76,6 +87,12 @@ void heap(const Context& context, Findings& findings)
                     largestLift(record, run.shot.settings.gravity.norm()), kUnseen, "m");
     findings.atMost(goal, name + "fastest body at the end",
                     quantile(speedsAt(record, record.frames.size() - 1), 1.0), 0.01, "m/s");
+    if (context.isFull()) {
+        const std::size_t last = record.frames.size() - 1;
+        findings.equal(weightFor(context),
+                       name + "bodies whose pose changed in the last ten frames",
+                       bodiesMoved(record, last - 10, last), 0, "so do no pixels");
+    }
     findings.atMost(weightFor(context), name + "deepest overlap at the end",
                     deepestAtTheEnd(record), 0.01, "of the shortest edge", "dense samples");
     addPicture(context, run, name + "the heap at the end", findings);

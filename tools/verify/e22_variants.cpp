@@ -72,11 +72,14 @@ void strictAtRest(const Context& context, Findings& findings)
 
 void strictSliding(const Context& context, Findings& findings)
 {
-    const SlideTheory theory{30.0, 0.3, 0.0};
-    ShotRun run(context, "E02_accelerating", {kStrict});
-    const SlideErrors errors = slide(run, theory, 240.0);
-    findings.atMost(must, "strict, E2 accelerating: error of the distance",
-                    errors.position / errors.distance, 0.005, "of it");
+    for (const auto& [shot, theory] :
+         {std::pair{"E02_accelerating", SlideTheory{30.0, 0.3, 0.0}},
+          std::pair{"E02_decelerating", SlideTheory{15.0, 0.5, 4.0}}}) {
+        ShotRun run(context, shot, {kStrict});
+        const SlideErrors errors = slide(run, theory, 240.0);
+        findings.atMost(must, std::string("strict, ") + shot + ": error of the distance",
+                        errors.position / errors.distance, 0.005, "of it");
+    }
 }
 
 void strictBilliards(const Context& context, Findings& findings)
@@ -113,13 +116,15 @@ void strictStack(const Context& context, Findings& findings)
 void strictSeeSaw(const Context& context, Findings& findings)
 {
     ShotRun run(context, "E05_seesaw", {kStrict});
-    const Curve tilt = tiltOver(run, context.isFull() ? 2.0 : 0.5);
+    const Curve tilt = tiltOver(run, context.isFull() ? 12.0 : 0.5);
     findings.near(must, "strict, E5: tilt at 0.25 s", tiltAt(tilt, 0.25), 1.887, 0.05 * 1.887,
                   "degrees");
     findings.near(must, "strict, E5: tilt at 0.5 s", tiltAt(tilt, 0.5), 7.547, 0.05 * 7.547,
                   "degrees");
     if (context.isFull()) {
         findings.near(must, "strict, E5: on the floor at 2 s", tiltAt(tilt, 2.0), 11.54, 0.2,
+                      "degrees");
+        findings.near(must, "strict, E5: light side down at 12 s", tiltAt(tilt, 12.0), -11.54, 0.2,
                       "degrees");
     }
 }

@@ -4,6 +4,7 @@
 // and say so in their claim.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -23,6 +24,7 @@ struct Context {
     std::filesystem::path shots;  ///< folder of the experiments' shot files
     Form form = Form::brief;
     std::string method = "paper";  ///< the solver.method of every shot
+    std::uint64_t seed = 0;        ///< the shot.seed of every shot; 0: its own
     bool wantsPictures = false;    ///< drawing them takes longer than some experiments
 
     /// Folder of the takes of large shots, each in NAME_METHOD, that full forms judge.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/geometry/mesh_edges.h"
@@ -48,37 +49,13 @@ std::vector<Vec3> sampleFaces(const TriMesh& mesh, double spacing)
     return samples;
 }
 
-/// The largest value between two places of a function with one peak there, by golden sections.
-template <class Function>
-double highest(const Function& at, double low, double high)
-{
-    constexpr double kGolden = 0.6180339887498949;
-    double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-    double leftValue = at(left), rightValue = at(right);
-    for (int i = 0; i < 20; ++i) {
-        if (leftValue < rightValue) {
-            low = left;
-            left = right;
-            leftValue = rightValue;
-            right = low + kGolden * (high - low);
-            rightValue = at(right);
-        } else {
-            high = right;
-            right = left;
-            rightValue = leftValue;
-            left = high - kGolden * (high - low);
-            leftValue = at(left);
-        }
-    }
-    return std::max(leftValue, rightValue);
-}
-
 struct Segment {
     Vec3 a, b;
 };
 
-/// Edges at which the surface bends: those across a flat face are sampled with it.
-std::vector<Segment> bentEdges(const TriMesh& mesh)
+/// Edges longer than the samples are apart at which the surface bends: those across a flat face are
+/// sampled with it.
+std::vector<Segment> bentEdges(const TriMesh& mesh, double spacing)
 {
     constexpr double kBend = 1e-6;  // sine of an angle
     std::vector<Segment> edges;
@@ -86,11 +63,11 @@ std::vector<Segment> bentEdges(const TriMesh& mesh)
         const auto normal = [&](const TriangleSide& side) {
             return cornersOf(mesh, side.triangle).normal().normalized();
         };
-        const bool isBent =
-            sides.size() != 2 || normal(sides[0]).cross(normal(sides[1])).norm() > kBend ||
-            normal(sides[0]).dot(normal(sides[1])) < 0.0;
-        if (!isBent) return;
-        edges.push_back({mesh.points.col(sides[0].low), mesh.points.col(sides[0].high)});
+        const bool isBent = sides.size() != 2 ||
+                            normal(sides[0]).cross(normal(sides[1])).norm() > kBend ||
+                            normal(sides[0]).dot(normal(sides[1])) < 0.0;
+        const Segment edge{mesh.points.col(sides[0].low), mesh.points.col(sides[0].high)};
+        if (isBent && (edge.b - edge.a).norm() > spacing) edges.push_back(edge);
     });
     return edges;
 }
@@ -110,7 +87,7 @@ struct PoseJudge::Solid {
         if (isGround) return;
         spacing = kSampleSpacing * box.longestEdge();
         samples = sampleFaces(mesh, spacing);
-        edges = bentEdges(mesh);
+        edges = bentEdges(mesh, spacing);
         rays = SurfaceRays(mesh);
         winding = std::make_unique<WindingNumber>(mesh);
         measureCells();
@@ -151,6 +128,8 @@ struct PoseJudge::Solid {
     /// A point is no deeper than this, which is negative for what is farther outside.
     double depthBound(const Vec3& p) const
     {
+        const double outside = box.distanceTo(p);
+        if (outside > 0.0) return -outside;
         std::size_t index = 0;
         for (int k = 2; k >= 0; --k) {
             const double place = std::clamp((p[k] - box.min[k]) / cell, 0.0, counts[k] - 0.5);
@@ -170,32 +149,52 @@ struct PoseJudge::Solid {
     }
 
     /// The same of the deepest point of a segment of the artist's frame. Two edges that cross meet
-    /// at points, which samples miss: between those of a segment the deepest place is searched
-    /// for, which is one, where what it lies in is convex.
+    /// at points, which samples miss: the segment is halved where it may be deeper than `least`,
+    /// and in pieces as short as samples are `apart` the deepest place is searched for, which is
+    /// one, where what they lie in is convex.
     double depthOn(const Segment& segment, double least, double apart) const
     {
         if (isGround) return 0.0;  // its ends are the deepest, and are samples
-        const Vec3 way = segment.b - segment.a;
+        const Vec3 way = segment.b - segment.a, middle = segment.a + 0.5 * way;
         const double length = way.norm();
-        if (depthBound(segment.a + 0.5 * way) + 0.5 * length <= least) return 0.0;
-        const auto at = [&](double s) { return -signedDistance(segment.a + s * way); };
-        const int parts = std::max(2, static_cast<int>(std::ceil(length / apart)));
-        const double part = 1.0 / parts;
-        const double flat = 1e-7 * part * length;  // what lies on a face has no peak
-        double before = at(0.0), here = before, deepest = std::max(least, here);
-        for (int i = 0; i <= parts; ++i) {
-            const double after = i < parts ? at((i + 1) * part) : here;
-            const bool isPeak = here >= before && here >= after &&
-                                here - std::min(before, after) > flat;
-            if (isPeak && here + part * length > deepest) {
-                const double low = std::max(0.0, (i - 1) * part);
-                const double high = std::min(1.0, (i + 1) * part);
-                deepest = std::max(deepest, highest(at, low, high));
-            }
-            before = here;
-            here = after;
+        if (depthBound(middle) + 0.5 * length <= least) return 0.0;
+        const double atMiddle = -signedDistance(middle);
+        if (atMiddle + 0.5 * length <= least) return 0.0;
+        double deepest = std::max(least, atMiddle);
+        if (length > apart) {
+            deepest = std::max(deepest, depthOn({segment.a, middle}, deepest, apart));
+            deepest = std::max(deepest, depthOn({middle, segment.b}, deepest, apart));
+        } else {
+            const double flat = 1e-7 * length;  // what lies on a face has no peak
+            const bool isFlat = std::abs(atMiddle + signedDistance(segment.a)) <= flat &&
+                                std::abs(atMiddle + signedDistance(segment.b)) <= flat;
+            if (!isFlat) deepest = std::max(deepest, deepestPlace(segment, way, deepest));
         }
         return deepest > least ? deepest : 0.0;
+    }
+
+    /// By golden sections, as long as it may be deeper than `least`.
+    double deepestPlace(const Segment& segment, const Vec3& way, double least) const
+    {
+        constexpr double kGolden = 0.6180339887498949;
+        constexpr int kMostSections = 20;
+        const auto at = [&](double s) { return -signedDistance(segment.a + s * way); };
+        const double length = way.norm();
+        double low = 0.0, high = 1.0, left = 1.0 - kGolden, right = kGolden;
+        double atLeft = at(left), atRight = at(right);
+        for (int i = 0; i < kMostSections; ++i) {
+            if (std::max(atLeft, atRight) + (high - low) * length <= least) break;
+            if (atLeft < atRight) {
+                low = left;
+                left = std::exchange(right, low + kGolden * (high - low));
+                atLeft = std::exchange(atRight, at(right));
+            } else {
+                high = right;
+                right = std::exchange(left, high - kGolden * (high - low));
+                atRight = std::exchange(atLeft, at(left));
+            }
+        }
+        return std::max(atLeft, atRight);
     }
 
     TriMesh mesh;

@@ -28,6 +28,7 @@ Shot readShot(const Context& context, const std::string& name, std::vector<std::
 {
     heedStop(kOutcomeOfStop);
     overrides.push_back("solver.method=" + context.method);
+    if (context.seed != 0) overrides.push_back("shot.seed=" + std::to_string(context.seed));
     Shot shot = parseShot((context.shots / (name + ".toml")).string(), overrides);
     if (change) change(shot.settings);
     return shot;
@@ -111,6 +112,11 @@ BodyId ShotRun::body(const std::string& name) const
     throw Error(ErrorKind::internal, "shot " + shot.name + " has no body " + name);
 }
 
+Method methodOf(const Context& context)
+{
+    return context.method == "scree" ? Method::scree : Method::paper;
+}
+
 const std::vector<std::string>& withDefaultSteps()
 {
     static const std::vector<std::string> overrides = {"solver.substeps.min=1",
@@ -177,8 +183,7 @@ void addPicture(const Context& context, const ShotRun& run, const std::string& c
     RasterSettings settings;
     settings.wireframe = isWireframe;
     Rasterizer rasterizer(scene, looksOf(run.shot, scene), settings);
-    const Image image =
-        rasterizer.draw(run.capture(), camera, kPictureWidth, kPictureHeight);
+    const Image image = rasterizer.draw(run.capture(), camera, kPictureWidth, kPictureHeight);
     findings.pictures.push_back({caption, encodePng(image)});
 }
 

@@ -16,7 +16,8 @@ namespace scree::verify {
 
 class ShotRun {
 public:
-    /// Reads shots/verify/NAME.toml with overrides as after --set, the method of the context last.
+    /// Reads shots/verify/NAME.toml with overrides as after --set, the method and the seed of the
+    /// context last.
     /// `change` reaches the settings that no key of a shot does: for controls.
     ShotRun(const Context& context, const std::string& name,
             const std::vector<std::string>& overrides = {},
@@ -46,6 +47,9 @@ public:
     World start;  ///< the world as it was built
     Stepper stepper;
 };
+
+/// What the context's method is called in the core.
+Method methodOf(const Context& context);
 
 /// Overrides that let a shot of fixed steps choose its own, as shots do by default.
 const std::vector<std::string>& withDefaultSteps();
