@@ -16,23 +16,19 @@ constexpr int kSectors = 48;
 /// that columns of 1 m about 1.75 m from the axis drop. The wall is 0.3 m thick.
 using Profile = std::array<std::array<double, 2>, 8>;
 
-Profile profile(double rim)
-{
-    return {{{3.4, rim},
-             {3.4, 2.4},
-             {2.45, 1.2},
-             {1.5, 0.0},
-             {1.735, -0.186},
-             {2.685, 1.014},
-             {3.7, 2.296},
-             {3.7, rim}}};
-}
+constexpr Profile kOutline = {{{3.4, 3.4},
+                               {3.4, 2.4},
+                               {2.45, 1.2},
+                               {1.5, 0.0},
+                               {1.735, -0.186},
+                               {2.685, 1.014},
+                               {3.7, 2.296},
+                               {3.7, 3.4}}};
 
 }  // namespace
 
-TriMesh makeFunnel(double rim)
+TriMesh makeFunnel()
 {
-    const Profile outline = profile(rim);
     constexpr int kRings = static_cast<int>(std::tuple_size_v<Profile>);
     TriMesh mesh;
     mesh.points.resize(3, kSectors * kRings);
@@ -40,7 +36,7 @@ TriMesh makeFunnel(double rim)
     for (int s = 0; s < kSectors; ++s) {
         const double angle = 2.0 * std::numbers::pi * s / kSectors;
         for (int r = 0; r < kRings; ++r) {
-            const auto [radius, height] = outline[r];
+            const auto [radius, height] = kOutline[r];
             mesh.points.col(s * kRings + r) =
                 Vec3(radius * std::cos(angle), height, radius * std::sin(angle));
             const int sNext = (s + 1) % kSectors, rNext = (r + 1) % kRings;

@@ -6,7 +6,7 @@
 namespace scree {
 
 /// Axis +y, origin in the middle of the outlet: a cone open above, with a short pipe below and
-/// walls of equal thickness and an upright collar up to `rim` [m].
-TriMesh makeFunnel(double rim);
+/// walls of equal thickness and an upright collar.
+TriMesh makeFunnel();
 
 }  // namespace scree

@@ -9,7 +9,6 @@
 #include "core/geometry/level_set_surface.h"
 #include "core/geometry/mesh_decimation.h"
 #include "core/geometry/mesh_defects.h"
-#include "core/geometry/primitives.h"
 #include "core/math/point_box.h"
 #include "io/byte_order.h"
 #include "io/file_bytes.h"
@@ -21,15 +20,6 @@ namespace {
 
 /// Fine enough that decimation decides where triangles go [m].
 constexpr double kSpacing = 0.005;
-
-/// Height of the collar of the funnel that is drawn, into which one may look, and of that which the
-/// bones meet: of five hundred one leapt 2.2 m over the first [m].
-constexpr double kDrawnRim = 3.4, kRim = 7.0;
-
-/// Walls of the pit as they are drawn, and as the bones meet them: up to the funnel. One bone that
-/// came down the funnel at 17 m/s leapt over the first, which are 4.5 m high [m].
-const Vec3 kDrawnWall(7.0, 4.5, 0.5);
-constexpr double kWallTop = 7.25;
 
 /// As a binary PLY in single precision: half of what a take keeps, and imports read no more.
 void writeSmallPly(const std::filesystem::path& path, const TriMesh& mesh)
@@ -63,23 +53,13 @@ void writeSolid(const std::filesystem::path& folder, const std::string& name, co
                 box.size().z(), signedVolume(mesh));
 }
 
-/// Stands where the wall that is drawn does, about whose middle it is placed.
-TriMesh wallCollar()
-{
-    TriMesh wall = makeBox({kDrawnWall.x(), kWallTop, kDrawnWall.z()}, {1, 1, 1});
-    wall.points.row(1).array() += 0.5 * (kWallTop - kDrawnWall.y());
-    return wall;
-}
-
 int writeAll(const std::filesystem::path& folder)
 {
     for (const BoneForm& form : boneForms()) {
         const TriMesh fine = surfaceOf(form.phi, form.box, kSpacing);
         writeSolid(folder, form.name, decimated(fine, form.triangleCount));
     }
-    writeSolid(folder, "funnel", makeFunnel(kDrawnRim));
-    writeSolid(folder, "funnel_collar", makeFunnel(kRim));
-    writeSolid(folder, "wall_collar", wallCollar());
+    writeSolid(folder, "funnel", makeFunnel());
     return 0;
 }
 
