@@ -115,16 +115,18 @@ struct Carriage {
     double hanging = 0.0;  ///< sum of what holds it times how far above its centre that is
 };
 
-std::vector<Carriage> carriages(const World& world, const GapScratch& scratch)
+/// Of those that stay, by their flags.
+std::vector<Carriage> carriages(const std::vector<char>& stays, const GapScratch& scratch)
 {
-    std::vector<Carriage> carried(world.bodyCount());
+    std::vector<Carriage> carried(stays.size());
     const auto carry = [&](BodyId body, const Vec3& r, const Vec3& impulse) {
+        if (!stays[body]) return;
         const Vec3& pull = scratch.forces[body].acceleration;
         carried[body].isCarried = true;
         carried[body].hanging += impulse.dot(pull) * r.dot(pull);
     };
     for (const GapRow& row : scratch.rows) {
-        if (!row.carries()) continue;
+        if (!row.carries() || (!stays[row.a] && !stays[row.b])) continue;
         const Vec3 impulse = row.worldImpulse();
         carry(row.a, row.rA, impulse);
         carry(row.b, row.rB, -impulse);
@@ -161,16 +163,15 @@ std::vector<char> whoIsDriven(const World& world, const GapScratch& scratch)
 void calmWhatRocks(World& world, double dt, const GapScratch& scratch)
 {
     if (world.contactMemory.rest.empty()) return;  // no frame has ended yet
-    std::vector<BodyId> staying;
-    for (BodyId body = 0; body < static_cast<BodyId>(world.contactMemory.rest.size()); ++body) {
-        if (hasStayedForLong(world, scratch, body)) staying.push_back(body);
-    }
-    if (staying.empty()) return;
-    const std::vector<Carriage> carried = carriages(world, scratch);
+    std::vector<char> stays(world.bodyCount(), 0);
+    for (std::size_t i = 0; i < world.contactMemory.rest.size(); ++i)
+        stays[i] = hasStayedForLong(world, scratch, static_cast<BodyId>(i));
+    if (std::ranges::find(stays, 1) == stays.end()) return;
+    const std::vector<Carriage> carried = carriages(stays, scratch);
     const std::vector<char> driven = whoIsDriven(world, scratch);
-    for (const BodyId body : staying) {
-        if (!carried[body].isCarried || (!driven.empty() && driven[body])) continue;
-        calm(world, scratch, body, carried[body].hanging > 0.0, dt);
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+        if (!carried[i].isCarried || (!driven.empty() && driven[i])) continue;
+        calm(world, scratch, static_cast<BodyId>(i), carried[i].hanging > 0.0, dt);
     }
 }
 

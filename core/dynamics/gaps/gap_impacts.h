@@ -23,6 +23,8 @@ inline constexpr std::int64_t kBeforeAll = 1;
 /// fetched by twos: two threads write to neighbours.
 struct alignas(128) ImpactChange {
     Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // change
+    Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();     // by blows at their own moments
+    bool isByFixed = true;                              // all blows so far
     double earliest = std::numeric_limits<double>::infinity();
     std::int64_t changedAt = 0;  // the visit of a pair that changed it last
 };
