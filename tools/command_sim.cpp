@@ -263,23 +263,39 @@ private:
 
     /// A step knows overlaps by the contacts it found, and is silent about what it did not find. So
     /// every two seconds of the shot, and in its last frame, the poses are looked at afresh: the
-    /// points of every body in the field of every other.
+    /// points of every body in the field of every other. What is found there is looked at in every
+    /// frame from then on, until it is out.
     void lookAtPoses(int frame, FrameReport& report)
     {
         const int every = std::max(1, static_cast<int>(std::lround(2.0 * shot_.framesPerSecond)));
-        if ((frame - shot_.firstFrame) % every != 0 && frame != shot_.lastFrame) return;
-        const std::vector<StartOverlap> deeper =
-            findStartOverlaps(world_, report.sum.worstOverlapRatio);
-        for (const StartOverlap& overlap : deeper) {
+        const bool isLook = (frame - shot_.firstFrame) % every == 0 || frame == shot_.lastFrame;
+        untold_ = isLook ? findStartOverlaps(world_, report.sum.worstOverlapRatio)
+                         : stillOverlapping(untold_);
+        for (const StartOverlap& overlap : untold_) {
             report.sum.deepestAfterPushOut =
                 std::max(report.sum.deepestAfterPushOut, overlap.depth);
             // Of the first frame start.overlap has told.
             if (overlap.isThroughWall && frame > shot_.firstFrame) warnOfWall(frame, overlap);
         }
-        if (deeper.empty() || deeper.front().ratio <= report.sum.worstOverlapRatio) return;
-        report.sum.worstOverlapRatio = deeper.front().ratio;
-        report.sum.worstA = deeper.front().a;
-        report.sum.worstB = deeper.front().b;
+        if (untold_.empty() || untold_.front().ratio <= report.sum.worstOverlapRatio) return;
+        report.sum.worstOverlapRatio = untold_.front().ratio;
+        report.sum.worstA = untold_.front().a;
+        report.sum.worstB = untold_.front().b;
+    }
+
+    /// Those of some pairs that overlap now, the worst ratio first.
+    std::vector<StartOverlap> stillOverlapping(const std::vector<StartOverlap>& pairs)
+    {
+        if (pairs.empty()) return {};
+        if (!measure_) measure_.emplace(world_);
+        std::vector<StartOverlap> still;
+        for (const StartOverlap& pair : pairs) {
+            const BodyPair bodies{pair.a, pair.b};
+            if (const auto now = (*measure_)(bodies, placePair(world_, bodies), 0.0))
+                still.push_back(*now);
+        }
+        std::ranges::stable_sort(still, std::ranges::greater{}, &StartOverlap::ratio);
+        return still;
     }
 
     /// Every breach is in stats.jsonl; here each grade is told once when it happens, so that a
@@ -389,6 +405,8 @@ private:
     std::optional<TakeWriter> take_;
     std::optional<SubframeRecorder> subframes_;
     LastStep lastStep_;
+    std::vector<StartOverlap> untold_;       // found by the last look at poses, and not out since
+    std::optional<OverlapMeasure> measure_;  // of world_, once asked for
     int lastFrame_ = 0;
     bool isStopped_ = false;
     int stoppedIn_ = 0;

@@ -427,8 +427,25 @@ TEST_F(MishapsTest, WhatHasComeThroughAWallIsToldWhereverThatIs)
                        "board") +
         test::bodyText("loose", "position = [9, 0.2, 0]", "board");
     const Outcome done = runScree({"sim", shot("t", "1001-1050", crossed), "-o", file("t"), "-q"});
-    EXPECT_TRUE(says(done, "frame 1049: upright and loose")) << done.err;
+    EXPECT_TRUE(says(done, "frame 1002: upright and loose")) << done.err;
     EXPECT_TRUE(says(done, "through a wall")) << done.err;
+}
+
+// Of sleepers no contact tells; between two looks at all poses they were said to be apart.
+TEST_F(MishapsTest, AnOverlapThatContactsDoNotTellOfIsInTheFiguresOfEveryFrame)
+{
+    const std::string asleep = "[start]\noverlap = \"warn\"\n" +
+                               test::bodyText("a", "position = [4, 2, 0]\nstart = \"asleep\"") +
+                               test::bodyText("b", "position = [4.5, 2.1, 0]\nstart = \"asleep\"");
+    runScree({"sim", shot("t", "1001-1006", asleep), "-o", file("t"), "-q"});
+    std::ifstream lines(TakePaths{file("t")}.stats());
+    int frames = 0;
+    for (std::string line; std::getline(lines, line); ++frames) {
+        const nlohmann::json overlap = nlohmann::json::parse(line).at("overlap");
+        EXPECT_NEAR(overlap.at("after_push_out_m"), 0.5, 0.11) << line;
+        EXPECT_EQ(overlap.at("bodies")[1], "b") << line;
+    }
+    EXPECT_EQ(frames, 6);
 }
 
 }  // namespace
