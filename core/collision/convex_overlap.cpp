@@ -33,7 +33,9 @@ Vec3 farthestAlong(const ContactFeatures& features, const Vec3& direction)
 FeatureContact outOfFaces(const RelativePair& pair)
 {
     FeatureContact best{Vec3::Zero(), Vec3::UnitY(), -std::numeric_limits<double>::infinity()};
-    for (const ConvexEdge& edge : pair.second.features.edges()) {
+    const ContactFeatures& second = pair.second.features;
+    for (const std::int32_t e : second.hullEdges()) {
+        const ConvexEdge& edge = second.edges()[e];
         for (const Vec3& n : edge.faceNormal) {
             const Vec3 deepest =
                 pair * farthestAlong(pair.first.features, -(pair.rotation.transpose() * n));
@@ -75,11 +77,14 @@ std::optional<FeatureContact> overlapOfConvex(const RelativePair& pair)
     const FeatureContact back = seenBack(pair, outOfFaces(pair.reversed()));
     if (back.gap >= 0.0) return {};
     if (back.gap > best.gap) best = back;
-    for (const ConvexEdge& a : pair.first.features.edges()) {
+    const ContactFeatures &first = pair.first.features, &second = pair.second.features;
+    for (const std::int32_t ofFirst : first.hullEdges()) {
+        const ConvexEdge& a = first.edges()[ofFirst];
         const Vec3 dA = pair.rotation * a.direction, start = pair * a.start;
         const std::array<Vec3, 2> faces = {pair.rotation * a.faceNormal[0],
                                            pair.rotation * a.faceNormal[1]};
-        for (const ConvexEdge& b : pair.second.features.edges()) {
+        for (const std::int32_t ofSecond : second.hullEdges()) {
+            const ConvexEdge& b = second.edges()[ofSecond];
             if (!makeAFace(faces, dA, b.faceNormal, b.direction)) continue;
             const Vec3 across = dA.cross(b.direction);
             const double sine = across.norm();

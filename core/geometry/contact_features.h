@@ -69,8 +69,12 @@ public:
     const std::vector<std::int32_t>& corners() const { return corners_; }
     const std::vector<ConvexEdge>& edges() const { return edges_; }
     bool hasBlades() const { return hasBlades_; }
-    /// Whether the mesh is a convex solid of few corners: all of them lie behind all faces.
-    bool isConvex() const { return isConvex_; }
+    /// Whether the mesh is a convex solid of few corners: all of them lie behind all faces, and
+    /// there is no cavity.
+    bool isConvex() const { return !hullEdges_.empty(); }
+    /// Of such a solid one of the edges() on each of its straight lines, which the mesh may cut
+    /// into many.
+    const std::vector<std::int32_t>& hullEdges() const { return hullEdges_; }
     const std::vector<EdgeLine>& lines() const { return lines_; }  ///< of edges()
     const std::vector<Crease>& creases() const { return creases_; }
     const SphereLaneTree& cornerTree() const { return cornerTree_; }  ///< over corners()
@@ -94,9 +98,11 @@ private:
     std::vector<ConvexEdge> edges_;
     std::vector<EdgeLine> lines_;
     std::vector<Crease> creases_;
-    bool hasBlades_ = false, isConvex_ = false;
+    std::vector<std::int32_t> hullEdges_;
+    bool hasBlades_ = false;
 
     bool isConvexWithFewCorners() const;
+    void findHullEdges();
     SphereLaneTree cornerTree_, edgeTree_, creaseTree_;
 };
 
