@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t kMany = 32;
 
 /// Contacts nearer to each other than this share of the smaller body, with normals as close,
-/// are one.
-constexpr double kSamePlace = 5e-3;
+/// are one; but not those on either side of what is thin: a rod five hundred times as long as it is
+/// thick was told of one side, and rocked on it for ever. Some are always one, as at a tip.
+constexpr double kSamePlace = 5e-3, kOfThickness = 0.2, kLeastPlace = 5e-4;
 /// Cosine of the angle within which a contact may speak for another that is not as near.
 constexpr double kSameWay = 0.5;
 /// And how round surfaces are at least: their radius, over that of the smaller body. Logs that lie
@@ -22,12 +23,12 @@ constexpr double kFlattest = 20.0;
 
 }  // namespace
 
-ContactList::ContactList(std::vector<GapContact>& contacts, double smaller, double reach,
-                         double bulge)
+ContactList::ContactList(std::vector<GapContact>& contacts, double smaller, double thickness,
+                         double reach, double bulge)
     : contacts_(contacts),
       first_(contacts.size()),
       smaller_(smaller),
-      samePlace_(kSamePlace * smaller),
+      samePlace_(std::clamp(kOfThickness * thickness, kLeastPlace * smaller, kSamePlace * smaller)),
       sharpness_(kSharpness * smaller),
       reach_(reach),
       bulge_(bulge)

@@ -31,9 +31,10 @@ struct ToWorld {
 class ContactList {
 public:
     /// Appends to `contacts` what is nearer than `reach`. `smaller`: bounding radius of the smaller
-    /// body; `bulge`: how far facets lie below the round surfaces that they stand for, at most; 0
-    /// where no body is round [m].
-    ContactList(std::vector<GapContact>& contacts, double smaller, double reach, double bulge);
+    /// body; `thickness`: of the thinner one; `bulge`: how far facets lie below the round surfaces
+    /// that they stand for, at most; 0 where no body is round [m].
+    ContactList(std::vector<GapContact>& contacts, double smaller, double thickness, double reach,
+                double bulge);
 
     /// What a pair of parts has found, or what they stand for. Answers whether that is where they
     /// touch.

@@ -277,7 +277,8 @@ double NearFeatures::findContacts(const PlacedPair& bodies, double reach,
     const double smaller = smallerRadius(shapeA, shapeB);
     const double bulge = bulgeOf(pair);
     const std::size_t known = contacts.size();
-    ContactList list(contacts, smaller, reach, bulge);
+    const double thickness = std::min(shapeA.commonThickness, shapeB.commonThickness);
+    ContactList list(contacts, smaller, thickness, reach, bulge);
     reach += bulge;
 
     if (shapeA.isBall() || shapeB.isBall()) {

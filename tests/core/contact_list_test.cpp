@@ -32,7 +32,7 @@ TEST(ContactList, ManyContactsThatSayTheSameAreSaidOnce)
 {
     constexpr double kSmaller = 1.0, kSame = 5e-3;
     std::vector<GapContact> told, plainly;
-    ContactList list(told, kSmaller, 1.0, 0.0);
+    ContactList list(told, kSmaller, kSmaller, 1.0, 0.0);
     for (std::uint64_t i = 0; i < 3000; ++i) {
         const Vec3 place = 0.03 * signedUnits(1, 3 * i);
         const Vec3 normal = (Vec3::UnitY() + 0.1 * signedUnits(2, 3 * i)).normalized();
