@@ -6,6 +6,7 @@
 #include <openvdb/tools/MeshToVolume.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -66,6 +67,10 @@ struct NodeSource {
     const SurfaceRays& rays;
     openvdb::FloatGrid::Ptr band;
     std::optional<WindingNumber> sides;
+    /// Set where OpenVDB says inside and the mesh does not, while there are no sides to ask: its
+    /// flood does not pass a hole narrower than two voxels, and all of the bottle behind it was
+    /// solid.
+    mutable std::atomic<bool> isContradicted = false;
 };
 
 /// Asks OpenVDB for the side and the mesh for the distance. One for each thread.
@@ -81,7 +86,8 @@ public:
           rays_(source.rays),
           layout_(layout),
           accessor_(source.band->getConstAccessor()),
-          sides_(source.sides ? &*source.sides : nullptr)
+          sides_(source.sides ? &*source.sides : nullptr),
+          isContradicted_(source.isContradicted)
     {
     }
 
@@ -97,10 +103,13 @@ public:
         const double reach =
             nearest_ < 0 ? kNoLimit : distanceTo(nearest_, p) + kSpare * layout_.spacing;
         nearest_ = rays_.closestTriangle(p, reach);
-        const double distance = distanceTo(nearest_, p);
+        const ClosestOnTriangle closest = closestOn(nearest_, p);
+        const double distance = (p - closest.point).norm();
         if (isAsked) {
             sidedPoint_ = p;
             sidedDistance_ = distance;
+        } else if (voxels < 0.0f && isOutside(p, closest)) {
+            isContradicted_.store(true, std::memory_order_relaxed);
         }
         return static_cast<float>(std::copysign(distance, static_cast<double>(voxels)));
     }
@@ -112,9 +121,21 @@ private:
     /// precision, and the surface may pass through the node.
     static constexpr double kSpare = 1e-3;
 
+    ClosestOnTriangle closestOn(int triangle, const Vec3& p) const
+    {
+        return closestOnTriangle(p, cornersOf(mesh_, triangle));
+    }
     double distanceTo(int triangle, const Vec3& p) const
     {
-        return (p - closestOnTriangle(p, cornersOf(mesh_, triangle)).point).norm();
+        return (p - closestOn(triangle, p).point).norm();
+    }
+
+    /// Whether the face says so that a point is closest to. An edge or a corner does not.
+    bool isOutside(const Vec3& p, const ClosestOnTriangle& closest) const
+    {
+        if (closest.feature != TriangleFeature::face) return false;
+        const Vec3 normal = cornersOf(mesh_, nearest_).normal();
+        return normal.dot(p - closest.point) > kSpare * layout_.spacing;
     }
 
     /// Of a point that OpenVDB takes for solid. Within its distance from the surface a point has
@@ -132,6 +153,7 @@ private:
     const NodeLayout& layout_;
     openvdb::FloatGrid::ConstAccessor accessor_;
     const WindingNumber* sides_;
+    std::atomic<bool>& isContradicted_;
     int nearest_ = -1;                // to the last node
     Vec3 sidedPoint_ = Vec3::Zero();  // the last one that was asked for its side
     double sidedDistance_ = 0.0;
@@ -215,17 +237,26 @@ void fillDense(DistanceNodes& nodes, const NodeSource& source)
     });
 }
 
-/// Whether the surface comes as near to the block as the band is wide. OpenVDB has no band around
-/// the walls of a cavity, where it sees nothing but inside.
-bool isNearSurface(const NodeSource& source, const NodeLayout& layout, const Index3& block)
+/// Where the surface comes nearest to the middle of a block, from there, in spacings.
+Vec3 wayToSurface(const NodeSource& source, const NodeLayout& layout, const Index3& block)
 {
     const double h = layout.spacing;
     const Vec3 centre =
         layout.node(kBlockCells * block[0], kBlockCells * block[1], kBlockCells * block[2]) +
         Vec3::Constant(0.5 * kBlockCells * h);
     const int t = source.rays.closestTriangle(centre);
-    const Vec3 closest = closestOnTriangle(centre, cornersOf(source.mesh, t)).point;
-    return (closest - centre).norm() < (kBlockCells * kHalfDiagonal + kBandVoxels) * h;
+    return (closestOnTriangle(centre, cornersOf(source.mesh, t)).point - centre) / h;
+}
+
+/// Whether the surface comes as near to a block that OpenVDB has no band in as the band is wide. It
+/// has none around the walls of a cavity, where it sees nothing but inside.
+bool isForgotten(const NodeSource& source, const NodeLayout& layout, const Index3& block)
+{
+    const Vec3 way = wayToSurface(source, layout, block);
+    if (source.sides) return way.norm() < kBlockCells * kHalfDiagonal + kBandVoxels;
+    if (way.cwiseAbs().maxCoeff() < 0.5 * kBlockCells)
+        source.isContradicted.store(true, std::memory_order_relaxed);
+    return false;
 }
 
 /// Gives every block its place among the values; returns how many there are.
@@ -234,8 +265,8 @@ std::size_t layOutBricks(DistanceNodes& nodes, const NodeSource& source)
     parallelFor(nodes.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
             const Index3 block = nodes.blockAt(b);
-            const bool isFine = isInBand(*source.band, block) ||
-                                (source.sides && isNearSurface(source, nodes.layout, block));
+            const bool isFine =
+                isInBand(*source.band, block) || isForgotten(source, nodes.layout, block);
             nodes.blocks[b].isCoarse = isFine ? 0 : 1;
         }
     });
@@ -316,12 +347,8 @@ void noteRanges(DistanceNodes& nodes)
     });
 }
 
-}  // namespace
-
-DistanceNodes buildDistanceNodes(const TriMesh& mesh, const SurfaceRays& rays,
-                                 const NodeLayout& layout, FieldStorage storage)
+DistanceNodes nodesFrom(const NodeSource& source, const NodeLayout& layout, FieldStorage storage)
 {
-    const NodeSource source{mesh, rays, narrowBand(mesh, layout), sidesOf(mesh)};
     const std::size_t denseBytes = layout.nodeCount() * sizeof(float);
     if (storage == FieldStorage::automatic && denseBytes <= kSmallLattice) {
         storage = FieldStorage::dense;
@@ -340,6 +367,18 @@ DistanceNodes buildDistanceNodes(const TriMesh& mesh, const SurfaceRays& rays,
     fillDense(nodes, source);
     noteRanges(nodes);
     return nodes;
+}
+
+}  // namespace
+
+DistanceNodes buildDistanceNodes(const TriMesh& mesh, const SurfaceRays& rays,
+                                 const NodeLayout& layout, FieldStorage storage)
+{
+    NodeSource source{mesh, rays, narrowBand(mesh, layout), sidesOf(mesh)};
+    DistanceNodes nodes = nodesFrom(source, layout, storage);
+    if (!source.isContradicted) return nodes;
+    source.sides.emplace(mesh);
+    return nodesFrom(source, layout, storage);
 }
 
 }  // namespace scree

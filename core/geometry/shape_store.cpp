@@ -6,7 +6,7 @@ namespace scree {
 namespace {
 
 /// To be raised with every change of what is built from the same input.
-constexpr std::uint64_t kBuildVersion = 4, kRepairVersion = 1;
+constexpr std::uint64_t kBuildVersion = 5, kRepairVersion = 1;
 
 template <class Value>
 std::uint64_t hashValue(const Value& value, std::uint64_t seed)

@@ -142,5 +142,54 @@ TEST(E21FieldStorage, TheFieldHasTheSameBitsForAnyThreadCount)
     }
 }
 
+/// A bottle with walls of 0.02 m and a bore of radius `bore` in its lid, 0.2 m wide and high [m].
+TriMesh bottle(double bore)
+{
+    constexpr int kSectors = 32;
+    const std::vector<std::pair<double, double>> profile = {
+        {0.1, 0.0}, {0.1, 0.2}, {bore, 0.2}, {bore, 0.18}, {0.08, 0.18}, {0.08, 0.02}};
+    const int rows = static_cast<int>(profile.size()), bottom = rows * kSectors, floor = bottom + 1;
+    TriMesh mesh{Points(3, floor + 1), Triangles(3, 2 * kSectors * rows)};
+    mesh.points.col(bottom).setZero();
+    mesh.points.col(floor) << 0.0, 0.02, 0.0;
+    Eigen::Index f = 0;
+    for (int k = 0; k < kSectors; ++k) {
+        const double angle = 2.0 * kPi * k / kSectors;
+        const int next = (k + 1) % kSectors;
+        for (int row = 0; row < rows; ++row) {
+            const auto [r, y] = profile[static_cast<std::size_t>(row)];
+            mesh.points.col(row * kSectors + k) << r * std::cos(angle), y, r * std::sin(angle);
+            if (row == 0) continue;
+            const int a = (row - 1) * kSectors + k, b = (row - 1) * kSectors + next;
+            mesh.triangles.col(f++) << a, a + kSectors, b;
+            mesh.triangles.col(f++) << b, a + kSectors, b + kSectors;
+        }
+        mesh.triangles.col(f++) << bottom, k, next;
+        const int last = (rows - 1) * kSectors;
+        mesh.triangles.col(f++) << floor, last + next, last + k;
+    }
+    return mesh;
+}
+
+// OpenVDB's flood does not pass a hole of less than two voxels: all of the bottle was solid.
+TEST(E21FieldStorage, ACavityIsOutsideHoweverNarrowTheWayIntoIt)
+{
+    for (const double bore : {0.0005, 0.002, 0.01}) {
+        const TriMesh mesh = bottle(bore);
+        ASSERT_GT(signedVolume(mesh), 0.0);
+        for (const FieldStorage storage : {FieldStorage::dense, FieldStorage::bricks}) {
+            const auto shape = stored(mesh, storage);
+            const Vec3 middle = shape->bodyFromAsset * Vec3(0.0, 0.1, 0.0);
+            EXPECT_NEAR(shape->distance.value(middle), 0.08, 0.003) << bore;
+            for (std::uint64_t i = 0; i < 2000; ++i) {
+                const Vec3 p = 0.07 * signedUnits(41, 3 * i);
+                if (std::hypot(p.x(), p.z()) > 0.075) continue;
+                ASSERT_GT(shape->distance.value(middle + shape->bodyFromAsset.orientation * p), 0.0)
+                    << bore << ": " << p.transpose();
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace scree::test
