@@ -1,7 +1,9 @@
 #include "core/geometry/mesh_repair.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace scree {
 namespace {
@@ -14,10 +16,16 @@ bool isReadable(const TriMesh& mesh)
            mesh.triangles.maxCoeff() < mesh.points.cols();
 }
 
+/// Whether a triangle has no height but by rounding of its corners, which files keep in single
+/// precision: its normal is noise. One beside a T-junction made a ball of 1280 triangles an edged
+/// body with blades.
 bool isFlat(const TriMesh& mesh, int a, int b, int c)
 {
+    constexpr double kRounding = 1e-6;  // of its longest side
     const Vec3 p = mesh.points.col(a), q = mesh.points.col(b), r = mesh.points.col(c);
-    return !((q - p).cross(r - p).norm() > 0.0);
+    const double longest =
+        std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
+    return !((q - p).cross(r - p).norm() > kRounding * longest);
 }
 
 /// Which triangle walks each edge; false when some edge is walked twice.
@@ -69,14 +77,19 @@ bool flipLongEdge(TriMesh& mesh, int triangle, std::map<Edge, int>& walkers)
 
 int flipFlatTriangles(TriMesh& mesh)
 {
-    int flips = 0;
-    std::map<Edge, int> walkers;  // made once there is a flat triangle, then kept up to date
+    std::vector<int> flat;
     for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
-        if (!isFlat(mesh, mesh.triangles(0, f), mesh.triangles(1, f), mesh.triangles(2, f))) {
-            continue;
-        }
-        if (walkers.empty() && !mapEdges(mesh, walkers)) return flips;
-        flips += flipLongEdge(mesh, f, walkers);
+        if (isFlat(mesh, mesh.triangles(0, f), mesh.triangles(1, f), mesh.triangles(2, f)))
+            flat.push_back(f);
+    }
+    std::map<Edge, int> walkers;
+    if (flat.empty() || !mapEdges(mesh, walkers)) return 0;
+    // Of two flat ones in a row the outer one may have to go first, whichever comes first.
+    int flips = 0;
+    for (std::size_t before = 0; before != flat.size();) {
+        before = flat.size();
+        std::erase_if(flat, [&](int f) { return flipLongEdge(mesh, f, walkers); });
+        flips += static_cast<int>(before - flat.size());
     }
     return flips;
 }
@@ -102,7 +115,7 @@ TriMesh repairHarmlessly(const TriMesh& mesh, HarmlessRepairs& repairs)
     repairs.droppedTriangles = static_cast<int>(mesh.triangles.cols() - repaired.triangles.cols());
     repairs.flippedEdges = flipFlatTriangles(repaired);
     if (signedVolume(repaired) < 0.0 && isClosed(repaired)) {
-        repaired.triangles.row(1).swap(repaired.triangles.row(2));
+        turnInsideOut(repaired);
         repairs.isTurned = true;
     }
     return repaired;

@@ -1,6 +1,11 @@
 // A diagonal that touches a corner on its way is none: a library that overlooked that covered the
-// notch of an L whose inner corner lies on the line between two others.
+// notch of an L whose inner corner lies on the line between two others. Corners that were on a line
+// before they were rounded to single precision still are: a triangle cut from three of them would
+// face anywhere.
 #include "core/geometry/polygon_cut.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace scree {
 namespace {
@@ -8,10 +13,14 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Points2 = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
-/// Twice the area of a triangle, positive if it turns to the left.
-double turnOf(const Vec2& a, const Vec2& b, const Vec2& c)
+/// Twice the area of a triangle, positive if it turns to the left; 0 where its height is less than
+/// `rounding` of its longest side.
+double turnOf(const Vec2& a, const Vec2& b, const Vec2& c, double rounding)
 {
-    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    const double turn = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    const double longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return std::abs(turn) > rounding * longest ? turn : 0.0;
 }
 
 /// As seen along the axis that it faces most, turning to the left: so coordinates stay what they
@@ -33,7 +42,8 @@ Points2 flattened(const Points& corners)
 
 class EarCutter {
 public:
-    explicit EarCutter(const Points& corners) : flat_(flattened(corners))
+    EarCutter(const Points& corners, double rounding)
+        : flat_(flattened(corners)), rounding_(rounding)
     {
         for (int i = 0; i < static_cast<int>(flat_.cols()); ++i) left_.push_back(i);
     }
@@ -62,6 +72,10 @@ private:
     int before(std::size_t at) const { return left_[(at + left_.size() - 1) % left_.size()]; }
     int after(std::size_t at) const { return left_[(at + 1) % left_.size()]; }
     Vec2 point(int corner) const { return flat_.col(corner); }
+    double turnOf(const Vec2& a, const Vec2& b, const Vec2& c) const
+    {
+        return scree::turnOf(a, b, c, rounding_);
+    }
     double turnAt(std::size_t at) const
     {
         return turnOf(point(before(at)), point(left_[at]), point(after(at)));
@@ -84,6 +98,7 @@ private:
     }
 
     Points2 flat_;
+    double rounding_;
     std::vector<int> left_;  // corners that no triangle has cut off yet
 };
 
@@ -91,7 +106,9 @@ private:
 
 std::vector<int> cutPolygon(const Points& corners)
 {
-    return EarCutter(corners).cut();
+    constexpr double kRounding = 1e-6;
+    std::vector<int> triangles = EarCutter(corners, kRounding).cut();
+    return triangles.empty() ? EarCutter(corners, 0.0).cut() : triangles;
 }
 
 }  // namespace scree

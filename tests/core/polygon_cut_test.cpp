@@ -114,5 +114,24 @@ TEST(CutPolygon, AnswersNothingForWhatCrossesItselfOrHasNoArea)
     EXPECT_TRUE(cutPolygon(Points::Constant(3, 5, 0.25)).empty());
 }
 
+// A triangle of three corners on one line, rounded to single precision, faced anywhere.
+TEST(CutPolygon, TakesCornersOnALineForThatAfterRounding)
+{
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const Points sides = flat({{0, 0}, {0.7, 0}, {2, 0}, {2, 0.3}, {2, 1}, {1.1, 1}, {0, 1}});
+        const Mat3 turned = exponentialMap(3.0 * signedUnits(seed, 1000));
+        const Points corners =
+            ((turned * sides).colwise() + signedUnits(seed, 2000)).cast<float>().cast<double>();
+        const Vec3 normal = turned * Vec3::UnitZ();
+        const std::vector<int> cut = cutPolygon(corners);
+        ASSERT_EQ(cut.size(), 15u);
+        for (std::size_t k = 0; k < cut.size(); k += 3) {
+            const Vec3 area =
+                areaOf(corners.col(cut[k]), corners.col(cut[k + 1]), corners.col(cut[k + 2]));
+            EXPECT_GT(area.normalized().dot(normal), 0.9999) << seed;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace scree::test
