@@ -2,7 +2,9 @@
 #include "core/geometry/mesh_crossings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -15,9 +17,18 @@ namespace {
 
 constexpr double kTouching = 1e-6;  // of the mesh's diagonal
 
-/// Where the edge pq goes through the triangle; both ends are farther from its plane, and the
-/// crossing farther from its border, than `tolerance`.
-std::optional<Vec3> pierce(const TriangleCorners& t, const Vec3& p, const Vec3& q, double tolerance)
+/// Where an edge goes through a triangle.
+struct Hit {
+    Vec3 place;
+    bool isOutward;              // along the edge
+    std::array<bool, 3> onSide;  // from each corner to the next: it lies on the border there
+
+    bool isOnBorder() const { return onSide[0] || onSide[1] || onSide[2]; }
+};
+
+/// Both ends of pq are farther from the plane of the triangle than `tolerance`, and what lies
+/// nearer to its border is on that.
+std::optional<Hit> pierce(const TriangleCorners& t, const Vec3& p, const Vec3& q, double tolerance)
 {
     const Vec3 n = t.areaVector();
     const double length = n.norm();
@@ -26,13 +37,15 @@ std::optional<Vec3> pierce(const TriangleCorners& t, const Vec3& p, const Vec3& 
     const bool crosses =
         (above > tolerance && below < -tolerance) || (above < -tolerance && below > tolerance);
     if (!crosses) return std::nullopt;
-    const Vec3 place = p + above / (above - below) * (q - p);
-    const auto isInside = [&](const Vec3& from, const Vec3& to) {
-        const Vec3 edge = to - from;
-        return n.dot(edge.cross(place - from)) > tolerance * length * edge.norm();
-    };
-    const bool hits = isInside(t.a, t.b) && isInside(t.b, t.c) && isInside(t.c, t.a);
-    return hits ? std::optional<Vec3>(place) : std::nullopt;
+    Hit hit{p + above / (above - below) * (q - p), above < 0.0, {}};
+    const std::array<Vec3, 3> corners = {t.a, t.b, t.c};
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 edge = corners[(k + 1) % 3] - corners[k];
+        const double inward = n.dot(edge.cross(hit.place - corners[k])) / (length * edge.norm());
+        if (inward < -tolerance) return std::nullopt;
+        hit.onSide[k] = inward <= tolerance;
+    }
+    return hit;
 }
 
 /// A triangle and its box.
@@ -82,11 +95,63 @@ private:
     std::vector<std::vector<std::size_t>> members_;
 };
 
-/// A crossing with its place in the order in which they are told, and the edge that pierces.
+/// A triangle and the ends of an edge, the lower first.
+using Piercing = std::tuple<int, int, int>;
+
+/// A crossing with its place in the order in which they are told.
 struct Found {
     std::tuple<std::size_t, std::size_t, int, int> order;
-    std::tuple<int, int, int> what;
-    MeshCrossing crossing;
+    Piercing what;
+    Hit hit;
+};
+
+/// Which of what has been found goes through the surface. Solids modelled on a grid pierce each
+/// other just where triangles border on each other; but an edge that touches another where it
+/// passes goes through one of its faces inward and through the other outward.
+class ThroughSurface {
+public:
+    ThroughSurface(const TriMesh& mesh, const std::vector<Found>& found) : mesh_(mesh)
+    {
+        for (const Found& one : found) isOutward_[one.what] = one.hit.isOutward;
+        if (std::ranges::none_of(found, [](const Found& one) { return one.hit.isOnBorder(); }))
+            return;
+        around_.resize(static_cast<std::size_t>(mesh.points.cols()));
+        for (int f = 0; f < static_cast<int>(mesh.triangles.cols()); ++f) {
+            for (const int point : mesh.triangles.col(f)) around_[point].push_back(f);
+        }
+    }
+
+    bool goesThrough(const Found& found) const
+    {
+        if (!found.hit.isOnBorder()) return true;
+        const auto [pierced, p, q] = found.what;
+        const std::vector<int> shared = sharedPoints(pierced, found.hit);
+        if (shared.empty()) return false;
+        return std::ranges::all_of(around_[shared.front()], [&](int f) {
+            const auto corners = mesh_.triangles.col(f).array();
+            if (!(corners == shared.back()).any()) return true;
+            const auto same = isOutward_.find({f, p, q});
+            return same != isOutward_.end() && same->second == found.hit.isOutward;
+        });
+    }
+
+private:
+    /// The ends of the side that it lies on, or the corner between two sides.
+    std::vector<int> sharedPoints(int pierced, const Hit& hit) const
+    {
+        std::vector<int> points;
+        for (int k = 0; k < 3; ++k) {
+            const bool isBefore = hit.onSide[(k + 2) % 3], isAfter = hit.onSide[k];
+            const int sides = hit.onSide[0] + hit.onSide[1] + hit.onSide[2];
+            const bool isShared = sides == 1 ? isBefore || isAfter : isBefore && isAfter;
+            if (isShared) points.push_back(mesh_.triangles(k, pierced));
+        }
+        return points;
+    }
+
+    const TriMesh& mesh_;
+    std::map<Piercing, bool> isOutward_;
+    std::vector<std::vector<int>> around_;  // triangles, by point
 };
 
 bool sharesPoint(const TriMesh& mesh, int f, int g)
@@ -135,12 +200,10 @@ std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
             const TriangleCorners corners = cornersOf(mesh, pierced);
             for (int k = 0; k < 3; ++k) {
                 const int p = mesh.triangles(k, other), q = mesh.triangles((k + 1) % 3, other);
-                const auto place =
-                    pierce(corners, mesh.points.col(p), mesh.points.col(q), tolerance);
-                if (!place) continue;
-                found.push_back({{i, j, turn, k},
-                                 {pierced, std::min(p, q), std::max(p, q)},
-                                 {pierced, *place}});
+                const auto [low, high] = std::minmax(p, q);
+                const auto hit =
+                    pierce(corners, mesh.points.col(low), mesh.points.col(high), tolerance);
+                if (hit) found.push_back({{i, j, turn, k}, {pierced, low, high}, *hit});
             }
         };
         // Where there is one strip alone, all threads share it.
@@ -165,10 +228,12 @@ std::vector<MeshCrossing> findCrossings(const TriMesh& mesh)
     std::sort(found.begin(), found.end(),
               [](const Found& a, const Found& b) { return a.order < b.order; });
     // An edge has two faces, and two triangles may meet in several strips: it is told once.
-    std::set<std::tuple<int, int, int>> seen;
+    std::set<Piercing> seen;
     std::vector<MeshCrossing> crossings;
+    const ThroughSurface surface(mesh, found);
     for (const Found& one : found) {
-        if (seen.insert(one.what).second) crossings.push_back(one.crossing);
+        if (seen.insert(one.what).second && surface.goesThrough(one))
+            crossings.push_back({std::get<0>(one.what), one.hit.place});
     }
     return crossings;
 }

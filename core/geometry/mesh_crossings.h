@@ -14,7 +14,8 @@ struct MeshCrossing {
 
 /// Every edge that goes through a triangle it has no point in common with, by more than a millionth
 /// of the mesh's diagonal: coordinates are stored in single precision, and faces that merely touch
-/// are no crossing. One entry for each triangle and edge, in a fixed order.
+/// are no crossing. One entry for each triangle and edge, in a fixed order; of several triangles
+/// that border on each other there, for each.
 std::vector<MeshCrossing> findCrossings(const TriMesh& mesh);
 
 }  // namespace scree

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/base/parallel.h"
@@ -72,6 +73,30 @@ TEST(MeshCrossings, AreWhatComparingAllWithAllFindsOnAnyNumberOfThreads)
         EXPECT_EQ(one[i].triangle, three[i].triangle);
         EXPECT_EQ(one[i].place, three[i].place);
     }
+}
+
+// On the grid of a modelling program edges go through faces just where their triangles meet.
+TEST(MeshCrossings, AreFoundWhereTrianglesBorderOnEachOther)
+{
+    const TriMesh cube = makeBox(Vec3::Ones(), {1, 1, 1});
+    const auto shifted = [&](const Vec3& by) {
+        return test::both(cube, transformed(cube, {by, Quat::Identity()}));
+    };
+    EXPECT_FALSE(findCrossings(shifted({0.5, 0.5, 0.5})).empty());
+    const TriMesh fine = makeBox(Vec3::Ones(), {2, 2, 2});
+    const TriMesh inCorners =
+        test::both(fine, transformed(cube, {Vec3::Constant(0.5), Quat::Identity()}));
+    EXPECT_FALSE(findCrossings(inCorners).empty());
+    // Beside each other, on each other's edge, and corner to corner.
+    for (const Vec3& by :
+         {Vec3(1.0, 0.5, 0.5), Vec3(1.0, 0.0, 0.0), Vec3(1.0, 1.0, 0.5), Vec3(1.0, 1.0, 1.0)})
+        EXPECT_TRUE(findCrossings(shifted(by)).empty()) << by.transpose();
+    // An edge that lies across another just touches it.
+    const Quat eighth = rotated(Quat::Identity(), Vec3(0.25 * kPi, 0.0, 0.0));
+    const double reach = 0.5 + 0.5 * std::sqrt(2.0);
+    const TriMesh touching = test::both(
+        cube, transformed(makeBox({0.5, 1.0, 1.0}, {1, 1, 1}), {Vec3(0, reach, 0), eighth}));
+    EXPECT_TRUE(findCrossings(touching).empty());
 }
 
 }  // namespace

@@ -182,6 +182,59 @@ TriMesh withFlatTriangles(TriMesh mesh)
     return result;
 }
 
+// In a file of single precision a T-junction that was closed is flat but for rounding, and its
+// normal is noise: a ball became a body with blades.
+TEST(TortureMesh, WhatIsFlatButForRoundingIsFlipped)
+{
+    TriMesh ball = makeSphere(0.3, 3);
+    const auto rounded = [](TriMesh mesh) {
+        mesh.points = mesh.points.cast<float>().cast<double>().eval();
+        return mesh;
+    };
+    const TriMesh closed = rounded(withFlatTriangles(rounded(ball)));
+    const auto shape = buildMeshShape("ball", closed);
+    EXPECT_GT(shape->repairs.harmless.flippedEdges, 100);
+    EXPECT_FALSE(shape->usesTrueNormals);
+    EXPECT_FALSE(shape->features.hasBlades());
+}
+
+// Of two flat triangles in a row one was given up, if it came first.
+TEST(TortureMesh, FlatTrianglesInARowAreFlippedInAnyOrder)
+{
+    // The long edge 0-1 of a face has points at its thirds, and two triangles that close it.
+    TriMesh mesh = makeBox({3, 1, 1}, {1, 1, 1});
+    std::map<std::pair<int, int>, int> walkers;
+    for (int f = 0; f < mesh.triangles.cols(); ++f) {
+        for (int k = 0; k < 3; ++k)
+            walkers[{mesh.triangles(k, f), mesh.triangles((k + 1) % 3, f)}] = f;
+    }
+    const auto isLong = [&](const std::pair<int, int>& edge) {
+        const double length = (mesh.points.col(edge.first) - mesh.points.col(edge.second)).norm();
+        return std::abs(length - 3.0) < 1e-9;
+    };
+    const auto found =
+        std::ranges::find_if(walkers, [&](const auto& one) { return isLong(one.first); });
+    ASSERT_NE(found, walkers.end());
+    const auto [a, b] = found->first;
+    const Vec3 start = mesh.points.col(a), way = mesh.points.col(b) - mesh.points.col(a);
+    const int near = static_cast<int>(mesh.points.cols()), far = near + 1;
+    int third = 0;
+    for (const int corner : mesh.triangles.col(found->second))
+        third = corner == a || corner == b ? third : corner;
+    mesh.triangles.col(found->second) << a, near, third;
+    mesh = withPoint(withPoint(mesh, start + way / 3.0), start + 2.0 * way / 3.0);
+    mesh = withTriangle(withTriangle(mesh, near, far, third), far, b, third);
+    for (const bool isTurned : {false, true}) {
+        const auto add = [&](const TriMesh& to, bool isOuter) {
+            return isOuter ? withTriangle(to, a, b, near) : withTriangle(to, near, b, far);
+        };
+        HarmlessRepairs repairs;
+        const TriMesh repaired = repairHarmlessly(add(add(mesh, isTurned), !isTurned), repairs);
+        EXPECT_EQ(repairs.flippedEdges, 2) << isTurned;
+        EXPECT_TRUE(findDefects(repaired).empty()) << isTurned;
+    }
+}
+
 // All edges were mapped anew for each of the triangles: 4000 of them took a minute.
 TEST(TortureMesh, ThousandsOfTrianglesWithoutAreaAreFlippedInNoTime)
 {
@@ -228,6 +281,10 @@ TEST(TortureMesh, EveryOtherDefectIsRefusedByName)
          "non-manifold edge"},
         {"two that pierce", both(cube(), moved(cube(), Vec3(0.61, 0.43, 0.27))),
          "face that pierces another"},
+        {"two that pierce on a grid", both(cube(), moved(cube(), Vec3::Constant(0.5))),
+         "face that pierces another"},
+        {"two flush ones that overlap", both(cube(), moved(cube(), Vec3(0.5, 0.5, 0.0))),
+         "part that lies inside another"},
         {"one within another", both(cube(), inner), "part that lies inside another"},
         {"a part inside-out", both(cube(), moved(turned(inner), Vec3(5, 0, 0))),
          "part that is turned inside-out"},
