@@ -106,7 +106,8 @@ void findByField(const SignedDistance& field, const Vec3& c, double radius, doub
 {
     const double gap = field.value(c) - radius;
     if (gap >= reach) return;
-    const Vec3 n = field.gridGradient(c).normalized();
+    Vec3 n = field.gridGradient(c).normalized();
+    if (n.isZero(0.0)) n = Vec3::UnitY();  // as far from all sides
     found.push_back({{0, 0}, {c - radius * n, n, gap}});
 }
 

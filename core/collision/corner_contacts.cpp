@@ -99,7 +99,7 @@ FacedCorner faceBySlope(const Corner& corner, double value, double reach, double
 {
     if (value >= reach) return Corner::apart(value);
     const Vec3 gradient = corner.field().gridGradient(corner.p), normal = gradient.normalized();
-    if (!normal.allFinite()) return Corner::apart(0.0);
+    if (normal.isZero(0.0)) return Corner::apart(0.0);  // as far from all sides
     if (corner.supports(normal)) return corner.touching(normal, value);
     const bool mayBeAtEdge = corner.field().solid() && value < sharpness;
     if (!mayBeAtEdge) return corner.unsupported(normal, value);
@@ -117,7 +117,7 @@ FacedCorner faceFromAfar(const Corner& corner, double gridValue, double reach)
     const double gap = seen ? seen->value : field.upperBound(corner.p);
     const Vec3 normal =
         seen ? Vec3((corner.p - seen->point) / gap) : field.gridGradient(corner.p).normalized();
-    if (gap < reach && normal.allFinite() && corner.supports(normal))
+    if (gap < reach && !normal.isZero(0.0) && corner.supports(normal))
         return corner.touching(normal, gap);
     return Corner::between(field.lowerBound(corner.p, gridValue), gap);
 }
