@@ -25,12 +25,20 @@ std::vector<GapContact> contactsOf(const Shape& a, const Vec3& place, const Shap
     return contacts;
 }
 
+std::shared_ptr<const Shape> coarselySampled(const TriMesh& mesh, MeshRepair repair)
+{
+    ShapeSettings settings;
+    settings.resolution = 40;
+    settings.repair = repair;
+    return buildMeshShape("shape", mesh, settings);
+}
+
 /// A box with a cavity that leaves walls of a tenth of its edge.
 std::shared_ptr<const Shape> hollowBox()
 {
     TriMesh cavity = makeBox(Vec3::Constant(0.8), {1, 1, 1});
     turnInsideOut(cavity);
-    return buildMeshShape("hollow", both(makeBox(Vec3::Ones(), {1, 1, 1}), cavity));
+    return coarselySampled(both(makeBox(Vec3::Ones(), {1, 1, 1}), cavity), MeshRepair::none);
 }
 
 // All corners of a cavity lie behind all faces outside: it passed for convex, and what was pressed
@@ -39,11 +47,9 @@ TEST(ContactFeatures, WhatLiesInACavityLeavesIntoIt)
 {
     const auto hollow = hollowBox(), cube = boxShape(Vec3::Constant(0.2), 1);
     EXPECT_FALSE(hollow->features.isConvex());
-    ShapeSettings asRoom;
-    asRoom.repair = MeshRepair::room;
-    TriMesh inside = makeBox(Vec3::Ones(), {1, 1, 1});
-    const auto room = buildMeshShape("room", inside, asRoom);
-    EXPECT_FALSE(room->features.isConvex());
+    TriMesh fromInside = makeBox(Vec3::Ones(), {1, 1, 1});
+    turnInsideOut(fromInside);
+    EXPECT_FALSE(coarselySampled(fromInside, MeshRepair::room)->features.isConvex());
     for (const double depth : {0.0005, 0.002, 0.01}) {
         const auto contacts = contactsOf(*cube, {0.0, -0.3 - depth, 0.0}, *hollow, 0.001);
         ASSERT_EQ(contacts.size(), 4u) << depth;
@@ -84,7 +90,7 @@ TEST(ContactFeatures, AGentleDomeStandsOnItself)
 {
     const TriMesh mesh = lens(0.025, 1.0, 60, 120);
     ASSERT_GT(signedVolume(mesh), 0.0);
-    const auto shape = buildMeshShape("lens", mesh);
+    const auto shape = coarselySampled(mesh, MeshRepair::none);
     const auto plane = buildPlaneShape("plane");
     const double lowest = shape->box.min.y();
     const auto contacts = contactsOf(*shape, {0.0, -lowest, 0.0}, *plane, 1e-4);
@@ -100,7 +106,7 @@ TEST(ContactFeatures, AThinRodLiesOnBothItsSides)
 {
     const auto plane = buildPlaneShape("plane");
     for (const double thick : {0.002, 0.004, 0.02}) {
-        const auto rod = boxShape({1.0, thick, thick}, 1);
+        const auto rod = exactBox({1.0, thick, thick}, 1);
         EXPECT_EQ(contactsOf(*rod, {0.0, 0.5 * thick, 0.0}, *plane, 1e-4).size(), 4u) << thick;
     }
 }

@@ -119,7 +119,7 @@ TEST(CutPolygon, TakesCornersOnALineForThatAfterRounding)
 {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         const Points sides = flat({{0, 0}, {0.7, 0}, {2, 0}, {2, 0.3}, {2, 1}, {1.1, 1}, {0, 1}});
-        const Mat3 turned = exponentialMap(3.0 * signedUnits(seed, 1000));
+        const Mat3 turned = exponentialMap(3.0 * signedUnits(seed, 1000)).toRotationMatrix();
         const Points corners =
             ((turned * sides).colwise() + signedUnits(seed, 2000)).cast<float>().cast<double>();
         const Vec3 normal = turned * Vec3::UnitZ();
