@@ -131,12 +131,18 @@ void runFreeFlight(const Context& context, Findings& findings)
     Stepper stepper(settings);
     const double dt = 1.0 / 240.0, n = 2400.0;
     std::int64_t impulses = 0;
-    for (int k = 0; k < n; ++k) {
+    double position = 0.0, momentum = 0.0, unit = 0.0;
+    for (int k = 1; k <= n; ++k) {
         const StepReport report = stepper.step(world, dt);
         impulses += report.collisionImpulses.total() + report.contactImpulses.total() +
                     report.shockImpulses.total() + report.pushes;
+        for (std::size_t b = 0; b < world.bodyCount(); ++b) {
+            const Vec3 &before = start.motion[b].angularMomentum,
+                       &after = world.motion[b].angularMomentum;
+            momentum = larger(momentum, (after - before).norm() / before.norm());
+            unit = larger(unit, std::abs(world.motion[b].orientation.norm() - 1.0));
+        }
     }
-    double position = 0.0, momentum = 0.0, unit = 0.0;
     for (std::size_t b = 0; b < world.bodyCount(); ++b) {
         const BodyMotion &before = start.motion[b], &after = world.motion[b];
         // The paper's positions use the new velocities: the sum of k dt over k = 1 … n. Method
@@ -145,14 +151,11 @@ void runFreeFlight(const Context& context, Findings& findings)
         const Vec3 expected =
             before.position + n * dt * before.velocity + 0.5 * squares * dt * dt * settings.gravity;
         position = larger(position, (after.position - expected).norm() / expected.norm());
-        momentum = larger(momentum, (after.angularMomentum - before.angularMomentum).norm() /
-                                        before.angularMomentum.norm());
-        unit = larger(unit, std::abs(after.orientation.norm() - 1.0));
     }
     findings.atMost(must, "a hundred bodies, 10 s: position against the method's own sum", position,
                     1e-12, "relative");
-    findings.atMost(must, "angular momentum changes", momentum, 1e-13, "relative");
-    findings.atMost(must, "length of the quaternion is off one", unit, 1e-14, "-");
+    findings.atMost(must, "angular momentum changes in any step", momentum, 1e-13, "relative");
+    findings.atMost(must, "length of the quaternion is off one in any step", unit, 1e-14, "-");
     findings.equal(must, "impulses", static_cast<double>(impulses), 0);
     if (isPaper) {
         findings.near(must, "position: error at dt over error at dt/2",
@@ -175,12 +178,21 @@ void runTumbling(const Context& context, Findings& findings)
     const auto fourthFlip = [](const Tumble& run) {
         return run.flips.size() < 4 ? std::nan("") : run.flips[3];
     };
-    findings.atMost(must, "energy changes, 60 Hz", std::abs(coarse.energyChange), 5e-3, "relative");
+    findings.atMost(must, "energy changes at any time, 60 Hz", coarse.largestEnergyChange, 5e-3,
+                    "relative");
     findings.atMost(must, "energy changes at any time, 240 Hz", usual.largestEnergyChange, 1e-4,
                     "relative");
     findings.atMost(must, "angular momentum changes", usual.momentumChange, 1e-13, "kg m^2/s");
     findings.equal(must, "flips within 20 s", static_cast<double>(usual.flips.size()), 5);
-    // Against a Runge–Kutta reference with a step of 1e-4 s.
+    // Against a Runge–Kutta reference with a step of 1e-4 s. Errors of the phase add up: where the
+    // fourth flip may be 2 % late, those before it are later by less.
+    const double reference[] = {1.9329, 5.7985, 9.6641};
+    double late = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double flip = i < usual.flips.size() ? usual.flips[i] : std::nan("");
+        late = larger(late, std::abs(flip / reference[i] - 1.0));
+    }
+    findings.atMost(must, "times of the first three flips, 240 Hz: off by", late, 0.02, "of them");
     findings.near(must, "time of the fourth flip, 240 Hz", fourthFlip(usual), 13.5298,
                   0.02 * 13.5298, "s");
     findings.near(must, "time of the fourth flip, 960 Hz", fourthFlip(fine), 13.5298,
@@ -196,6 +208,9 @@ void runTumbling(const Context& context, Findings& findings)
     Tumble euler = tumble(context, 240.0, OrientationUpdate::euler);
     findings.atLeast(control, "forward Euler, the paper's: energy gained", euler.energyChange, 1.0,
                      "relative");
+    const Tumble fineEuler = tumble(context, 960.0, OrientationUpdate::euler);
+    findings.report("forward Euler at 960 Hz: energy gained", fineEuler.energyChange, "relative",
+                    "the paper's update: 12 % expected");
     Curve spin = usual.spin;
     spin.name = "second order, 240 Hz";
     euler.spin.name = "control: forward Euler, 240 Hz";
