@@ -12,6 +12,7 @@
 #include "core/dynamics/contact_graph.h"
 #include "core/geometry/primitives.h"
 #include "core/math/rotation.h"
+#include "tools/cpu_time.h"
 #include "tools/verify/experiments.h"
 #include "tools/verify/shot_run.h"
 
@@ -187,6 +188,8 @@ void dominoes(const Context& context, Findings& findings)
                 findings.near(must, name + ": radius of the first touch", found,
                               touchingRadius(domino, count, overlap), 1e-6, "m",
                               "of boxes: their edges meet before any of their samples do");
+                findings.near(departure, name + ": radius at which samples first touch", found,
+                              radius, 2e-4, "m", "this method knows no samples");
             }
             const SceneGraph touching = graphOf(context, dominoRing(domino, count, found));
             findings.equal(must, name + ": levels", touching.levels, 2);
@@ -196,6 +199,7 @@ void dominoes(const Context& context, Findings& findings)
             findings.equal(must, name + " 1 mm farther out: components", apart.components,
                            count + 1);
             findings.equal(must, name + " 1 mm farther out: pairs", apart.pairs.size(), count);
+            findings.equal(must, name + " 1 mm farther out: levels", apart.levels, 2);
         }
     }
     const auto exact = buildExactShape("domino", ExactSolid::box({0.4, 1.0, 0.1}),
@@ -275,14 +279,7 @@ std::string levelsOnTheRide(const Context& context, std::uint64_t seed, bool isR
         overrides.emplace_back("body.three.grid.spacing=[0, -1, 0]");
     }
     ShotRun run(context, "E06_moving_floor", overrides);
-    LastStep last;
-    run.stepper.observe(&last);
-    run.advanceFrames(1);
-    std::string levels;
-    for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
-        if (run.world.mass[b].isMovable()) levels += std::to_string(last.seen.level[b]);
-    }
-    return levels;
+    return levelsInAFrame(run);
 }
 
 void onAMovingFloor(const Context& context, Findings& findings)
@@ -303,12 +300,29 @@ void onAMovingFloor(const Context& context, Findings& findings)
     findings.equal(must, "shots/dominoes.toml, a frame with all defaults: levels", levels, 2);
 }
 
+/// A search that called itself from node to node would need a stack as deep.
+void chain(Findings& findings)
+{
+    constexpr int kNodes = 100000;
+    std::vector<SupportEdge> edges;
+    for (int i = 0; i + 1 < kNodes; ++i) edges.push_back({i, i + 1});
+    std::vector<char> isFixed(kNodes, 0);
+    isFixed[0] = 1;
+    const double before = cpuSeconds();
+    const GraphLevels levels = computeLevels(kNodes, edges, isFixed);
+    const double seconds = cpuSeconds() - before;
+    findings.equal(must, "chain of 100 000 nodes: level of the last", levels.level.back(),
+                   kNodes - 1);
+    findings.atMost(must, "chain of 100 000 nodes: processor time", seconds, 1.0, "s");
+}
+
 }  // namespace
 
 void runContactGraph(const Context& context, Findings& findings)
 {
     dominoes(context, findings);
     cubes(context, findings);
+    chain(findings);
     onAMovingFloor(context, findings);
 }
 

@@ -1,6 +1,7 @@
 #include "tools/verify/shot_run.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/dynamics/integrator.h"
@@ -23,15 +24,32 @@ constexpr int kPictureWidth = 640, kPictureHeight = 400;
 /// Half width of the quads that stand for planes; the rasteriser draws them without end [m].
 constexpr double kPlaneHalfWidth = 50.0;
 
-Shot readShot(const Context& context, const std::string& name, std::vector<std::string> overrides,
+std::vector<std::string> withContext(const Context& context, std::vector<std::string> overrides)
+{
+    overrides.push_back("solver.method=" + context.method);
+    if (context.seed != 0) overrides.push_back("shot.seed=" + std::to_string(context.seed));
+    return overrides;
+}
+
+Shot readShot(const Context& context, const std::string& name,
+              const std::vector<std::string>& overrides,
               const std::function<void(StepSettings&)>& change)
 {
     heedStop(kOutcomeOfStop);
-    overrides.push_back("solver.method=" + context.method);
-    if (context.seed != 0) overrides.push_back("shot.seed=" + std::to_string(context.seed));
-    Shot shot = parseShot((context.shots / (name + ".toml")).string(), overrides);
+    const std::string path = (context.shots / (name + ".toml")).string();
+    Shot shot = parseShot(path, withContext(context, overrides));
     if (change) change(shot.settings);
     return shot;
+}
+
+Shot readChanged(const Context& context, const ChangedShot& changed,
+                 const std::vector<std::string>& overrides)
+{
+    heedStop(kOutcomeOfStop);
+    const std::string text =
+        "scree = 1\nextends = \"" + changed.name + ".toml\"\n" + changed.changes;
+    const std::string path = (context.shots / (changed.name + "_changed.toml")).string();
+    return parseShotText(text, path, withContext(context, overrides));
 }
 
 std::vector<Look> looksOf(const Shot& shot, const SceneDescription& scene)
@@ -62,10 +80,18 @@ void refuseNonFinite(const World& world, const StepReport& report)
 ShotRun::ShotRun(const Context& context, const std::string& name,
                  const std::vector<std::string>& overrides,
                  const std::function<void(StepSettings&)>& change)
-    : shot(readShot(context, name, overrides, change)),
-      world(buildWorld(shot)),
-      start(world),
-      stepper(shot.settings)
+    : ShotRun(readShot(context, name, overrides, change))
+{
+}
+
+ShotRun::ShotRun(const Context& context, const ChangedShot& changed,
+                 const std::vector<std::string>& overrides)
+    : ShotRun(readChanged(context, changed, overrides))
+{
+}
+
+ShotRun::ShotRun(Shot asRead)
+    : shot(std::move(asRead)), world(buildWorld(shot)), start(world), stepper(shot.settings)
 {
 }
 
@@ -171,6 +197,19 @@ double lowestVertex(const World& world, BodyId body)
         lowest = smaller(lowest, (pose * p).y());
     }
     return lowest;
+}
+
+std::string levelsInAFrame(ShotRun& run)
+{
+    LastStep last;
+    run.stepper.observe(&last);
+    run.advanceFrames(1);
+    run.stepper.observe(nullptr);
+    std::string levels;
+    for (std::size_t b = 0; b < run.world.bodyCount(); ++b) {
+        if (run.world.mass[b].isMovable()) levels += std::to_string(last.seen.level[b]);
+    }
+    return levels;
 }
 
 void addPicture(const Context& context, const ShotRun& run, const std::string& caption,

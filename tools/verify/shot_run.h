@@ -14,6 +14,12 @@
 
 namespace scree::verify {
 
+/// A shot of the folder with TOML laid over it, as a file that extends it would: what overrides
+/// cannot, add shapes.
+struct ChangedShot {
+    std::string name, changes;
+};
+
 class ShotRun {
 public:
     /// Reads shots/verify/NAME.toml with overrides as after --set, the method and the seed of the
@@ -22,6 +28,9 @@ public:
     ShotRun(const Context& context, const std::string& name,
             const std::vector<std::string>& overrides = {},
             const std::function<void(StepSettings&)>& change = {});
+
+    ShotRun(const Context& context, const ChangedShot& changed,
+            const std::vector<std::string>& overrides = {});
 
     /// Advances by `seconds` in steps of 1/stepsPerSecond; `look` after each, with its report and
     /// the time since the start of this call [s]. Throws Error{qualityLimit} when a body is no
@@ -46,6 +55,9 @@ public:
     World world;
     World start;  ///< the world as it was built
     Stepper stepper;
+
+private:
+    explicit ShotRun(Shot asRead);
 };
 
 /// What the context's method is called in the core.
@@ -68,6 +80,10 @@ double largestVertexShift(const World& before, const World& after, BodyId body);
 
 /// Height of the body's lowest vertex [m].
 double lowestVertex(const World& world, BodyId body);
+
+/// Runs a frame and answers the levels of the movable bodies in its last step, in their order, as
+/// digits.
+std::string levelsInAFrame(ShotRun& run);
 
 /// A picture of the run as it stands, through the shot's first camera; none unless the context
 /// wants pictures.
