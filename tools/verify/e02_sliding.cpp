@@ -20,30 +20,14 @@ struct Slope {
 const Slope kSlopes[] = {{"E02_accelerating", "accelerating", {30.0, 0.3, 0.0}},
                          {"E02_decelerating", "decelerating", {15.0, 0.5, 4.0}}};
 
-void addRows(const std::string& where, const SlideErrors& errors, double share, Findings& findings)
-{
-    findings.atMost(
-        must, where + ": error of the distance", errors.position, share * errors.distance, "m",
-        "of " + shortNumber(errors.distance) + " m: two lines that cannot be told apart");
-    findings.atMost(must, where + ": against the method's own sum", errors.discretePosition, 1e-4,
-                    "m");
-    findings.atMost(must, where + ": error of the speed while sliding", errors.slidingSpeed, 1e-4,
-                    "m/s");
-    if (errors.restSpeed > 0.0 || where.starts_with("decel")) {
-        findings.atMost(must, where + ": speed after it stopped", errors.restSpeed, 1e-8, "m/s");
-    }
-    findings.atMost(must, where + ": rotation", errors.rotation, 1e-3, "rad");
-    findings.atMost(must, where + ": drift off the line", errors.drift, 1e-4, "m");
-}
-
 void againstTheory(const Context& context, Findings& findings)
 {
     for (const Slope& slope : kSlopes) {
         for (const auto& [rate, share] : {std::pair{240.0, 0.005}, std::pair{1000.0, 0.001}}) {
             ShotRun run(context, slope.shot);
             const SlideErrors errors = slide(run, slope.theory, rate);
-            addRows(std::string(slope.name) + ", " + shortNumber(rate) + " Hz", errors, share,
-                    findings);
+            addSlideRows(std::string(slope.name) + ", " + shortNumber(rate) + " Hz", errors, share,
+                         findings);
             if (rate != 240.0) continue;
             findings.plots.push_back({std::string("Distance slid, ") + slope.name + ", 240 Hz",
                                       "time [s]",
@@ -59,8 +43,8 @@ void exactAndDefaults(const Context& context, Findings& findings)
 {
     for (const Slope& slope : kSlopes) {
         ShotRun exact(context, slope.shot, asExactSolids({"block"}));
-        addRows(std::string(slope.name) + ", exact box, 240 Hz", slide(exact, slope.theory, 240.0),
-                0.005, findings);
+        addSlideRows(std::string(slope.name) + ", exact box, 240 Hz",
+                     slide(exact, slope.theory, 240.0), 0.005, findings);
         ShotRun usual(context, slope.shot, withDefaultSteps());
         const SlideErrors errors = slideInFrames(usual, slope.theory);
         const std::string name = std::string(slope.name) + ", steps as by default: ";

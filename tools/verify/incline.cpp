@@ -23,7 +23,7 @@ void look(const ShotRun& run, const SlideTheory& theory, double t, double blur, 
     if (t < stop - blur) errors.slidingSpeed = larger(errors.slidingSpeed, speedError);
     if (t > stop + blur) errors.restSpeed = larger(errors.restSpeed, speedError);
     errors.rotation = larger(errors.rotation, chordOfTurn(start.orientation, motion.orientation));
-    errors.drift = larger(errors.drift, std::abs(moved.z()));
+    errors.drift = larger(errors.drift, (moved - along * theory.downhill()).norm());
     errors.distance = s;
     errors.measured.x.push_back(t);
     errors.measured.y.push_back(along);
@@ -95,6 +95,24 @@ SlideErrors slideInFrames(ShotRun& run, const SlideTheory& theory)
         look(run, theory, k * frame, frame, errors);
     }
     return errors;
+}
+
+void addSlideRows(const std::string& where, const SlideErrors& errors, double share,
+                  Findings& findings)
+{
+    findings.atMost(
+        Weight::must, where + ": error of the distance", errors.position, share * errors.distance,
+        "m", "of " + shortNumber(errors.distance) + " m: two lines that cannot be told apart");
+    findings.atMost(Weight::must, where + ": against the method's own sum", errors.discretePosition,
+                    1e-4, "m");
+    findings.atMost(Weight::must, where + ": error of the speed while sliding", errors.slidingSpeed,
+                    1e-4, "m/s");
+    if (errors.restSpeed > 0.0 || where.starts_with("decel")) {
+        findings.atMost(Weight::must, where + ": speed after it stopped", errors.restSpeed, 1e-8,
+                        "m/s");
+    }
+    findings.atMost(Weight::must, where + ": rotation", errors.rotation, 1e-3, "rad");
+    findings.atMost(Weight::must, where + ": drift off the line", errors.drift, 1e-4, "m");
 }
 
 }  // namespace scree::verify

@@ -29,4 +29,8 @@ SlideErrors slide(ShotRun& run, const SlideTheory& theory, double stepsPerSecond
 /// The same in frames whose steps the shot's settings choose; the method's own sum is not formed.
 SlideErrors slideInFrames(ShotRun& run, const SlideTheory& theory);
 
+/// What E2 demands of a slide, the error of the distance a `share` of it.
+void addSlideRows(const std::string& where, const SlideErrors& errors, double share,
+                  Findings& findings);
+
 }  // namespace scree::verify
