@@ -50,29 +50,39 @@ void column(const Context& context, Findings& findings)
     ShotRun run(context, "E11_column");
     const PoseJudge judge(run.describe());
     std::vector<double> overlaps;
-    double heightError = 0.0;
+    double heightError = 0.0, sunk = 0.0;
+    std::vector<double> before;
+    for (int i = 0; i < 5; ++i)
+        before.push_back(run.motion("cube_000" + std::to_string(i)).position.y());
     run.advance(10 * kStep, 240.0, [&](const StepReport&, double) {
         overlaps.push_back(judge.deepestOverlap(run.capture()));
-        for (int i = 0; i < 5 && overlaps.size() == 1; ++i) {
+        for (int i = 0; i < 5; ++i) {
             const double height = run.motion("cube_000" + std::to_string(i)).position.y();
-            heightError = larger(heightError, std::abs(height - i - 0.5));
+            if (overlaps.size() == 1) heightError = larger(heightError, std::abs(height - i - 0.5));
+            sunk = larger(sunk, before[i] - height);
+            before[i] = height;
         }
     });
     findings.atMost(must, "column of five, each 2 cm in the next, one step: overlap",
                     overlaps.front(), 0.01, "m");
     findings.atMost(must, "column, one step: heights off", heightError, 0.01, "m",
                     "it comes apart from below: no cube was pushed down");
+    findings.atMost(must, "column: goes down in a step, any cube", sunk, 1e-3, "m",
+                    "what is above moves, not what is below");
     findings.atMost(must, "column, ten steps: overlap", overlaps.back(), 1e-3, "m");
 
     ShotRun with(context, "E11_column"), without(context, "E11_column", {"solver.push_out=false"});
     with.advance(kStep, 240.0);
     StepReport report;
     without.advance(kStep, 240.0, [&](const StepReport& step, double) { report = step; });
-    double difference = 0.0;
+    double difference = 0.0, offWay = 0.0;
     for (std::size_t b = 0; b < with.world.bodyCount(); ++b) {
-        difference = larger(
-            difference, (with.world.motion[b].velocity - without.world.motion[b].velocity).norm());
+        const BodyMotion &was = without.start.motion[b], &is = without.world.motion[b];
+        difference = larger(difference, (with.world.motion[b].velocity - is.velocity).norm());
+        offWay = larger(offWay, (was.position + kStep * is.velocity - is.position).norm());
     }
+    findings.atMost(must, "switched off: positions off the step's velocity", offWay, 1e-15, "m",
+                    "rounding");
     findings.equal(must, "switched off: pushes", static_cast<double>(report.pushes), 0);
     findings.atMost(must, "switched off: velocities differ from the run with it", difference, 0.0,
                     "m/s");
@@ -81,8 +91,8 @@ void column(const Context& context, Findings& findings)
     still.advance(10 * kStep, 240.0);
     double moved = 0.0;
     for (std::size_t b = 0; b < still.world.bodyCount(); ++b) {
-        moved = larger(moved,
-                       (still.world.motion[b].position - still.start.motion[b].position).norm());
+        moved =
+            larger(moved, (still.world.motion[b].position - still.start.motion[b].position).norm());
     }
     findings.atMost(must, "switched off, without weight: anything moves", moved, 0.0, "m");
 }

@@ -116,6 +116,15 @@ void atRest(const Context& context, Findings& findings)
     int steps = 0;
     run.advanceFrames(1, [&](const FrameReport& report) { steps = report.steps; });
     findings.equal(must, "nothing moves: steps in a frame", steps, 1);
+    ShotRun resting(context, "E01_floor", withDefaultSteps());
+    resting.advanceFrames(1, [&](const FrameReport& report) { steps = report.steps; });
+    findings.equal(departure, "a cube has been put on a floor: steps in a frame", steps, 1,
+                   context.method == "scree"
+                       ? "what is awake falls no more than 2 % of its thickness in a step"
+                       : "so short that the step's fall, by which it hovers, is not seen (A16)");
+    if (context.method == "paper") return;
+    resting.advanceFrames(48, [&](const FrameReport& report) { steps = report.steps; });
+    findings.equal(must, "two seconds later, asleep: steps in a frame", steps, 1);
 }
 
 }  // namespace
