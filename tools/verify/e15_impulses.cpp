@@ -238,6 +238,7 @@ void tripleCollision(const Context& context, Findings& findings)
 {
     ShotRun run(context, "E15_three_balls");
     double left = 0.0, right = 0.0, momentum = 0.0, largest = 0.0;
+    Curve ofLeft{"left", {}, {}}, ofRight{"right", {}, {}};
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         StepSettings settings = run.shot.settings;
         settings.seed = seed;
@@ -248,6 +249,10 @@ void tripleCollision(const Context& context, Findings& findings)
         const double r = world.motion[run.body("right")].velocity.norm();
         left += l;
         right += r;
+        for (const auto& [curve, speed] : {std::pair{&ofLeft, l}, {&ofRight, r}}) {
+            curve->x.push_back(static_cast<double>(seed));
+            curve->y.push_back(speed);
+        }
         largest = larger(largest, std::abs(l - r));
         momentum = larger(momentum, momentaOf(world).linear.norm());
     }
@@ -257,6 +262,10 @@ void tripleCollision(const Context& context, Findings& findings)
                     2.0 * std::abs(left - right) / (left + right), 0.02, "relative");
     findings.atMost(must, "triple collision: momentum", momentum, 1e-12, "kg m/s");
     findings.report("triple collision: largest difference with one seed", largest, "m/s");
+    findings.plots.push_back({"Triple collision: speed of the outer balls afterwards",
+                              "seed",
+                              "speed [m/s]",
+                              {ofLeft, ofRight}});
 }
 
 }  // namespace

@@ -94,9 +94,15 @@ void runBounce(const Context& context, Findings& findings)
 void runBounceHeight(const Context& context, Findings& findings)
 {
     const Weight weight = context.method == "scree" ? must : goal;
-    for (double drop : {0.01, 0.1, 1.0}) {
+    const bool isFull = context.isFull();
+    const std::vector<double> drops =
+        isFull ? std::vector{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0} : std::vector{0.01, 0.1, 1.0};
+    const std::vector<double> restitutions =
+        isFull ? std::vector{0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0}
+               : std::vector{0.2, 0.5, 0.8, 1.0};
+    for (double drop : drops) {
         double worst = 0.0, gained = -1e300;
-        for (double e : {0.2, 0.5, 0.8, 1.0}) {
+        for (double e : restitutions) {
             const std::string height = setVector("body.ball.position", {0.0, 0.5 + drop, 0.0});
             ShotRun run(context, "E16_bounce",
                         {setNumber("material.ball.restitution", e), height, "solver.substeps.min=1",
