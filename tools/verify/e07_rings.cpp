@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "core/math/rotation.h"
+#include "io/take_reader.h"
 #include "tools/verify/experiments.h"
 #include "tools/verify/heap_record.h"
 #include "tools/verify/pose_judge.h"
+#include "tools/verify/step_energy.h"
 
 namespace scree::verify {
 namespace {
@@ -205,11 +207,78 @@ void addRestRows(const HeapRecord& record, const std::string& name, Findings& fi
         "more find one");
 }
 
-void largeShot(const Context& context, const std::string& name, Findings& findings)
+void addStepRow(const std::string& name, const StepEnergy& energy, Findings& findings)
+{
+    findings.atMost(must, name + ": energy rises in a step, of " + std::to_string(energy.steps),
+                    energy.largestRise, 1e-3, "of (kinetic + m g l)", "work of push-out apart");
+}
+
+/// Of frames all along the take, each gone on from as a resumed run would.
+void addRowsOfStates(const Context& context, const std::string& name, Findings& findings)
+{
+    constexpr std::size_t kEvery = 20;
+    const TakeReader take(folderOfTake(context, name));
+    const ShotRun built(context, "../" + name);
+    StepEnergy energy(built.start, built.shot.settings.gravity);
+    double speed = 0.0, spin = 0.0;
+    for (std::size_t i = 0; i < take.frames().size(); i += kEvery) {
+        const FrameState state = take.readState(take.frames()[i]);
+        World world = built.start;
+        world.motion = state.motion;
+        world.order = state.order;
+        world.clock = state.clock;
+        world.contactMemory = state.contactMemory;
+        for (std::size_t b = 0; b < world.bodyCount() && i == 0; ++b) {
+            speed = larger(speed, world.motion[b].velocity.norm());
+            spin = larger(spin, spinOf(world, static_cast<BodyId>(b)).norm());
+        }
+        energy.follow(world, built.shot, 1);
+    }
+    const std::string why = "the shot's rings start from rest";
+    findings.atMost(must, name + ": start, speed", speed, 1.0, "m/s", why);
+    findings.atMost(must, name + ": start, spin", spin, 1.0, "rad/s", why);
+    addStepRow(name, energy, findings);
+}
+
+/// What the experiment demands of the shot itself: of its first frame and its length.
+void addStartRows(const HeapRecord& record, const std::string& name, double height,
+                  Findings& findings)
+{
+    const std::vector<std::size_t> rings = bodiesNamed(record, "ring");
+    const std::vector<std::size_t> poles = bodiesNamed(record, "pole");
+    const SceneFrame& start = record.frames.front();
+    const auto trianglesOf = [&](std::size_t body) {
+        return static_cast<double>(
+            record.scene.meshes[record.scene.bodies[body].mesh].triangles.cols());
+    };
+    double radius = 0.0, low = 1e300, high = 0.0, tilt = 0.0;
+    for (std::size_t ring : rings) {
+        const Pose& pose = start.worldFromAsset[ring];
+        const Vec3 axis = pose.orientation * Vec3::UnitY();
+        radius = larger(radius, std::hypot(pose.position.x(), pose.position.z()));
+        low = smaller(low, pose.position.y());
+        high = larger(high, pose.position.y());
+        tilt = larger(tilt, std::acos(std::min(1.0, std::abs(axis.y()))));
+    }
+    findings.equal(must, name + ": frames of the shot", record.framesOfShot, 720);
+    findings.equal(must, name + ": poles", static_cast<double>(poles.size()), 25);
+    findings.equal(must, name + ": triangles of a ring", trianglesOf(rings.front()), 320);
+    findings.equal(must, name + ": triangles of a pole", trianglesOf(poles.front()), 880);
+    findings.atMost(must, name + ": start, farthest from the axis", radius, 20.0, "m");
+    findings.atLeast(must, name + ": start, lowest", low, 30.0, "m");
+    findings.atMost(must, name + ": start, highest", high, 30.0 + height, "m");
+    findings.atMost(must, name + ": start, tilt", tilt, 0.2, "rad");
+    findings.atMost(must, name + ": start, overlap", PoseJudge(record.scene).deepestOverlap(start),
+                    0.0, "m");
+}
+
+void largeShot(const Context& context, const std::string& name, double height, Findings& findings)
 {
     const std::optional<HeapRecord> record = largeTake(context, name, findings);
     if (!record) return;
+    addStartRows(*record, name, height, findings);
     addCommonRows(*record, name, must, findings);
+    addRowsOfStates(context, name, findings);
     addDepthRows(context, *record, name, findings);
     addRestRows(*record, name, findings);
     addTakePictures(context, name, {0.15, 0.3, 0.5, 1.0}, false, name, findings);
@@ -219,8 +288,13 @@ void largeShot(const Context& context, const std::string& name, Findings& findin
 void smallShot(const Context& context, Findings& findings)
 {
     ShotRun run(context, "E07_rings");
-    HeapRecord record = recordRun(run, 60);
+    StepEnergy energy(run.start, run.shot.settings.gravity);
+    const int every = context.isFull() ? 1 : 10;  // to take frames by steps takes twice their time
+    HeapRecord record = recordRun(run, 60, [&](int frame) {
+        if (frame % every == 0) energy.follow(run.world, run.shot, 1);
+    });
     addCommonRows(record, "twelve rings", must, findings);
+    addStepRow("twelve rings", energy, findings);
     addDepthRows(context, record, "twelve rings", findings);
     findings.atLeast(must, "twelve rings: threaded on the pole", threadedRings(record), 4, "");
     addPicture(context, run, "Twelve rings after 2.5 s", findings);
@@ -247,8 +321,8 @@ void runRings(const Context& context, Findings& findings)
 {
     smallShot(context, findings);
     if (!context.isFull()) return;
-    largeShot(context, "rings_paper_500", findings);
-    largeShot(context, "rings_paper_1000", findings);
+    largeShot(context, "rings_paper_500", 300.0, findings);
+    largeShot(context, "rings_paper_1000", 600.0, findings);
 }
 
 }  // namespace scree::verify

@@ -70,18 +70,21 @@ HeapRecord readTake(const std::filesystem::path& folder)
     return record;
 }
 
-HeapRecord recordRun(ShotRun& run, int frames)
+HeapRecord recordRun(ShotRun& run, int frames, const std::function<void(int)>& look)
 {
     HeapRecord record;
     record.scene = run.describe();
     record.framesOfShot = frames + 1;
     record.frames.push_back(run.capture());
     record.figures.emplace_back();
-    run.advanceFrames(frames, [&](const FrameReport& report) {
-        record.frames.push_back(run.capture());
-        record.figures.push_back({report.steps, 0.0, 0.0, report.kineticEnergy,
-                                  report.potentialEnergy, report.sum.pushOutWork});
-    });
+    for (int frame = 0; frame < frames; ++frame) {
+        if (look) look(frame);
+        run.advanceFrames(1, [&](const FrameReport& report) {
+            record.frames.push_back(run.capture());
+            record.figures.push_back({report.steps, 0.0, 0.0, report.kineticEnergy,
+                                      report.potentialEnergy, report.sum.pushOutWork});
+        });
+    }
     return record;
 }
 

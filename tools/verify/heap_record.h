@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,8 +35,8 @@ struct HeapRecord {
 /// What a take holds so far. Throws as TakeReader does.
 HeapRecord readTake(const std::filesystem::path& folder);
 
-/// Runs a shot for so many frames.
-HeapRecord recordRun(ShotRun& run, int frames);
+/// Runs a shot for so many frames; `look` before each.
+HeapRecord recordRun(ShotRun& run, int frames, const std::function<void(int frame)>& look = {});
 
 /// The take of a large shot, shots/NAME.toml, in the context's folder of takes: simulated to its
 /// end first if the context may. It holds two frames at least; empty when there is no such take,
