@@ -1,8 +1,9 @@
 // Symbols: n direction out of the second body, d unit direction of an edge.
 #include "core/collision/convex_overlap.h"
 
-#include <algorithm>
 #include <limits>
+
+#include "core/collision/hull_distance.h"
 
 namespace scree {
 namespace {
@@ -14,20 +15,6 @@ constexpr double kParallel = 1e-4;
 /// face, of which rounding must not decide from step to step.
 constexpr double kFaceFirst = 1e-3;
 
-/// The corner of a shape that lies farthest along a direction.
-Vec3 farthestAlong(const ContactFeatures& features, const Vec3& direction)
-{
-    double most = -std::numeric_limits<double>::infinity();
-    std::int32_t at = 0;
-    for (const std::int32_t corner : features.corners()) {
-        const double along = features.points().col(corner).dot(direction);
-        if (along <= most) continue;
-        most = along;
-        at = corner;
-    }
-    return features.points().col(at);
-}
-
 /// The face of the second out of which the first has the shortest way; a gap above zero where it is
 /// wholly before one.
 FeatureContact outOfFaces(const RelativePair& pair)
@@ -38,7 +25,7 @@ FeatureContact outOfFaces(const RelativePair& pair)
         const ConvexEdge& edge = second.edges()[e];
         for (const Vec3& n : edge.faceNormal) {
             const Vec3 deepest =
-                pair * farthestAlong(pair.first.features, -(pair.rotation.transpose() * n));
+                pair * supportOf(pair.first.features, -(pair.rotation.transpose() * n));
             const double gap = n.dot(deepest - edge.start);
             if (gap > best.gap) best = {deepest, n, gap};
         }

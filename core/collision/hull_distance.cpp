@@ -25,20 +25,6 @@ struct Simplex {
     Vec3 nearest = Vec3::Zero();
 };
 
-Vec3 supportOf(const ContactFeatures& features, const Vec3& direction)
-{
-    double best = -std::numeric_limits<double>::infinity();
-    std::int32_t at = 0;
-    for (const std::int32_t corner : features.corners()) {
-        const double along = features.points().col(corner).dot(direction);
-        if (along > best) {
-            best = along;
-            at = corner;
-        }
-    }
-    return features.points().col(at);
-}
-
 /// The nearest of a triangle to the origin, without the corners that do not matter for it.
 Simplex nearestOf(const Vec3& a, const Vec3& b, const Vec3& c)
 {
@@ -77,6 +63,20 @@ Simplex withPoint(const Simplex& simplex, const Vec3& w)
 }
 
 }  // namespace
+
+Vec3 supportOf(const ContactFeatures& features, const Vec3& direction)
+{
+    double best = -std::numeric_limits<double>::infinity();
+    std::int32_t at = 0;
+    for (const std::int32_t corner : features.corners()) {
+        const double along = features.points().col(corner).dot(direction);
+        if (along > best) {
+            best = along;
+            at = corner;
+        }
+    }
+    return features.points().col(at);
+}
 
 bool areHullsSmall(const RelativePair& pair)
 {

@@ -14,4 +14,7 @@ bool areHullsSmall(const RelativePair& pair);
 /// they overlap.
 double hullsApart(const RelativePair& pair);
 
+/// The corner of a shape with corners that lies farthest along a direction [m].
+Vec3 supportOf(const ContactFeatures& features, const Vec3& direction);
+
 }  // namespace scree

@@ -218,12 +218,12 @@ void dropContrary(const Vec3& out, std::vector<GapContact>& contacts, std::size_
                    contacts.end());
 }
 
-/// Adds the shortest way out of each other of two convex bodies of which the contacts tell far
-/// less; they have been pressed into each other.
+/// Adds the shortest way out of each other of two convex bodies that have been pressed into each
+/// other, where the contacts tell far less. What hardly overlaps by these is not asked.
 void addUntold(const BothWays& ways, double smaller, std::vector<GapContact>& contacts,
                std::size_t first)
 {
-    constexpr double kAsked = 5e-3;  // told to be less deep than this share of the smaller body
+    constexpr double kAsked = 5e-3;  // from this share of the smaller body on
     constexpr double kTold = 0.5;    // of what there is
     const ContactFeatures &ofA = ways.pair.first.features, &ofB = ways.pair.second.features;
     if (!ofA.isConvex() || !ofB.isConvex()) return;

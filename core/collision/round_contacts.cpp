@@ -1,6 +1,5 @@
 // Symbols: n common normal, out of the second body; x place of the first, y of the second; t what
-// is
-//          between them across n: of two places that face each other nothing.
+//          is between them across n: of two places that face each other nothing.
 #include "core/collision/round_contacts.h"
 
 #include <algorithm>

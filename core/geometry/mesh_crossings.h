@@ -12,7 +12,7 @@ struct MeshCrossing {
     Vec3 place = Vec3::Zero();  ///< where an edge of another goes through it
 };
 
-/// Every edge that goes through a triangle it has no point in common with, by more than a millionth
+/// Every edge that goes through a triangle, of which its own have no point, by more than a millionth
 /// of the mesh's diagonal: coordinates are stored in single precision, and faces that merely touch
 /// are no crossing. One entry for each triangle and edge, in a fixed order; of several triangles
 /// that border on each other there, for each.
