@@ -55,6 +55,13 @@ void checkSameBranch(const TakeInfo& info, const TakeBranch& branch, const fs::p
                         ", not " + std::to_string(branch.frame) + ": -o writes elsewhere");
 }
 
+/// But for the mass, which follows from mesh and material.
+bool isSame(const TakeBody& a, const TakeBody& b)
+{
+    return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
+           a.material == b.material && a.kind == b.kind && a.isVisible == b.isVisible;
+}
+
 void createFolder(const fs::path& folder)
 {
     std::error_code code;
@@ -297,17 +304,21 @@ void TakeWriter::start(const World& world, const TakeInfo& info)
 void TakeWriter::resume(const World& world, const TakeInfo& now,
                         const std::optional<TakeBranch>& branch)
 {
+    // Nothing is written before it is proved that shot and take are one: a resume that is refused
+    // leaves the take as good as it was.
     TakeInfo info = readInfo(world, now, branch);
     checkSameShot(info, now);
+    checkSameCast(info, now);
     if (branch) {
         checkSameBranch(info, *branch, paths_.root);
         info.branchTake = branch->take.string();
     }
+    findWholeFrames(world);
+    proveStart(world);
+    restoreInfo(now, info);
     for (const fs::path& damaged : writeShapes(world))
         notices_.push_back("\"" + damaged.string() + "\" was damaged; it is written again");
     createFolder(paths_.frames());
-    findWholeFrames(world);
-    restoreBodies(now, info);
     // Statistics follow the frames: lines of frames that are gone or damaged go too.
     for (const FrameSummary& summary : readStats(paths_.stats()))
         if (hasFrame(summary.frame)) statsLines_[summary.frame] = summary.line;
@@ -347,7 +358,6 @@ TakeInfo TakeWriter::readInfo(const World& world, TakeInfo now,
                             ": put them back, or begin again with --overwrite");
     }
     if (branch) recordBranch(*branch, world, now);
-    writeFileBytes(paths_.info(), encodeTakeInfo(now));
     notices_.push_back(name + (isLost ? " was missing" : " was damaged") +
                        "; it is made again from the shot, which its frames are of");
     return now;
@@ -374,23 +384,43 @@ void TakeWriter::checkSameShot(const TakeInfo& info, const TakeInfo& now)
                            now.programVersion + ": the bits may differ from an unbroken run");
 }
 
-/// Of the same shot, so its bodies are known: a list that lost some would be read with frames that
-/// hold all of them.
-void TakeWriter::restoreBodies(const TakeInfo& now, TakeInfo& info)
+/// What take.json has of bodies and meshes must be what the shot makes of them now. It may have
+/// lost some.
+void TakeWriter::checkSameCast(const TakeInfo& info, const TakeInfo& now) const
 {
-    const auto isSame = [](const TakeBody& a, const TakeBody& b) {
-        return a.name == b.name && a.shape == b.shape && a.isPlane == b.isPlane &&
-               a.material == b.material && a.kind == b.kind && a.isVisible == b.isVisible;
+    const auto refuse = [&](const std::string& what) {
+        throw Error(ErrorKind::badInput, "\"" + paths_.root.string() + "\" was made with another " +
+                                             what +
+                                             ": an asset or the program has changed since. "
+                                             "--overwrite begins again, -o writes elsewhere");
     };
-    const auto isSameMesh = [](const TakeShape& a, const TakeShape& b) {
-        return a.name == b.name && a.hash == b.hash;
-    };
-    if (std::ranges::equal(info.bodies, now.bodies, isSame) &&
-        std::ranges::equal(info.shapes, now.shapes, isSameMesh))
-        return;
+    std::map<std::string, std::uint64_t> meshes;
+    for (const TakeShape& shape : now.shapes) meshes[shape.name] = shape.hash;
+    for (const TakeShape& shape : info.shapes) {
+        const auto mesh = meshes.find(shape.name);
+        if (mesh == meshes.end() || mesh->second != shape.hash) refuse("mesh '" + shape.name + "'");
+    }
+    std::map<std::string, const TakeBody*> bodies;
+    for (const TakeBody& body : now.bodies) bodies[body.name] = &body;
+    for (const TakeBody& body : info.bodies) {
+        const auto same = bodies.find(body.name);
+        if (same == bodies.end() || !isSame(*same->second, body))
+            refuse("body '" + body.name + "'");
+    }
+}
+
+/// Writes a take.json that is not there or lacks something: a list that lost bodies would be read
+/// with frames that hold all of them.
+void TakeWriter::restoreInfo(const TakeInfo& now, TakeInfo& info)
+{
+    const bool hasAll = info.bodies.size() == now.bodies.size() &&
+                        info.shapes.size() == now.shapes.size() &&
+                        std::ranges::equal(info.bodies, now.bodies, isSame);
+    if (hasAll && isThere(paths_.info()) && isJson(readFileBytes(paths_.info()))) return;
     info.bodies = now.bodies;
     info.shapes = now.shapes;
     writeFileBytes(paths_.info(), encodeTakeInfo(info));
+    if (hasAll) return;
     notices_.push_back("\"" + paths_.info().string() +
                        "\" named other bodies or meshes than its shot has; the list is put right");
 }
@@ -430,7 +460,11 @@ void TakeWriter::findWholeFrames(const World& world)
             notices_.push_back(std::string(problem.what()) + "; this frame is simulated again");
         }
     }
-    // Prove that this world begins where the take begins, bit for bit.
+}
+
+/// This world begins where the take begins, bit for bit.
+void TakeWriter::proveStart(const World& world) const
+{
     if (!hasFrame(shot_.firstFrame)) return;
     if (readFileBytes(paths_.frame(shot_.firstFrame)) != encodeFrame(captureState(shot_, world)))
         throw Error(ErrorKind::badInput,

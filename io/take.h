@@ -120,8 +120,10 @@ private:
     void resume(const World& world, const TakeInfo& now, const std::optional<TakeBranch>& branch);
     TakeInfo readInfo(const World& world, TakeInfo now, const std::optional<TakeBranch>& branch);
     void checkSameShot(const TakeInfo& info, const TakeInfo& now);
+    void checkSameCast(const TakeInfo& info, const TakeInfo& now) const;
     void findWholeFrames(const World& world);
-    void restoreBodies(const TakeInfo& now, TakeInfo& info);
+    void proveStart(const World& world) const;
+    void restoreInfo(const TakeInfo& now, TakeInfo& info);
     std::vector<std::filesystem::path> writeShapes(const World& world) const;
     void completeBranch(const TakeInfo& info);
     void copyBranchFrames(const TakeInfo& info, const std::vector<int>& missing);

@@ -614,5 +614,38 @@ TEST_F(TakeTest, ADamagedFrameKeepsNobodyFromTheOthers)
     EXPECT_EQ(seen, (std::vector{1001, 1002, 1004, 1005}));
 }
 
+// It had replaced the meshes, and taken their hashes into take.json, before it saw that the shot is
+// another: what was there fitted its frames no more.
+TEST_F(TakeTest, AResumeThatIsRefusedHasWrittenNothing)
+{
+    writeWholeTake();
+    const TakePaths paths{folder / "take"};
+    TakeInfo info = decodeTakeInfo(readFileBytes(paths.info()), paths.info());
+    const std::string asItWas = encodeTakeInfo(info);
+    info.shapes.at(0).hash ^= 1;
+    const std::string ofOtherMesh = encodeTakeInfo(info);
+    for (const std::string& text : {asItWas, ofOtherMesh}) {
+        writeFileBytes(paths.info(), text);
+        writeFileBytes(paths.shape("block"), "an older mesh");
+        World changed = world;
+        if (text == asItWas) changed.motion[1].position.x() += 1e-12;
+        EXPECT_EQ(test::kindThrownBy([&] {
+                      TakeWriter(folder / "take", shot, changed, "1.2.3", ExistingTake::resume);
+                  }),
+                  ErrorKind::badInput);
+        EXPECT_EQ(readFileBytes(paths.info()), text);
+        EXPECT_EQ(readFileBytes(paths.shape("block")), "an older mesh");
+    }
+}
+
+TEST_F(TakeTest, ALostTakeJsonIsNotMadeAgainForAWorldThatBeginsElsewhere)
+{
+    writeWholeTake();
+    fs::remove(folder / "take/take.json");
+    world.motion[1].position.x() += 1e-12;
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }), ErrorKind::badInput);
+    EXPECT_FALSE(fs::exists(folder / "take/take.json"));
+}
+
 }  // namespace
 }  // namespace scree
