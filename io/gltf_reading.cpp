@@ -98,6 +98,11 @@ GltfReading readGltf(const std::string& bytes)
 {
     GltfReading reading;
     const Json file = Json::parse(wordsOf(bytes), nullptr, /* allow_exceptions */ false);
+    reading.isReadable = !file.is_discarded();
+    for (const Json& buffer : memberOf(file, "buffers")) {
+        const std::string uri = textOf(memberOf(buffer, "uri"));
+        if (!uri.empty() && !uri.starts_with("data:")) reading.buffers.push_back(uri);
+    }
     for (const Json& used : memberOf(file, "extensionsUsed")) {
         const auto lost = std::find(kLost.begin(), kLost.end(), textOf(used));
         if (lost != kLost.end()) reading.lostExtension = *lost;

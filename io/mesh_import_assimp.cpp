@@ -136,6 +136,8 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
 {
     const bool isGltf = ending == "glb" || ending == "gltf";
     const GltfReading gltf = isGltf ? readGltf(readFileBytes(path)) : GltfReading();
+    if (isGltf && !gltf.isReadable)
+        throw Error(ErrorKind::badInput, "its JSON is damaged, or has letters that are not UTF-8");
     if (!gltf.lostExtension.empty())
         throw Error(ErrorKind::badInput, "it uses the glTF extension " + gltf.lostExtension +
                                              ", which is not read here: export it without");

@@ -424,5 +424,28 @@ TEST(ShotImport, APatternThatFitsNothingIsAnError)
                   "Bowl)");
 }
 
+// What stands in a file that is not read here is lost without a word; assimp reads on where a
+// letter is none.
+TEST(MeshImport, AGltfWhoseWordsCannotBeReadIsRefused)
+{
+    const test::TemporaryFolder folder;
+    test::writeGltf(folder);
+    std::string text = test::gltfText("data.bin");
+    text.replace(text.find("Bowl"), 4, "B\xf6wl");
+    std::ofstream(folder / "latin.gltf") << text;
+    const auto refusal = test::refusalBy([&] { importFile(folder / "latin.gltf"); });
+    EXPECT_EQ(refusal.kind, ErrorKind::badInput);
+    EXPECT_TRUE(refusal.mentions("its JSON is damaged")) << refusal.message;
+
+    // Zeros at the end are what some programs fill up with.
+    std::string filled = test::gltfText("data.bin");
+    filled.insert(filled.rfind('}'), R"(,"extensionsUsed":["EXT_mesh_gpu_instancing"])");
+    std::ofstream(folder / "filled.gltf") << filled << std::string(3, '\0');
+    const auto lost = test::refusalBy([&] { importFile(folder / "filled.gltf"); });
+    EXPECT_TRUE(lost.mentions("EXT_mesh_gpu_instancing")) << lost.message;
+    std::ofstream(folder / "zeros.gltf") << test::gltfText("data.bin") << std::string(3, '\0');
+    EXPECT_EQ(importFile(folder / "zeros.gltf").nodes.size(), 3u);
+}
+
 }  // namespace
 }  // namespace scree
