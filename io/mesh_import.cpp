@@ -6,6 +6,8 @@
 
 #include "core/base/error.h"
 #include "io/alembic_import.h"
+#include "io/file_bytes.h"
+#include "io/gltf_reading.h"
 #include "io/mesh_import_assimp.h"
 #include "io/mesh_import_bytes.h"
 #include "io/nearest_word.h"
@@ -65,6 +67,20 @@ ImportedFile importFile(const std::string& path, const ImportLimits& limits)
         node.mesh = mergeEqualPoints(node.mesh, FlatTriangles::keep);
     }
     return file;
+}
+
+std::vector<std::string> partsOfAsset(const std::string& path)
+{
+    const std::string ending = endingOf(path);
+    std::vector<std::string> parts;
+    if (ending != "gltf" && ending != "glb") return parts;
+    for (const std::string& buffer : readGltf(readFileBytes(path)).buffers) {
+        const fs::path name = fs::path(buffer).lexically_normal();
+        const fs::path part = fs::path(path).parent_path() / name;
+        const bool isInside = !name.is_absolute() && *name.begin() != "..";
+        if (isInside && isThere(part)) parts.push_back(part.string());
+    }
+    return parts;
 }
 
 TriMesh joinedMesh(const ImportedFile& file)

@@ -72,6 +72,10 @@ struct ImportedFile {
 /// not finite.
 ImportedFile importFile(const std::string& path, const ImportLimits& limits = {});
 
+/// Files that a mesh file keeps points and motions in, beside itself: the buffers of glTF.
+/// Materials decide nothing here, and theirs are none of them.
+std::vector<std::string> partsOfAsset(const std::string& path);
+
 /// Why a node of a file that is unusable cannot be taken, as a sentence.
 std::string refusalOf(const ImportedNode& node, const std::string& path);
 

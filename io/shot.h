@@ -165,6 +165,7 @@ struct Shot {
     std::vector<SceneCamera> cameras;  ///< lengths [m]
     ShotRender render;
     ShotOutput output;
+    std::vector<std::string> sideFiles;  ///< it was read from, beside the assets of its shapes
     ImportLimits importLimits;  ///< of the assets it names; the caller's, no file may raise them
     std::vector<std::string> warnings;  ///< "file:line:column: message", of what is passed over
     std::string resolvedText;  ///< canonical TOML of everything, defaults included, --set applied

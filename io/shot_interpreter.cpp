@@ -248,6 +248,8 @@ private:
     void readEmitter(const ShotNode& node)
     {
         const std::size_t problemsBefore = problems_.count();
+        if (const ShotNode* poses = node.find("poses"))
+            shot_.sideFiles.push_back(besideShot(poses->text));
         Emitter emitter = readEmitterTable(node, shot_, folder_.string(), problems_);
         const auto require = [&](const char* key, const std::vector<std::string>& names) {
             const ShotNode* value = node.find(key);
@@ -406,8 +408,9 @@ private:
     std::vector<Pose> readCopies(const ShotNode& node)
     {
         if (const ShotNode* poses = node.find("poses")) {
-            const std::vector<Pose> copies =
-                readPoseFile(besideShot(poses->text), poses->where, problems_);
+            const std::string path = besideShot(poses->text);
+            const std::vector<Pose> copies = readPoseFile(path, poses->where, problems_);
+            shot_.sideFiles.push_back(path);
             return hasRoomFor(static_cast<double>(copies.size()), *poses) ? copies
                                                                           : std::vector<Pose>();
         }
@@ -490,6 +493,8 @@ private:
         if (std::any_of(shot_.cameras.begin(), shot_.cameras.end(), isTaken)) {
             report(name, "camera name '" + name.text + "' is taken by another camera");
         }
+        if (const ShotNode* file = node.find("file"))
+            shot_.sideFiles.push_back(besideShot(file->text));
         shot_.cameras.push_back(interpretCamera(node, folder_, shot_, problems_));
     }
 

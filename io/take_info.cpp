@@ -11,6 +11,7 @@
 #include "core/base/hash.h"
 #include "core/picture/camera_motion.h"
 #include "io/file_bytes.h"
+#include "io/mesh_import.h"
 #include "io/shot_schema.h"
 #include "io/subframes.h"
 #include "io/text_forms.h"
@@ -252,22 +253,27 @@ void describePictures(const Shot& shot, TakeInfo& info)
     info.motionBlur = shot.render.motionBlur;
 }
 
-/// Each file once, in the order of the shot.
+/// Each file once: those of the shapes in the order of the shot, which older takes have alone, then
+/// all others.
 std::vector<TakeInput> hashInputs(const Shot& shot)
 {
-    std::vector<TakeInput> inputs;
+    std::vector<std::string> files;
     std::set<std::string> known;
+    const auto add = [&](const std::string& path) {
+        if (!path.empty() && known.insert(path).second) files.push_back(path);
+    };
     for (const ShotShape& shape : shot.shapes) {
         const auto* file = std::get_if<FileSpec>(&shape.source);
         const auto* node = std::get_if<NodeSpec>(&shape.source);
-        for (const std::string& path : {file   ? file->path
-                                        : node ? node->path
-                                               : "",
-                                        shape.collision ? shape.collision->path : ""}) {
-            if (path.empty() || !known.insert(path).second) continue;
-            inputs.push_back({path, hashText(readFileBytes(path))});
-        }
+        add(file ? file->path : node ? node->path : "");
+        add(shape.collision ? shape.collision->path : "");
     }
+    for (const std::string& path : shot.sideFiles) add(path);
+    const std::vector<std::string> assets = files;
+    for (const std::string& path : assets)
+        for (const std::string& part : partsOfAsset(path)) add(part);
+    std::vector<TakeInput> inputs;
+    for (const std::string& path : files) inputs.push_back({path, hashText(readFileBytes(path))});
     return inputs;
 }
 

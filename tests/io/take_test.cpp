@@ -20,6 +20,7 @@
 #include "io/shot_parser.h"
 #include "io/take_reader.h"
 #include "tests/support/refusal.h"
+#include "tests/support/small_gltf.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
 
@@ -645,6 +646,35 @@ TEST_F(TakeTest, ALostTakeJsonIsNotMadeAgainForAWorldThatBeginsElsewhere)
     world.motion[1].position.x() += 1e-12;
     EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }), ErrorKind::badInput);
     EXPECT_FALSE(fs::exists(folder / "take/take.json"));
+}
+
+// A camera, a pile of poses and the bytes of a glTF could change under a take.
+TEST(TakeInputs, AreAllTheFilesThatAShotIsReadFrom)
+{
+    const TemporaryFolder folder;
+    test::writeGltf(folder);
+    fs::copy_file(folder / "set.gltf", folder / "cam.gltf");
+    std::string camera = readFileBytes(folder / "cam.gltf");
+    camera.replace(camera.find("\"mesh\":0}]"), 10, "\"camera\":0}]");
+    camera.insert(camera.rfind('}'),
+                  R"(,"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}])");
+    writeFileBytes(folder / "cam.gltf", camera);
+    for (const char* name : {"a.poses", "b.poses"})
+        writeFileBytes(folder / name, "0 5 0 1 0 0 0\n");
+    const std::string text =
+        test::shotTextOf({}, test::bodyText("pile", "poses = \"a.poses\"") +
+                                 "[[emitter]]\nname = \"rain\"\nshape = \"block\"\nmaterial = "
+                                 "\"wood\"\ncount = 1\nposes = \"b.poses\"\n[[camera]]\nfile = "
+                                 "\"cam.gltf\"\n[[import]]\nfile = \"set.gltf\"\nmaterial = "
+                                 "\"wood\"\nmotion = \"static\"\n");
+    writeFileBytes(folder / "s.toml", text);
+    const Shot shot = parseShot(folder / "s.toml", {});
+    const World world = buildWorld(shot);
+    const TakeInfo info = makeTakeInfo(shot, world, describeScene(shot, world, 1.0), "1.2.3");
+    std::vector<std::string> names;
+    for (const TakeInput& input : info.inputs) names.push_back(fs::path(input.path).filename());
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"set.gltf", "a.poses", "b.poses", "cam.gltf", "data.bin"}));
 }
 
 }  // namespace
