@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "core/base/check.h"
@@ -168,6 +170,91 @@ void addLastStep(FrameEncoder& encoder, const std::optional<StepSeen>& step)
     encoder.add("contact.impulse", 3, impulse);
 }
 
+void addUntold(FrameEncoder& encoder, const std::vector<BodyPair>& pairs)
+{
+    if (pairs.empty()) return;
+    std::vector<std::int32_t> bodies;
+    for (const BodyPair& pair : pairs) bodies.insert(bodies.end(), {pair.a, pair.b});
+    encoder.add("untold.bodies", 2, bodies);
+}
+
+/// Visits what a checkpoint keeps of the figures of a frame, in the order in which it does; of what
+/// is true at the end of a frame only, and of times, nothing.
+template <class Report, class Visit>
+void visitFigures(Report& frame, const Visit& visit)
+{
+    auto& sum = frame.sum;
+    visit(frame.steps), visit(frame.shortestStep), visit(frame.longestStep);
+    visit(frame.substepCapReached), visit(frame.fastestBody);
+    visit(sum.dt), visit(sum.limitedBy), visit(sum.broadPairs), visit(sum.touchingPairs);
+    visit(sum.contactPairs), visit(sum.contacts), visit(sum.levels), visit(sum.largestLevel);
+    for (auto* impulses : {&sum.collisionImpulses, &sum.contactImpulses, &sum.shockImpulses}) {
+        visit(impulses->sticking), visit(impulses->sliding), visit(impulses->fallback);
+        visit(impulses->rolling), visit(impulses->rollingDropped);
+    }
+    visit(sum.pushes), visit(sum.loopsAtTheirCap), visit(sum.pushesCut), visit(sum.pushOutWork);
+    visit(sum.deepestBeforePushOut), visit(sum.deepestAfterPushOut);
+    visit(sum.worstOverlapRatio), visit(sum.worstA), visit(sum.worstB);
+}
+
+/// Nothing at all for a frame, whose figures stand in stats.jsonl.
+void addSoFar(FrameEncoder& encoder, const FrameReport& soFar)
+{
+    if (soFar.steps == 0) return;
+    std::vector<double> figures;
+    visitFigures(soFar,
+                 [&](const auto& figure) { figures.push_back(static_cast<double>(figure)); });
+    encoder.add("so_far.figures", 1, figures);
+}
+
+/// Of figures that are no numbers of their kind none are taken: without them a run goes on as well.
+FrameReport readSoFar(const FrameDecoder& decoder, std::uint64_t bodyCount)
+{
+    FrameReport report;
+    std::size_t count = 0;
+    visitFigures(report, [&](const auto&) { ++count; });
+    if (decoder.rowsOf("so_far.figures") != count) return report;
+    const auto figures = decoder.read<double>("so_far.figures", count, 1);
+    bool areRight = true;
+    const double* next = figures.data();
+    visitFigures(report, [&](auto& figure) {
+        using Figure = std::remove_reference_t<decltype(figure)>;
+        const double value = *next++;
+        if constexpr (std::is_floating_point_v<Figure>) {
+            figure = value;
+        } else {
+            constexpr double kMost = std::is_same_v<Figure, StepLimit>
+                                         ? static_cast<double>(StepLimit::substepCap)
+                                         : static_cast<double>(std::numeric_limits<int>::max());
+            const bool isRight =
+                value >= -1.0 && value == std::floor(value) &&
+                (value <= kMost || std::is_same_v<Figure, std::int64_t>)&&value < 0x1p53;
+            areRight = areRight && isRight;
+            if (isRight) figure = static_cast<Figure>(value);
+        }
+    });
+    const auto most = static_cast<BodyId>(bodyCount);
+    const bool areBodies =
+        report.fastestBody < most && report.sum.worstA < most && report.sum.worstB < most;
+    return areRight && areBodies ? report : FrameReport();
+}
+
+std::vector<BodyPair> readUntold(const FrameDecoder& decoder, std::uint64_t bodyCount)
+{
+    const std::uint64_t count = decoder.rowsOf("untold.bodies");
+    if (count == 0) return {};
+    const auto bodies = decoder.read<std::int32_t>("untold.bodies", count, 2);
+    std::vector<BodyPair> pairs;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const std::int32_t body : {bodies[2 * i], bodies[2 * i + 1]})
+            if (body < 0 || static_cast<std::uint64_t>(body) >= bodyCount)
+                decoder.fail("an overlap is of body " + std::to_string(body) + " of " +
+                             std::to_string(bodyCount));
+        pairs.push_back({bodies[2 * i], bodies[2 * i + 1]});
+    }
+    return pairs;
+}
+
 /// The fields of a state are indices and numbers that a step goes by without asking: a file whose
 /// checksum fits may still come from another program.
 void checkState(const FrameDecoder& decoder, const FrameState& state)
@@ -327,6 +414,8 @@ std::string encodeFrame(const FrameState& state)
     addPoses(encoder, "asset", {&state.scene, 1});
     addBetween(encoder, state.between);
     addLastStep(encoder, state.lastStep);
+    addUntold(encoder, state.untold);
+    addSoFar(encoder, state.soFar);
     FrameHeader header;
     header.frame = state.scene.frame;
     header.bodyCount = bodyCount;
@@ -349,6 +438,8 @@ FrameState decodeFrame(std::string_view bytes, const std::filesystem::path& path
     const bool isInside = state.clock.subStep > 0;
     state.between = readBetween(decoder, bodyCount, state.scene.frame - (isInside ? 0 : 1));
     state.lastStep = readLastStep(decoder, bodyCount);
+    state.untold = readUntold(decoder, bodyCount);
+    state.soFar = readSoFar(decoder, bodyCount);
     return state;
 }
 

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "core/diagnostics/step_observer.h"
+#include "core/diagnostics/step_report.h"
 #include "core/picture/scene_description.h"
+#include "core/scene/body_pair.h"
 #include "core/scene/world.h"
 
 namespace scree {
@@ -30,6 +32,10 @@ struct FrameState {
     std::vector<SceneFrame> between;   ///< on the way here since the frame before: its number,
                                        ///< offsets ascending in 0 … 1
     std::optional<StepSeen> lastStep;  ///< the step that ended here: on request, and not state
+    std::vector<BodyPair> untold;      ///< pairs whose overlaps contacts may not tell of: found at
+                                       ///< a look at all poses, and not out since
+    FrameReport soFar;                 ///< of a checkpoint: the figures of the steps that led to it
+                                       ///< from the frame before, but for times; without, no steps
 };
 
 /// The bytes of a frame file, checksum included. Equal states give equal bytes.

@@ -1,5 +1,6 @@
 #include "io/frame_stats.h"
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -78,6 +79,45 @@ FrameSummary summaryFromLine(const std::string& line)
 }
 
 }  // namespace
+
+void addEarlier(const FrameReport& earlier, FrameReport& later)
+{
+    if (earlier.steps == 0) return;
+    if (earlier.shortestStep <= later.shortestStep) {
+        later.shortestStep = earlier.shortestStep;
+        later.sum.limitedBy = earlier.sum.limitedBy;
+        later.fastestBody = earlier.fastestBody;
+    }
+    later.steps += earlier.steps;
+    later.longestStep = std::max(earlier.longestStep, later.longestStep);
+    later.substepCapReached = earlier.substepCapReached || later.substepCapReached;
+    const StepReport& before = earlier.sum;
+    StepReport& sum = later.sum;
+    const auto takeLarger = [&](auto StepReport::*figure) {
+        sum.*figure = std::max(before.*figure, sum.*figure);
+    };
+    takeLarger(&StepReport::broadPairs);
+    takeLarger(&StepReport::touchingPairs);
+    takeLarger(&StepReport::contactPairs);
+    takeLarger(&StepReport::contacts);
+    takeLarger(&StepReport::levels);
+    takeLarger(&StepReport::largestLevel);
+    takeLarger(&StepReport::deepestBeforePushOut);
+    takeLarger(&StepReport::deepestAfterPushOut);
+    const auto add = [&](auto StepReport::*figure) { sum.*figure += before.*figure; };
+    add(&StepReport::dt);
+    add(&StepReport::collisionImpulses);
+    add(&StepReport::contactImpulses);
+    add(&StepReport::shockImpulses);
+    add(&StepReport::pushes);
+    add(&StepReport::loopsAtTheirCap);
+    add(&StepReport::pushesCut);
+    add(&StepReport::pushOutWork);
+    if (before.worstOverlapRatio < sum.worstOverlapRatio) return;
+    sum.worstOverlapRatio = before.worstOverlapRatio;
+    sum.worstA = before.worstA;
+    sum.worstB = before.worstB;
+}
 
 std::string encodeStats(const FrameStats& stats, const World& world)
 {

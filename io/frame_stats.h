@@ -17,8 +17,12 @@ struct FrameStats {
     FrameReport report;
     double wallSeconds = 0.0;
     double cpuSeconds = 0.0;            ///< of all threads
-    std::int64_t resumedAtSubStep = 0;  ///< > 0: the report covers only the steps after this one
+    std::int64_t resumedAtSubStep = 0;  ///< > 0: times cover only the steps after this one
 };
+
+/// Takes the figures of the steps of a frame before it was saved into those of the steps after, but
+/// for times.
+void addEarlier(const FrameReport& earlier, FrameReport& later);
 
 /// The line, without its newline. `world` gives the bodies their names.
 std::string encodeStats(const FrameStats& stats, const World& world);

@@ -466,7 +466,9 @@ void TakeWriter::findWholeFrames(const World& world)
 void TakeWriter::proveStart(const World& world) const
 {
     if (!hasFrame(shot_.firstFrame)) return;
-    if (readFileBytes(paths_.frame(shot_.firstFrame)) != encodeFrame(captureState(shot_, world)))
+    FrameState first = readFrameFile(paths_.frame(shot_.firstFrame));
+    first.untold.clear();  // whoever simulates found them out
+    if (encodeFrame(first) != encodeFrame(captureState(shot_, world)))
         throw Error(ErrorKind::badInput,
                     "\"" + paths_.root.string() +
                         "\" does not begin where this shot begins: an asset or the program has "
@@ -532,7 +534,7 @@ void TakeWriter::findCheckpoint(const World& world)
     }
 }
 
-std::vector<SceneFrame> TakeWriter::prepareFor(int frame, World& world) const
+std::optional<FrameState> TakeWriter::prepareFor(int frame, World& world) const
 {
     const std::int64_t previous = frame - 1 - shot_.firstFrame;
     const bool fromCheckpoint = checkpoint_ && checkpoint_->frame == previous;
@@ -543,15 +545,18 @@ std::vector<SceneFrame> TakeWriter::prepareFor(int frame, World& world) const
         readFrameFile(fromCheckpoint ? paths_.checkpoint() : paths_.frame(frame - 1));
     restoreState(world, state);
     // The samples in a frame's own file lie on the way to it, not from it.
-    return fromCheckpoint ? std::move(state.between) : std::vector<SceneFrame>();
+    if (!fromCheckpoint) state.between.clear();
+    return state;
 }
 
 void TakeWriter::writeFrame(const World& world, const FrameStats& stats,
                             const std::vector<SceneFrame>& between,
-                            const std::optional<StepSeen>& lastStep)
+                            const std::optional<StepSeen>& lastStep,
+                            const std::vector<BodyPair>& untold)
 {
     FrameState state = captureState(shot_, world, between);
     state.lastStep = lastStep;
+    state.untold = untold;
     SCREE_CHECK(state.scene.frame == stats.frame && world.clock.subStep == 0,
                 "a frame is written at its boundary");
 
@@ -568,9 +573,13 @@ void TakeWriter::writeFrame(const World& world, const FrameStats& stats,
     checkpoint_.reset();
 }
 
-void TakeWriter::writeCheckpoint(const World& world, const std::vector<SceneFrame>& between)
+void TakeWriter::writeCheckpoint(const World& world, const std::vector<SceneFrame>& between,
+                                 const FrameReport& soFar, const std::vector<BodyPair>& untold)
 {
-    writeFileBytes(paths_.checkpoint(), encodeFrame(captureState(shot_, world, between)));
+    FrameState state = captureState(shot_, world, between);
+    state.soFar = soFar;
+    state.untold = untold;
+    writeFileBytes(paths_.checkpoint(), encodeFrame(state));
     checkpoint_ = world.clock;
 }
 

@@ -95,17 +95,22 @@ public:
 
     /// Makes `world` ready to simulate towards `frame`, whose predecessor must exist: nothing to do
     /// when it stands there already, else from the checkpoint inside that frame or the frame
-    /// before. Returns the sub-frame samples that were met so far on the way to `frame`.
-    std::vector<SceneFrame> prepareFor(int frame, World& world) const;
+    /// before. Returns what it was made from: `between` are the sub-frame samples that were met so
+    /// far on the way to `frame`, `soFar` the figures of that way.
+    std::optional<FrameState> prepareFor(int frame, World& world) const;
 
     /// Stores the frame `world` has reached with the sub-frame samples of the way there; drops the
     /// checkpoint that led to it. `lastStep`: what the step that ended here did, if it is wanted.
+    /// `untold`: as in FrameState.
     void writeFrame(const World& world, const FrameStats& stats,
                     const std::vector<SceneFrame>& between = {},
-                    const std::optional<StepSeen>& lastStep = {});
+                    const std::optional<StepSeen>& lastStep = {},
+                    const std::vector<BodyPair>& untold = {});
 
-    /// Stores `world` between two sub-steps.
-    void writeCheckpoint(const World& world, const std::vector<SceneFrame>& between = {});
+    /// Stores `world` between two sub-steps. `soFar`: the figures of those that led there from the
+    /// frame before; `untold`: that frame's.
+    void writeCheckpoint(const World& world, const std::vector<SceneFrame>& between = {},
+                         const FrameReport& soFar = {}, const std::vector<BodyPair>& untold = {});
 
     /// What stats.jsonl says of the frames, ascending.
     std::vector<FrameSummary> summaries() const;

@@ -71,6 +71,7 @@ bool beginsAlike(FrameState theirs, FrameState ours)
     if (isAsleep(theirs) != isAsleep(ours)) return false;
     theirs.shotHash = ours.shotHash;
     theirs.contactMemory = ours.contactMemory;
+    theirs.untold.clear();  // whoever simulates found them out
     return encodeFrame(theirs) == encodeFrame(ours);
 }
 

@@ -158,6 +158,8 @@ private:
         if (!take_->hasFrame(shot_.firstFrame)) {
             writeInitialFrame();
             progress.frameDone(shot_.firstFrame, 0.0, {}, 0.0);  // nothing to time yet
+        } else {
+            untold_ = readFrameFile(take_->paths().frame(shot_.firstFrame)).untold;
         }
         for (int frame = shot_.firstFrame + 1; frame <= lastFrame_ && !isStopped_; ++frame)
             if (!take_->hasFrame(frame)) simulateFrame(frame, stepper, progress);
@@ -172,12 +174,12 @@ private:
         stats.report = reportStart(world_, shot_.settings.gravity);
         lookAtPoses(shot_.firstFrame, stats.report);
         stats.report.sum.deepestBeforePushOut = stats.report.sum.deepestAfterPushOut;
-        take_->writeFrame(world_, stats);
+        take_->writeFrame(world_, stats, {}, {}, untold_);
     }
 
     void simulateFrame(int frame, Stepper& stepper, Progress& progress)
     {
-        subframes_->begin(world_, take_->prepareFor(frame, world_));
+        const FrameReport earlier = prepareFor(frame);
         FrameStats stats;
         stats.frame = frame;
         stats.resumedAtSubStep = world_.clock.subStep;
@@ -185,25 +187,33 @@ private:
         const double cpuBefore = cpuSeconds();
         const double duration = 1.0 / shot_.framesPerSecond;
         const double shareToDo = 1.0 - world_.clock.frameTimeDone / duration;
+        bool isToSave = false;
         const auto askStop = [&] {
             progress.insideFrame(frame, world_.clock.frameTimeDone / duration);
-            if (takeSaveRequest()) saveAndTell(frame);
-            return stopRequested();
+            isToSave = takeSaveRequest();
+            return isToSave || stopRequested();
         };
-        stats.report = stepper.advanceFrame(
-            world_, duration, askStop,
-            [&](const World& world, double time) { subframes_->afterStep(world, time); });
+        // A save stops the frame as a stop does: what was found on the way is told by nobody else.
+        stats.report = earlier;
+        do {
+            FrameReport part = stepper.advanceFrame(
+                world_, duration, askStop,
+                [&](const World& world, double time) { subframes_->afterStep(world, time); });
+            addEarlier(stats.report, part);
+            stats.report = std::move(part);
+            refuseBroken(frame, stats.report);
+            if (!stats.report.finished) save(stats.report);
+            if (isToSave && !stats.report.finished) tellSaved(frame);
+        } while (!stats.report.finished && !stopRequested());
         stats.wallSeconds = watch.seconds();
         stats.cpuSeconds = cpuSeconds() - cpuBefore;
-        refuseBroken(frame, stats.report);
         if (!stats.report.finished) {
-            take_->writeCheckpoint(world_, subframes_->samples());
             isStopped_ = true;
             stoppedIn_ = frame;
             return;
         }
         lookAtPoses(frame, stats.report);
-        take_->writeFrame(world_, stats, subframes_->samples(), lastStep());
+        take_->writeFrame(world_, stats, subframes_->samples(), lastStep(), untold_);
         subframes_->begin(world_, {});
         warnOfOverlap(frame, stats.report);
         warnOfCap(frame, stats.report);
@@ -224,10 +234,19 @@ private:
         return lastStep_.seen;
     }
 
-    void saveAndTell(int frame)
+    /// Takes up what an earlier sitting has left of the way to `frame`; answers with its figures.
+    FrameReport prepareFor(int frame)
     {
-        take_->writeCheckpoint(world_, subframes_->samples());
-        tellSaved(frame);
+        const std::optional<FrameState> left = take_->prepareFor(frame, world_);
+        subframes_->begin(world_, left ? left->between : std::vector<SceneFrame>());
+        if (!left) return {};
+        untold_ = left->untold;
+        return left->soFar;
+    }
+
+    void save(const FrameReport& soFar)
+    {
+        take_->writeCheckpoint(world_, subframes_->samples(), soFar, untold_);
     }
 
     void tellSaved(int frame)
@@ -264,33 +283,35 @@ private:
     /// A step knows overlaps by the contacts it found, and is silent about what it did not find. So
     /// every two seconds of the shot, and in its last frame, the poses are looked at afresh: the
     /// points of every body in the field of every other. What is found there is looked at in every
-    /// frame from then on, until it is out.
+    /// frame from then on, until it is out; frames keep which pairs these are, so that a run that
+    /// was interrupted goes on looking.
     void lookAtPoses(int frame, FrameReport& report)
     {
         const int every = std::max(1, static_cast<int>(std::lround(2.0 * shot_.framesPerSecond)));
         const bool isLook = (frame - shot_.firstFrame) % every == 0 || frame == shot_.lastFrame;
-        untold_ = isLook ? findStartOverlaps(world_, report.sum.worstOverlapRatio)
-                         : stillOverlapping(untold_);
-        for (const StartOverlap& overlap : untold_) {
+        const std::vector<StartOverlap> overlaps =
+            isLook ? findStartOverlaps(world_, report.sum.worstOverlapRatio) : stillOverlapping();
+        untold_.clear();
+        for (const StartOverlap& overlap : overlaps) {
+            untold_.push_back({overlap.a, overlap.b});
             report.sum.deepestAfterPushOut =
                 std::max(report.sum.deepestAfterPushOut, overlap.depth);
             // Of the first frame start.overlap has told.
             if (overlap.isThroughWall && frame > shot_.firstFrame) warnOfWall(frame, overlap);
         }
-        if (untold_.empty() || untold_.front().ratio <= report.sum.worstOverlapRatio) return;
-        report.sum.worstOverlapRatio = untold_.front().ratio;
-        report.sum.worstA = untold_.front().a;
-        report.sum.worstB = untold_.front().b;
+        if (overlaps.empty() || overlaps.front().ratio <= report.sum.worstOverlapRatio) return;
+        report.sum.worstOverlapRatio = overlaps.front().ratio;
+        report.sum.worstA = overlaps.front().a;
+        report.sum.worstB = overlaps.front().b;
     }
 
-    /// Those of some pairs that overlap now, the worst ratio first.
-    std::vector<StartOverlap> stillOverlapping(const std::vector<StartOverlap>& pairs)
+    /// Those of the untold that overlap now, the worst ratio first.
+    std::vector<StartOverlap> stillOverlapping()
     {
-        if (pairs.empty()) return {};
+        if (untold_.empty()) return {};
         if (!measure_) measure_.emplace(world_);
         std::vector<StartOverlap> still;
-        for (const StartOverlap& pair : pairs) {
-            const BodyPair bodies{pair.a, pair.b};
+        for (const BodyPair& bodies : untold_) {
             if (const auto now = (*measure_)(bodies, placePair(world_, bodies), 0.0))
                 still.push_back(*now);
         }
@@ -405,7 +426,7 @@ private:
     std::optional<TakeWriter> take_;
     std::optional<SubframeRecorder> subframes_;
     LastStep lastStep_;
-    std::vector<StartOverlap> untold_;       // found by the last look at poses, and not out since
+    std::vector<BodyPair> untold_;           // found by the last look at poses, and not out since
     std::optional<OverlapMeasure> measure_;  // of world_, once asked for
     int lastFrame_ = 0;
     bool isStopped_ = false;

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/dynamics/step_figures.h"
+
 namespace scree {
 namespace {
 
@@ -73,6 +75,40 @@ TEST(FrameStats, EveryFigureStandsUnderItsOwnName)
     EXPECT_EQ(line.at("impulses").at("shock").at("fallback"), 39);
     EXPECT_NEAR(line.at("phase_ms").at("shock").get<double>(), 47.0, 1e-9);
     EXPECT_EQ(line.at("phase_ms").at("contact"), 0.0);
+}
+
+TEST(FrameStats, AFrameInTwoSittingsHasTheFiguresOfOne)
+{
+    FrameReport whole, before, after;
+    for (int i = 0; i < 6; ++i) {
+        StepReport step;
+        step.dt = i == 1 ? 0.25 : 0.5;
+        step.limitedBy = i == 1 ? StepLimit::spin : StepLimit::relativeSpeed;
+        step.contactPairs = i == 2 ? 9 : i;
+        step.contactImpulses.sticking = 10 + i;
+        step.pushes = i;
+        step.deepestAfterPushOut = i == 0 ? 0.75 : 0.5;
+        step.worstOverlapRatio = i == 0 || i == 4 ? 0.125 : 0.0625;
+        step.worstA = i;
+        step.worstB = i + 1;
+        for (FrameReport* frame : {&whole, i < 3 ? &before : &after}) {
+            if (frame->steps == 0 || step.dt < frame->shortestStep) frame->fastestBody = i;
+            frame->substepCapReached = frame->substepCapReached || i == 1;
+            addStep(step, *frame);
+        }
+    }
+    addEarlier(before, after);
+    World world;
+    world.info.resize(8);
+    for (int i = 0; i < 8; ++i) world.info[i].name = "b" + std::to_string(i);
+    FrameStats one, two;
+    one.report = whole;
+    two.report = after;
+    EXPECT_EQ(encodeStats(two, world), encodeStats(one, world));
+
+    // Of no earlier sitting nothing is taken, not even zeros.
+    addEarlier(FrameReport(), two.report);
+    EXPECT_EQ(encodeStats(two, world), encodeStats(one, world));
 }
 
 }  // namespace

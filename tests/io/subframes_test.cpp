@@ -58,7 +58,8 @@ std::vector<std::uint64_t> simulate(const Shot& shot, const fs::path& folder,
         FrameStats stats;
         stats.frame = frame;
         if (frame > shot.firstFrame) {
-            recorder.begin(world, take.prepareFor(frame, world));
+            const std::optional<FrameState> left = take.prepareFor(frame, world);
+            recorder.begin(world, left ? left->between : std::vector<SceneFrame>());
             stats.report = stepper.advanceFrame(
                 world, 1.0 / shot.framesPerSecond, [&] { return ++steps == stepLimit; },
                 [&](const World& moved, double time) { recorder.afterStep(moved, time); });

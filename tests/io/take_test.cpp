@@ -648,6 +648,44 @@ TEST_F(TakeTest, ALostTakeJsonIsNotMadeAgainForAWorldThatBeginsElsewhere)
     EXPECT_FALSE(fs::exists(folder / "take/take.json"));
 }
 
+// What a look at all poses had found was forgotten between two sittings, and so were the figures of
+// the steps before a stop: whether a limit was broken depended on where a run was interrupted.
+TEST_F(TakeTest, ACheckpointKeepsFiguresAndOverlapsThatContactsDoNotTellOf)
+{
+    World moved = world;
+    FrameReport soFar;
+    soFar.steps = 3;
+    soFar.shortestStep = 1e-3;
+    soFar.substepCapReached = true;
+    soFar.fastestBody = 1;
+    soFar.sum.limitedBy = StepLimit::hover;
+    soFar.sum.contactImpulses.rolling = 7;
+    soFar.sum.worstOverlapRatio = 0.125;
+    soFar.sum.worstA = 0;
+    soFar.sum.worstB = 1;
+    {
+        TakeWriter take = open(ExistingTake::refuse, shot);
+        take.writeFrame(moved, statsOf(moved), {}, {}, {{0, 1}});
+        moved.clock.subStep = 3;
+        take.writeCheckpoint(moved, {}, soFar, {{0, 1}});
+    }
+    const TakeWriter take = open(ExistingTake::resume, shot);
+    EXPECT_TRUE(take.notices().empty()) << take.notices().front();
+    World resumed = world;
+    const std::optional<FrameState> left = take.prepareFor(1002, resumed);
+    ASSERT_TRUE(left);
+    EXPECT_EQ(left->untold, (std::vector<BodyPair>{{0, 1}}));
+    EXPECT_EQ(left->soFar.steps, 3);
+    EXPECT_EQ(left->soFar.shortestStep, 1e-3);
+    EXPECT_TRUE(left->soFar.substepCapReached);
+    EXPECT_EQ(left->soFar.fastestBody, 1);
+    EXPECT_EQ(left->soFar.sum.limitedBy, StepLimit::hover);
+    EXPECT_EQ(left->soFar.sum.contactImpulses.rolling, 7);
+    EXPECT_EQ(left->soFar.sum.worstOverlapRatio, 0.125);
+    EXPECT_EQ(left->soFar.sum.worstB, 1);
+    EXPECT_EQ(readFrameFile(take.paths().frame(1001)).untold, (std::vector<BodyPair>{{0, 1}}));
+}
+
 // A camera, a pile of poses and the bytes of a glTF could change under a take.
 TEST(TakeInputs, AreAllTheFilesThatAShotIsReadFrom)
 {

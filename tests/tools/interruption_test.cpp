@@ -1,0 +1,94 @@
+// A run that was interrupted ends as one that was not: figures, exit code, what was made of it.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "io/file_bytes.h"
+#include "io/take.h"
+#include "tests/support/program.h"
+#include "tests/support/small_shot.h"
+#include "tests/support/support.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::Program;
+using test::runScree;
+
+class InterruptionTest : public testing::Test {
+protected:
+    std::string file(const std::string& name) const { return (folder / name).string(); }
+
+    /// Two blocks in each other that sleep, of which no contact tells, and one that falls.
+    std::string overlappingShot() const
+    {
+        const std::string path = file("s.toml");
+        std::ofstream(path) << test::shotTextOf(
+            {.frames = "1001-1020",
+             .shotKeys = "[start]\noverlap = \"warn\"\n[solver]\npenetration = { fail = 0.3 }\n"
+                         "substeps = { min = 60, max = 256 }"},
+            test::bodyText("a", "position = [4, 2, 0]\nstart = \"asleep\"") +
+                test::bodyText("b", "position = [4.5, 2.1, 0]\nstart = \"asleep\"") +
+                test::bodyText("block", "position = [0, 0.6, 0]\nrotation = [20, 0, 10]"));
+        return path;
+    }
+
+    /// stats.jsonl without what an interruption may change: times.
+    std::vector<nlohmann::json> figuresOf(const std::string& take) const
+    {
+        std::vector<nlohmann::json> lines;
+        std::ifstream stream(TakePaths{take}.stats());
+        for (std::string line; std::getline(stream, line);) {
+            nlohmann::json json = nlohmann::json::parse(line);
+            for (const char* key : {"wall_s", "cpu_s", "phase_ms", "resumed_at_substep"})
+                json.erase(key);
+            // A sum in two parts is rounded otherwise.
+            json["push_out_work_J"] = std::round(1e9 * json["push_out_work_J"].get<double>());
+            lines.push_back(json);
+        }
+        return lines;
+    }
+
+    test::TemporaryFolder folder;
+};
+
+// Overlaps that a look at all poses had found were forgotten by the next sitting, and the steps of
+// a frame before a stop were: a breach of a limit was told or not by where the run was stopped.
+TEST_F(InterruptionTest, FiguresAndExitCodeAreThoseOfAnUnbrokenRun)
+{
+    const std::string shot = overlappingShot();
+    const Outcome unbroken = runScree({"sim", shot, "-o", file("unbroken"), "-q"});
+    EXPECT_EQ(unbroken.code, 79) << unbroken.err;
+    const std::vector<nlohmann::json> figures = figuresOf(file("unbroken"));
+    ASSERT_EQ(figures.size(), 20u);
+
+    for (const char* frames : {"1001", "1001-1005"})
+        runScree({"sim", shot, "-o", file("parts"), "-q", "--resume", "--frames", frames});
+    EXPECT_EQ(runScree({"sim", shot, "-o", file("parts"), "-q", "--resume"}).code, 79);
+    EXPECT_EQ(figuresOf(file("parts")), figures);
+
+    int stops = 0;
+    for (int tries = 0; tries < 200; ++tries) {
+        Program program({"sim", shot, "-o", file("stopped"), "-q", "--resume"});
+        std::this_thread::sleep_for(std::chrono::milliseconds(60 + 7 * tries));
+        if (tries % 3 == 1) program.signal(SIGUSR1);
+        program.signal(SIGTERM);
+        const Outcome outcome = program.wait();
+        stops += outcome.code == 75;
+        if (outcome.code == 79) break;
+    }
+    EXPECT_GT(stops, 0);
+    EXPECT_EQ(figuresOf(file("stopped")), figures);
+}
+
+}  // namespace
+}  // namespace scree
