@@ -185,12 +185,6 @@ void AtomicFile::fail(const char* what, int errorNumber) const
                                             "\" failed: " + std::strerror(errorNumber));
 }
 
-std::optional<std::string> targetOfTemporary(const std::string& name)
-{
-    const std::optional<TemporaryName> read = readTemporaryName(name);
-    return read ? std::optional(read->target) : std::nullopt;
-}
-
 int removeAbandoned(const fs::path& target)
 {
     const std::string name = target.filename().string();

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -55,10 +54,6 @@ private:
     std::uint64_t size_ = 0;
     std::string pending_;  // the last bytes of the file, not handed to the system yet
 };
-
-/// The name of the file that one of this name, without folder, is a half written one of; nothing
-/// for any other name.
-std::optional<std::string> targetOfTemporary(const std::string& name);
 
 /// Removes what killed processes left of earlier writes to `target`, which may be a frame pattern:
 /// a cache half written is as large as a cache, and nobody sees it. Its process must be gone and,

@@ -1,7 +1,6 @@
 #include "io/take.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -71,15 +70,23 @@ void createFolder(const fs::path& folder)
                     "cannot create the folder \"" + folder.string() + "\": " + code.message());
 }
 
-/// The lock goes with the descriptor, so a killed writer leaves none behind. File systems that know
-/// no locks are taken at their word.
-int lockFolder(const fs::path& folder)
+/// The lock goes with the descriptor, so a killed writer leaves none behind. It is of a file,
+/// because NFS tells other machines of no lock on a folder, nor of one without leave to write. File
+/// systems that know no locks are taken at their word.
+int lockTake(const TakePaths& paths)
 {
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    const int descriptor = ::open(paths.lock().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        throw Error(
+            errno == ENOSPC || errno == EDQUOT ? ErrorKind::inputOutput : ErrorKind::cannotCreate,
+            "cannot create \"" + paths.lock().string() + "\": " + std::strerror(errno));
+    struct flock whole = {};
+    whole.l_type = F_WRLCK;
+    whole.l_whence = SEEK_SET;
+    if (::fcntl(descriptor, F_OFD_SETLK, &whole) != 0 && (errno == EAGAIN || errno == EACCES)) {
         ::close(descriptor);
         throw Error(ErrorKind::cannotCreate,
-                    "\"" + folder.string() + "\" is being written by another scree sim");
+                    "\"" + paths.root.string() + "\" is being written by another scree sim");
     }
     return descriptor;
 }
@@ -206,7 +213,7 @@ TakeWriter::TakeWriter(const fs::path& folder, const Shot& shot, const World& wo
     if (branch && !goesOn) recordBranch(*branch, world, info);
 
     createFolder(folder);
-    lock_ = lockFolder(folder);
+    lock_ = lockTake(paths_);
     try {
         // Whoever was here before the lock may have made a take meanwhile.
         refuseToDisturb(existing);

@@ -27,6 +27,7 @@ struct TakePaths {
     std::filesystem::path stats() const { return root / "stats.jsonl"; }
     std::filesystem::path statsPage() const { return root / "stats.html"; }
     std::filesystem::path checkpoint() const { return root / "checkpoint.scree"; }
+    std::filesystem::path lock() const { return root / ".lock"; }
     std::filesystem::path images() const { return root / "images"; }
     std::filesystem::path exports() const { return root / "exports"; }
     std::filesystem::path shapes() const { return root / "shapes"; }

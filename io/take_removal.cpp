@@ -82,20 +82,14 @@ void removeTake(const TakePaths& paths)
 
 void removeTemporaries(const TakePaths& paths)
 {
-    const auto removeIn = [](const fs::path& folder, const auto& isOfTake) {
-        std::error_code code;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-            const auto target = targetOfTemporary(entry.path().filename().string());
-            std::error_code ignored;
-            if (target && isOfTake(*target)) fs::remove(entry.path(), ignored);
-        }
-    };
-    removeIn(paths.root, [&](const std::string& name) {
+    removeAbandonedIn(paths.root, [&](const std::string& name) {
         return name == paths.info().filename() || name == paths.stats().filename() ||
                name == paths.checkpoint().filename();
     });
-    removeIn(paths.frames(), [](const std::string& name) { return frameNumber(name).has_value(); });
-    removeIn(paths.shapes(), [](const std::string& name) { return name.ends_with(".ply"); });
+    removeAbandonedIn(paths.frames(),
+                      [](const std::string& name) { return frameNumber(name).has_value(); });
+    removeAbandonedIn(paths.shapes(),
+                      [](const std::string& name) { return name.ends_with(".ply"); });
 }
 
 }  // namespace scree

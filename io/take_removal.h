@@ -14,7 +14,8 @@ void refuseForeignFiles(const TakePaths& paths);
 /// only what has a name that frames have goes. Throws Error{cannotCreate}.
 void removeTake(const TakePaths& paths);
 
-/// Removes what a killed writer of a take has left half written.
+/// Removes what a killed writer of a take has left half written, by the rules of removeAbandoned():
+/// where a file system knows no locks another machine may be writing.
 void removeTemporaries(const TakePaths& paths);
 
 }  // namespace scree

@@ -1,9 +1,13 @@
 // Frame files and takes: what is written is what is read, damage is seen, gaps are found.
 #include "io/take.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
@@ -584,13 +588,21 @@ TEST_F(TakeTest, SecondWriterIsKeptOut)
 TEST_F(TakeTest, TemporariesOfAKilledWriterAreRemovedAndNoOthers)
 {
     writeWholeTake();
-    const std::array ours = {folder / "take/frames/.frame.001006.scree.1-2.tmp",
-                             folder / "take/shapes/.block.ply.1-2.tmp",
-                             folder / "take/.take.json.1-2.tmp"};
-    // A film that is being made there, and what somebody else calls so.
-    const std::array others = {folder / "take/.film.mp4.1-2.tmp", folder / "take/frames/.x.tmp"};
+    const pid_t killed = ::fork();
+    if (killed == 0) ::_exit(0);
+    ::waitpid(killed, nullptr, 0);
+    const std::string gone = "." + std::to_string(killed) + "-2.tmp";
+    const std::array ours = {folder / ("take/frames/.frame.001006.scree" + gone),
+                             folder / ("take/shapes/.block.ply" + gone),
+                             folder / ("take/.take.json" + gone)};
+    // A film that is being made there, what somebody else calls so, and what another machine may be
+    // writing, where locks are not passed on.
+    const std::array others = {folder / ("take/.film.mp4" + gone), folder / "take/frames/.x.tmp",
+                               folder / ("take/frames/.frame.001007.scree" + gone)};
+    const auto longAgo = fs::file_time_type::clock::now() - std::chrono::hours(2);
     for (const fs::path& file : ours) writeFileBytes(file, "half");
     for (const fs::path& file : others) writeFileBytes(file, "half");
+    for (const fs::path& file : ours) fs::last_write_time(file, longAgo);
     open(ExistingTake::resume, shot);
     for (const fs::path& file : ours) EXPECT_FALSE(fs::exists(file)) << file;
     for (const fs::path& file : others) EXPECT_TRUE(fs::exists(file)) << file;
@@ -684,6 +696,21 @@ TEST_F(TakeTest, ACheckpointKeepsFiguresAndOverlapsThatContactsDoNotTellOf)
     EXPECT_EQ(left->soFar.sum.worstOverlapRatio, 0.125);
     EXPECT_EQ(left->soFar.sum.worstB, 1);
     EXPECT_EQ(readFrameFile(take.paths().frame(1001)).untold, (std::vector<BodyPair>{{0, 1}}));
+}
+
+// A lock on the folder itself other machines are not told of.
+TEST_F(TakeTest, AWriterIsKeptOutByALockOnTheLockFile)
+{
+    writeWholeTake();
+    const int descriptor = ::open((folder / "take/.lock").c_str(), O_RDWR);
+    ASSERT_GE(descriptor, 0);
+    struct flock whole = {};
+    whole.l_type = F_WRLCK;
+    ASSERT_EQ(::fcntl(descriptor, F_OFD_SETLK, &whole), 0);
+    EXPECT_EQ(test::kindThrownBy([&] { open(ExistingTake::resume, shot); }),
+              ErrorKind::cannotCreate);
+    ::close(descriptor);
+    EXPECT_NO_THROW(open(ExistingTake::resume, shot));
 }
 
 // A camera, a pile of poses and the bytes of a glTF could change under a take.
