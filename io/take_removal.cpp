@@ -41,6 +41,15 @@ void removeWhole(const fs::path& path)
                     "cannot remove \"" + path.string() + "\": " + code.message());
 }
 
+/// Of a folder that somebody has put on another disk the link stays, for the next take's.
+void removeMade(const fs::path& path)
+{
+    std::error_code code;
+    if (!fs::is_symlink(path, code)) return removeWhole(path);
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, code))
+        removeWhole(entry.path());
+}
+
 }  // namespace
 
 void refuseForeignFiles(const TakePaths& paths)
@@ -65,9 +74,10 @@ void refuseForeignFiles(const TakePaths& paths)
 void removeTake(const TakePaths& paths)
 {
     const std::vector<fs::path> shapes = shapeFiles(paths);
-    if (isThere(paths.info())) {
+    // A take.json that is lost has left frames, or nothing that a take would be known by.
+    if (isThere(paths.info()) || !listFrames(paths).empty()) {
         for (const fs::path& made : {paths.images(), paths.exports(), paths.statsPage()})
-            removeWhole(made);
+            removeMade(made);
     }
     // The description goes before the frames: from then on nobody takes the rest for a take.
     removeWhole(paths.info());
@@ -76,7 +86,7 @@ void removeTake(const TakePaths& paths)
     for (const fs::path& file : {paths.stats(), paths.checkpoint()}) removeWhole(file);
     for (const fs::path& folder : {paths.frames(), paths.shapes()}) {
         std::error_code isNotEmpty;
-        fs::remove(folder, isNotEmpty);
+        if (!fs::is_symlink(folder, isNotEmpty)) fs::remove(folder, isNotEmpty);
     }
 }
 

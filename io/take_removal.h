@@ -10,8 +10,8 @@ namespace scree {
 void refuseForeignFiles(const TakePaths& paths);
 
 /// Removes a take, and with it the pictures and caches that were made from it: left beside another
-/// they would be mixed with its own. Where there is no take.json those are somebody else's, and
-/// only what has a name that frames have goes. Throws Error{cannotCreate}.
+/// they would be mixed with its own. Where there is neither a take.json nor a frame those are
+/// somebody else's. Of folders that are links the contents go. Throws Error{cannotCreate}.
 void removeTake(const TakePaths& paths);
 
 /// Removes what a killed writer of a take has left half written, by the rules of removeAbandoned():

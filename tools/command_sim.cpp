@@ -370,16 +370,28 @@ private:
         const TakeReader reader(take_->paths().root);
         for (const std::string& ending : shot_.output.exports) {
             const std::filesystem::path output = defaultExport(reader, ending);
-            std::error_code ignored;
-            // Of a sequence the last file is written last.
-            const std::string last = framePath(output.string(), shot_.lastFrame);
-            if (!hasNewFrames && std::filesystem::exists(last, ignored)) continue;
+            if (!hasNewFrames && isUpToDate(output)) continue;
             // Without progress of its own: the simulation's has reached the end and must not go
             // back.
             if (!exportTake(reader, reader.frames(), output, console_, ProgressMode::none))
                 return false;
             console_.info("wrote " + output.string());
         }
+        return true;
+    }
+
+    /// Whether an export is no older than any frame: one that failed has left that of before.
+    bool isUpToDate(const std::filesystem::path& output) const
+    {
+        // Of a sequence the last file is written last.
+        const std::string last = framePath(output.string(), shot_.lastFrame);
+        std::error_code code;
+        const auto written = std::filesystem::last_write_time(last, code);
+        if (code) return false;
+        for (int frame = shot_.firstFrame; frame <= shot_.lastFrame; ++frame)
+            if (std::filesystem::last_write_time(take_->paths().frame(frame), code) > written ||
+                code)
+                return false;
         return true;
     }
 

@@ -698,6 +698,37 @@ TEST_F(TakeTest, ACheckpointKeepsFiguresAndOverlapsThatContactsDoNotTellOf)
     EXPECT_EQ(readFrameFile(take.paths().frame(1001)).untold, (std::vector<BodyPair>{{0, 1}}));
 }
 
+// Of a take whose take.json was lost, old pictures and caches stayed beside the new frames.
+TEST_F(TakeTest, OverwritingATakeWithoutTakeJsonTakesPicturesAndCachesWithItToo)
+{
+    writeWholeTake();
+    for (const char* name : {"images", "exports"}) fs::create_directories(folder / "take" / name);
+    writeFileBytes(folder / "take/images/two.1001.png", "old");
+    writeFileBytes(folder / "take/exports/two.abc", "old");
+    fs::remove(folder / "take/take.json");
+    open(ExistingTake::overwrite, shot);
+    EXPECT_FALSE(fs::exists(folder / "take/images"));
+    EXPECT_FALSE(fs::exists(folder / "take/exports"));
+}
+
+// Frames went back to the small disk that the link was to spare.
+TEST_F(TakeTest, OverwritingLeavesFoldersThatAreLinksWhereTheyLead)
+{
+    for (const char* name : {"frames", "shapes", "images"}) {
+        fs::create_directories(folder / "disk" / name);
+        fs::create_directories(folder / "take");
+        fs::create_directory_symlink(folder / "disk" / name, folder / "take" / name);
+    }
+    writeWholeTake();
+    writeFileBytes(folder / "disk/images/two.1001.png", "old");
+    const TakeWriter take = open(ExistingTake::overwrite, shot);
+    for (const char* name : {"frames", "shapes", "images"})
+        EXPECT_TRUE(fs::is_symlink(folder / "take" / name)) << name;
+    EXPECT_TRUE(listFrames(take.paths()).empty());
+    EXPECT_TRUE(fs::exists(folder / "disk/shapes/block.ply"));
+    EXPECT_FALSE(fs::exists(folder / "disk/images/two.1001.png"));
+}
+
 // A lock on the folder itself other machines are not told of.
 TEST_F(TakeTest, AWriterIsKeptOutByALockOnTheLockFile)
 {

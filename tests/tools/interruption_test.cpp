@@ -90,5 +90,21 @@ TEST_F(InterruptionTest, FiguresAndExitCodeAreThoseOfAnUnbrokenRun)
     EXPECT_EQ(figuresOf(file("stopped")), figures);
 }
 
+// One that failed left that of an earlier take, which a resume believed.
+TEST_F(InterruptionTest, AnExportOlderThanItsFramesIsWrittenAgain)
+{
+    std::ofstream(file("s.toml")) << test::shotTextOf(
+        {.frames = "1001-1003"}, test::bodyText("block", "position = [0, 0.6, 0]"));
+    const std::vector<std::string> command = {
+        "sim", file("s.toml"), "-o", file("t"), "--set", "output.export=[\"abc\"]", "--resume"};
+    ASSERT_EQ(runScree(command).code, 0);
+    const fs::path cache = file("t") + "/exports/s.abc";
+    writeFileBytes(cache, "of an earlier take");
+    const auto simulated = fs::last_write_time(TakePaths{file("t")}.frame(1003));
+    fs::last_write_time(cache, simulated - std::chrono::seconds(1));
+    ASSERT_EQ(runScree(command).code, 0);
+    EXPECT_NE(readFileBytes(cache), "of an earlier take");
+}
+
 }  // namespace
 }  // namespace scree
