@@ -37,10 +37,13 @@ fs::path folderOf(const fs::path& file)
 /// The file that a write to `target` would change; refuses what a rename must not replace.
 fs::path resolveTarget(const fs::path& target)
 {
+    constexpr int kMostLinks = 40;  // as the system has it
     std::error_code code;
     fs::path resolved = target;
-    if (fs::is_symlink(target, code)) {
-        resolved = fs::weakly_canonical(target, code);
+    // Link by link: of one that leads nowhere yet, the place it leads to is meant.
+    for (int links = 0; fs::is_symlink(resolved, code); ++links) {
+        if (links == kMostLinks) refuse(target, std::strerror(ELOOP));
+        resolved = resolved.parent_path() / fs::read_symlink(resolved, code);
         if (code) refuse(target, code.message());
     }
 

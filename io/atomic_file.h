@@ -18,7 +18,8 @@ namespace scree {
 class AtomicFile {
 public:
     /// Throws Error{cannotCreate} when nothing can be created beside `target`, or when `target` is
-    /// a folder or a device. A symbolic link is followed: the file it names is replaced.
+    /// a folder or a device. A symbolic link is followed: the file it names is replaced,
+    /// or made where there is none.
     explicit AtomicFile(const std::filesystem::path& target);
 
     /// Without commit() the temporary is removed.

@@ -313,10 +313,11 @@ int runMovie(const MovieOptions& options, Console& console)
     const std::string muxer = muxerOf(options.output);
     const PictureSequence sequence = findPictures(options);
     const TakeFrames chosen = tellMissingPictures(options, sequence, console);
-    const fs::path output = options.output;
-    createFolderOf(output, console);
-    AtomicFile{output};  // says now, with its own error, when nothing can be created there
-    console.info(shellLine(makeCommand(sequence, muxer, output.string())));
+    const fs::path named = options.output;
+    createFolderOf(named, console);
+    // Says now, with its own error, when nothing can be created there; of a link it tells where to.
+    const fs::path output = AtomicFile{named}.target();
+    console.info(shellLine(makeCommand(sequence, muxer, named.string())));
 
     requireWholePictures(sequence);
 
@@ -335,8 +336,8 @@ int runMovie(const MovieOptions& options, Console& console)
         fs::remove(temporary, code);
         throw;
     }
-    std::printf("%s\n", output.c_str());
-    return finishTakeFrames(chosen, output.string(), console);
+    std::printf("%s\n", named.c_str());
+    return finishTakeFrames(chosen, named.string(), console);
 }
 
 }  // namespace

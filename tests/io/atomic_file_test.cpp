@@ -200,5 +200,24 @@ TEST(AtomicFile, AFullDiskIsAnErrorAndTheOldFileSurvives)
     EXPECT_EQ(fileCount(folder.path()), 1u);
 }
 
+// The link itself was replaced: what was written stayed on the disk that the link leads away from.
+TEST(AtomicFile, FollowsALinkThatLeadsToWhatIsNotThereYet)
+{
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "disk");
+    fs::create_symlink("disk/second.bin", folder / "first.bin");
+    fs::create_symlink("third.bin", folder / "disk/second.bin");
+    AtomicFile file(folder / "first.bin");
+    file.write("new");
+    file.commit();
+    EXPECT_TRUE(fs::is_symlink(folder / "first.bin"));
+    EXPECT_TRUE(fs::is_symlink(folder / "disk/second.bin"));
+    EXPECT_EQ(contentOf(folder / "disk/third.bin"), "new");
+
+    fs::create_symlink("round.bin", folder / "round.bin");
+    EXPECT_EQ(test::kindThrownBy([&] { AtomicFile{folder / "round.bin"}; }),
+              ErrorKind::cannotCreate);
+}
+
 }  // namespace
 }  // namespace scree

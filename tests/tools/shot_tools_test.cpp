@@ -550,5 +550,18 @@ TEST_F(ShotTools, AHeaderThatPromisesTooMuchIsToldAsALackOfMemory)
         << refused.err;
 }
 
+TEST_F(ShotTools, AFilmThatIsALinkIsMadeWhereItLeads)
+{
+    ASSERT_EQ(run("sim drop.toml -o t -q --set 'shot.frames=\"1001-1004\"'").code, 0);
+    ASSERT_EQ(run("render t --size 32x32 -q").code, 0);
+    std::filesystem::create_directories(folder / "disk");
+    std::filesystem::create_symlink("disk/film.mp4", folder / "film.mp4");
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(run("movie t -q -o film.mp4").code, 0);
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / "film.mp4"));
+        EXPECT_GT(std::filesystem::file_size(folder / "disk/film.mp4"), 100u);
+    }
+}
+
 }  // namespace
 }  // namespace scree
