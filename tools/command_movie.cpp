@@ -145,6 +145,13 @@ std::string format(const char* pattern, double value)
     return text;
 }
 
+/// What ffmpeg takes for a file whatever letters it has: "a:b.png" is one of a protocol called a,
+/// and "-a.mp4" an option.
+std::string plainFile(const std::string& path)
+{
+    return path.starts_with('/') ? path : "./" + path;
+}
+
 /// In ffmpeg's patterns % begins a number; in its globs * ? [ ] \ have a meaning.
 std::string escaped(const std::string& text, const char* special, char escape)
 {
@@ -205,8 +212,8 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
                 "-start_number",
                 std::to_string(sequence.frames.front()),
                 "-i",
-                escaped(split.head, "%", '%') + "%0" + std::to_string(split.digits) + "d" +
-                    escaped(split.tail, "%", '%')};
+                plainFile(escaped(split.head, "%", '%')) + "%0" + std::to_string(split.digits) +
+                    "d" + escaped(split.tail, "%", '%')};
     }
     const std::vector<std::string> listed = listedInput(sequence);
     if (!listed.empty()) return listed;
@@ -226,7 +233,8 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
             "-pattern_type",
             "glob",
             "-i",
-            escaped(split.head, special, '\\') + number + escaped(split.tail, special, '\\')};
+            plainFile(escaped(split.head, special, '\\')) + number +
+                escaped(split.tail, special, '\\')};
 }
 
 /// Files that hold H.264 and that -movflags knows.
@@ -264,7 +272,7 @@ std::vector<std::string> makeCommand(const PictureSequence& sequence, const std:
           "+faststart", "-f"})
         command.push_back(argument);
     command.push_back(muxer);
-    command.push_back(output);
+    command.push_back(plainFile(output));
     return command;
 }
 

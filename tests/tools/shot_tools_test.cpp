@@ -550,6 +550,18 @@ TEST_F(ShotTools, AHeaderThatPromisesTooMuchIsToldAsALackOfMemory)
         << refused.err;
 }
 
+// ffmpeg took what stands before a colon for a protocol.
+TEST_F(ShotTools, AFilmMayHaveAColonInItsName)
+{
+    ASSERT_EQ(run("sim drop.toml -o sc01:v2 -q --set 'shot.frames=\"1001-1004\"'").code, 0);
+    ASSERT_EQ(run("render sc01:v2 --size 32x32 -q").code, 0);
+    for (const char* name : {"out:v2.mp4", "-x.mp4"}) {
+        const Outcome film = run(std::string("movie sc01:v2 -q --output=") + name);
+        EXPECT_EQ(film.code, 0) << film.err;
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    }
+}
+
 TEST_F(ShotTools, AFilmThatIsALinkIsMadeWhereItLeads)
 {
     ASSERT_EQ(run("sim drop.toml -o t -q --set 'shot.frames=\"1001-1004\"'").code, 0);
