@@ -119,6 +119,19 @@ std::string expandFramePattern(std::string_view path, int frame)
            std::string(path.substr(place.begin + place.length));
 }
 
+SplitPattern splitFramePattern(std::string_view path)
+{
+    // Two numbers without a digit in common show where the place is.
+    const std::string ones = expandFramePattern(path, 111111111);
+    const std::string twos = expandFramePattern(path, 222222222);
+    std::size_t begin = 0, end = ones.size();
+    while (ones[begin] == twos[begin]) ++begin;
+    while (ones[end - 1] == twos[end - 1]) --end;
+    const SplitPattern split = {ones.substr(0, begin), ones.substr(end), 0};
+    const std::size_t rest = split.head.size() + split.tail.size();
+    return {split.head, split.tail, expandFramePattern(path, 0).size() - rest};
+}
+
 std::optional<int> frameOf(std::string_view pattern, std::string_view name)
 {
     const std::vector<Place> places = findPlaces(pattern);

@@ -15,6 +15,15 @@ bool hasFramePattern(std::string_view path);
 /// Error{usage} when the file name has no such place or several.
 std::string expandFramePattern(std::string_view path, int frame);
 
+/// A path around the place of its number.
+struct SplitPattern {
+    std::string head, tail;
+    std::size_t digits = 0;
+};
+
+/// Throws as expandFramePattern does.
+SplitPattern splitFramePattern(std::string_view path);
+
 /// The frame of which expandFramePattern makes the file name `name`; none if it does of no frame.
 /// Neither has folders.
 std::optional<int> frameOf(std::string_view pattern, std::string_view name);

@@ -84,13 +84,17 @@ void PovWriter::beginScene(const SceneDescription& scene, int firstFrame, int /*
     writeInclude();
 }
 
-/// heap.####.pov and heap.pov → heap_meshes.inc
+/// heap.####.pov → heap_meshes.inc. Each other pattern has a name of its own, with @ for the
+/// number: what is written beside an export must not change what that shows. heap.pov →
+/// heap.pov_meshes.inc
 fs::path PovWriter::includeFile() const
 {
-    std::string name = output_.stem().string();
-    name.resize(std::min(name.find_first_of("#%$"), name.size()));
-    while (!name.empty() && (name.back() == '.' || name.back() == '_')) name.pop_back();
-    return output_.parent_path() / ((name.empty() ? scene_->name : name) + "_meshes.inc");
+    const std::string stem = output_.stem().string();
+    if (!hasFramePattern(stem)) return output_.string() + "_meshes.inc";
+    auto [head, tail, digits] = splitFramePattern(stem);
+    const bool isUsual = head.size() > 1 && head.ends_with('.') && tail.empty();
+    if (isUsual) head.pop_back();
+    return output_.parent_path() / (head + (isUsual ? "" : "@") + tail + "_meshes.inc");
 }
 
 void PovWriter::writeInclude()

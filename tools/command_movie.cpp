@@ -163,25 +163,6 @@ std::string escaped(const std::string& text, const char* special, char escape)
     return result;
 }
 
-/// A file name around the place of its number.
-struct SplitPattern {
-    std::string head, tail;
-    std::size_t digits = 0;
-};
-
-/// Two numbers without a digit in common show where the place is.
-SplitPattern splitPattern(const std::string& pattern)
-{
-    const std::string ones = expandFramePattern(pattern, 111111111);
-    const std::string twos = expandFramePattern(pattern, 222222222);
-    std::size_t begin = 0, end = ones.size();
-    while (ones[begin] == twos[begin]) ++begin;
-    while (ones[end - 1] == twos[end - 1]) --end;
-    const SplitPattern split = {ones.substr(0, begin), ones.substr(end), 0};
-    const std::size_t rest = split.head.size() + split.tail.size();
-    return {split.head, split.tail, expandFramePattern(pattern, 0).size() - rest};
-}
-
 /// The pictures one by one, as a single stream; empty where ffmpeg cannot be told them so.
 std::vector<std::string> listedInput(const PictureSequence& sequence)
 {
@@ -205,7 +186,7 @@ std::vector<std::string> listedInput(const PictureSequence& sequence)
 std::vector<std::string> inputArguments(const PictureSequence& sequence)
 {
     const int spacing = spacingOf(sequence);
-    const SplitPattern split = splitPattern(sequence.pattern.string());
+    const SplitPattern split = splitFramePattern(sequence.pattern.string());
     if (spacing == 1 && sequence.frames.front() >= 0) {
         return {"-framerate",
                 format("%.10g", sequence.framesPerSecond),

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "io/frame_pattern.h"
 #include "tests/support/cast.h"
 #include "tests/support/readers.h"
 #include "tests/support/support.h"
@@ -196,6 +198,22 @@ TEST(PovWriter, EqualExportsAreEqualBytes)
         EXPECT_FALSE(contentOf(one / name).empty());
         EXPECT_TRUE(contentOf(one / name) == contentOf(two / name)) << name;
     }
+}
+
+// What one export wrote another read: its bodies had the meshes of the other's.
+TEST(PovWriter, ExportsBesideEachOtherDoNotShareTheirMeshes)
+{
+    const test::TemporaryFolder folder;
+    std::set<std::string> includes;
+    for (const char* name : {"heap.####.pov", "heap_####.pov", "heap####.pov", "####.pov",
+                             "####_a.pov", "####_b.pov"}) {
+        test::exportCast(*makePovWriter(folder / name), test::castScene());
+        const std::string text = contentOf(folder / expandFramePattern(name, 1001));
+        const std::size_t begin = text.find("#include \"");
+        includes.insert(text.substr(begin, text.find('\n', begin) - begin));
+    }
+    EXPECT_EQ(includes.size(), 6u);
+    EXPECT_TRUE(includes.contains("#include \"heap_meshes.inc\""));
 }
 
 }  // namespace

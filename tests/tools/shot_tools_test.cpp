@@ -409,7 +409,7 @@ TEST_F(ShotTools, SettleTouchesNoFileButTheOneItWrites)
     for (int frame = 1001; frame < 1010; ++frame)
         EXPECT_EQ(readFileBytes(folder / ("pose." + std::to_string(frame) + ".obj")), "mine");
     EXPECT_EQ(run("settle drop.toml -o pose.pov --seconds 0.1").code, 79);
-    EXPECT_TRUE(contains(readFileBytes(folder / "pose.pov"), "pose_meshes.inc"));
+    EXPECT_TRUE(contains(readFileBytes(folder / "pose.pov"), "pose.pov_meshes.inc"));
     std::filesystem::create_directories(folder / "taken.obj");
     const Outcome taken = run("settle drop.toml -o taken.obj --seconds 0.1");
     EXPECT_EQ(taken.code, 73) << taken.err;
