@@ -195,19 +195,20 @@ private:
     {
         const fs::path picture =
             hasFramePattern(pattern_) ? expandFramePattern(pattern_, frame) : pattern_;
-        if (options_.skipExisting && isUpToDate(picture, take_.paths().frame(frame), drawnAs()))
+        const std::string drawnNow = drawnAs(painter.viewAt(frame));
+        if (options_.skipExisting && isUpToDate(picture, take_.paths().frame(frame), drawnNow))
             return;
         const std::string text = hasBurnIn_
                                      ? burnInText(take_, frame, painter.bodyCountAt(frame), stats_)
                                      : std::string();
         PngText origin = originText(take_, frame, stats_);
-        origin.emplace_back(kDrawnAs, drawnAs());
+        origin.emplace_back(kDrawnAs, drawnNow);
         writePng(picture, painter.paint(frame, text), origin);
     }
 
-    std::string drawnAs() const
+    std::string drawnAs(const std::string& view) const
     {
-        return "camera \"" + options_.camera + "\", look " + options_.look + ", " +
+        return "camera \"" + options_.camera + "\" " + view + ", look " + options_.look + ", " +
                options_.engine + ", " + std::to_string(options_.samples.value_or(0)) +
                " samples, blur " +
                std::to_string(options_.motionBlur.value_or(take_.info().motionBlur)) + ", " +

@@ -10,6 +10,7 @@
 #include "core/base/random.h"
 #include "core/math/point_box.h"
 #include "io/nearest_word.h"
+#include "io/text_forms.h"
 #include "render/overlay.h"
 #include "render/stage.h"
 #include "tools/command_line.h"
@@ -110,6 +111,11 @@ LookKind parseLook(const std::string& word)
         if (word == name) return kind;
     throw Error(ErrorKind::usage, "--look " + word + ": the looks are " + knownLooks() +
                                       didYouMean(word, lookNames()));
+}
+
+std::string TakeLooks::scaleText() const
+{
+    return isDiagnostic() ? formatted(", scale %.9g", most_) + formatted(" %.9g", markLength_) : "";
 }
 
 std::string knownLooks()

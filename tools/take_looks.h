@@ -42,6 +42,10 @@ public:
     bool isDiagnostic() const { return kind_ != LookKind::shaded && kind_ != LookKind::wireframe; }
     std::vector<Look> looksAt(const SceneFrame& frame) const;
 
+    /// How far the scale of the colours and marks reaches, as ", scale 4 1"; empty where there is
+    /// none.
+    std::string scaleText() const;
+
     /// Draws the legend, and for LookKind::contacts the marks of the frame.
     void drawOver(Image& image, const Camera& camera, int frame) const;
 

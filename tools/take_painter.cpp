@@ -8,6 +8,7 @@
 #include "core/picture/camera_motion.h"
 #include "io/nearest_word.h"
 #include "io/subframes.h"
+#include "io/text_forms.h"
 #include "render/rasterizer.h"
 #include "render/ray_tracer.h"
 #include "render/text.h"
@@ -160,6 +161,15 @@ std::unique_ptr<PictureEngine> TakePainter::makeEngine() const
     RasterSettings settings{stage};
     if (settings_.samples > 0) settings.samples = settings_.samples;
     return std::make_unique<Rasterizer>(scene_, looks_.materials(), settings);
+}
+
+std::string TakePainter::viewAt(int frame) const
+{
+    const Camera camera = cameraAtFrame(frame);
+    std::string text = "seen from";
+    for (const Vec3& place : {camera.eye, camera.target, camera.up})
+        for (const double number : place) text += formatted(" %.9g", number);
+    return text + formatted(" at %.9g degrees", camera.fovDegrees) + looks_.scaleText();
 }
 
 std::size_t TakePainter::bodyCountAt(int frame) const

@@ -37,6 +37,10 @@ public:
     /// at once; each then has an engine of its own.
     Image paint(int frame, const std::string& burnedIn = "");
 
+    /// What of the picture of a frame the whole take decides, in words: where a view of the action
+    /// stands, and how far the scale of a look reaches. While a take grows they change.
+    std::string viewAt(int frame) const;
+
     /// Those that are there: without who has not been born yet.
     std::size_t bodyCountAt(int frame) const;
 

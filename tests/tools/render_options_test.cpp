@@ -449,5 +449,26 @@ TEST(TakePainter, CountsOnlyWhoIsThere)
     EXPECT_EQ(painter.bodyCountAt(1004), 3u);
 }
 
+// A view of all that happens grows with the take: half of a film was seen from nearer by.
+TEST_F(RenderOptions, SkipExistingDrawsAgainWhatTheWholeTakeShowsOtherwise)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "s.toml") << test::shotTextOf(
+        {.frames = "1001-1012"},
+        test::bodyText("block", "position = [0, 0.5, 0]\nvelocity = [9, 0, 0]"));
+    const std::string made = " -q " + quoted(folder / "s.toml") + " -o " + quoted(folder / "t");
+    const std::string drawn = "render -q " + quoted(folder / "t") + " --size 64x36 -o " +
+                              quoted(pictures / "p.####.png") + " --skip-existing";
+    for (const std::string look : {"shaded", "speed"}) {
+        fs::remove_all(folder / "t");
+        ASSERT_EQ(scree("sim" + made + " --frames 1001-1003").exitCode, 0);
+        scree(drawn + " --look " + look);
+        const Image before = picture(1001);
+        ASSERT_EQ(scree("sim" + made + " --resume").exitCode, 0);
+        ASSERT_EQ(scree(drawn + " --look " + look).exitCode, 0);
+        EXPECT_GT(difference(before, picture(1001)), 0.0) << look;
+    }
+}
+
 }  // namespace
 }  // namespace scree::test
