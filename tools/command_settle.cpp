@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/diagnostics/phase_timer.h"
 #include "core/dynamics/stepper.h"
 #include "core/math/rotation.h"
 #include "core/scene/motion_script.h"
@@ -24,6 +25,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/progress.h"
 #include "tools/repair_report.h"
 #include "tools/rolling_advice.h"
 #include "tools/settled_poses.h"
@@ -37,7 +39,7 @@ namespace scree {
 namespace {
 
 struct SettleOptions {
-    std::string shot, output;
+    std::string shot, output, progress = "auto";
     double seconds = 30.0;
     // The literal method keeps two blocks on each other creeping by 0.0016 for ever.
     double tolerance = 5e-3;
@@ -102,6 +104,7 @@ public:
     Settling(const SettleOptions& options, Console& console)
         : options_(options),
           console_(console),
+          progressMode_(parseProgressMode(options.progress)),
           shot_(parseShot(options.shot, options.overrides, options.importLimits))
     {
         if (writesPoses()) requirePosableBodies(shot_, options.output);
@@ -119,8 +122,7 @@ public:
 
     int run()
     {
-        simulate();
-        heedStop();
+        if (!simulate()) throw Stopped{"nothing is at rest yet, and nothing was written"};
         for (const std::string& file : write()) std::printf("%s\n", file.c_str());
         if (unrest_.isNone()) return kExitDone;
         console_.error("not at rest after " + describeDuration(options_.seconds) + ": " +
@@ -129,17 +131,25 @@ public:
     }
 
 private:
-    void simulate()
+    /// False when it was stopped before all was at rest.
+    bool simulate()
     {
         Stepper stepper(shot_.settings);
         const auto window = static_cast<std::size_t>(
             std::max(1.0, std::ceil(kWindowSeconds * shot_.framesPerSecond)));
         const int most = static_cast<int>(std::ceil(options_.seconds * shot_.framesPerSecond));
+        const double duration = 1.0 / shot_.framesPerSecond;
+        Progress progress(console_, progressMode_, "settle", most);
         std::deque<std::vector<BodyMotion>> past = {world_.motion};
         for (int frame = 1; frame <= most; ++frame) {
-            const FrameReport report =
-                stepper.advanceFrame(world_, 1.0 / shot_.framesPerSecond, stopRequested);
-            if (!report.finished) return;
+            const Stopwatch watch;
+            const auto askStop = [&] {
+                progress.insideFrame(frame, world_.clock.frameTimeDone / duration);
+                if (takeSaveRequest()) tellHowFar(frame, most);
+                return stopRequested();
+            };
+            const FrameReport report = stepper.advanceFrame(world_, duration, askStop);
+            if (!report.finished) return false;
             refuseBroken(report, shot_.firstFrame + frame);
             past.push_back(world_.motion);
             if (past.size() > window + 1) past.pop_front();
@@ -147,9 +157,22 @@ private:
             unrest_.isTooEarly = unrest_.isTooEarly || past.size() <= window;
             if (unrest_.isNone()) {
                 console_.info("at rest after " + std::to_string(frame) + " frames");
-                return;
+                return true;
             }
+            progress.frameDone(frame, watch.seconds(),
+                               {report.bodiesAwake, report.sum.contactPairs});
+            // A frame of one step has no place between steps to be asked at.
+            if (takeSaveRequest()) tellHowFar(frame, most);
+            if (stopRequested()) return false;
         }
+        return true;
+    }
+
+    /// In place of saving: a pose that is not at rest would be taken for one that is.
+    void tellHowFar(int frame, int most)
+    {
+        console_.answer("scree: in frame " + std::to_string(frame) + " of at most " +
+                        std::to_string(most) + "; settle writes its pose at the end only");
     }
 
     Unrest unrestSince(const std::vector<BodyMotion>& before, const BirthReport& births) const
@@ -229,6 +252,7 @@ private:
 
     const SettleOptions& options_;
     Console& console_;
+    ProgressMode progressMode_;
     Shot shot_;
     World world_;
     double endOfEvents_ = 0.0;  // [s]
@@ -261,8 +285,10 @@ Command addSettleCommand(CLI::App& program)
     command->add_option("--threads", options->threads, "Number of threads [all]");
     addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
+    command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
     command->footer(
         "Ends with 79 when something still moves at the end; the pose is written all the same.\n"
+        "Stopped before, it ends with 75, writes nothing and begins anew when it is run again.\n"
         "A .poses file is what [[body]] poses = \"rings.poses\" reads; there is one for each "
         "[[body]] and [[emitter]] that moves, out_NAME.poses where they are several.\n"
         "Example:\n  scree settle shots/rings_100.toml -o rings.poses");

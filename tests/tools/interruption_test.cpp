@@ -90,6 +90,35 @@ TEST_F(InterruptionTest, FiguresAndExitCodeAreThoseOfAnUnbrokenRun)
     EXPECT_EQ(figuresOf(file("stopped")), figures);
 }
 
+// It was asked between the sub-steps of a frame alone, and many frames have but one.
+TEST_F(InterruptionTest, SettleStopsThoughItsFramesAreOfOneStep)
+{
+    std::ofstream(file("s.toml")) << test::shotTextOf(
+        {.shotKeys = "gravity = [0, 0, 0]"},
+        test::bodyText("block", "position = [0, 9, 0]\nvelocity = [1, 0, 0]"));
+    Program program({"settle", file("s.toml"), "-o", file("s.json"), "--seconds", "1000000",
+                     "--progress", "alf"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    program.signal(SIGUSR1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    program.signal(SIGTERM);
+    // Unheeded, it would go on for minutes.
+    std::atomic<bool> isOver = false;
+    std::thread impatience([&] {
+        for (int i = 0; i < 100 && !isOver; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        if (!isOver) program.signal(SIGKILL);
+    });
+    const Outcome stopped = program.wait();
+    isOver = true;
+    impatience.join();
+    EXPECT_EQ(stopped.code, 75) << stopped.err;
+    EXPECT_NE(stopped.err.find("ALF_PROGRESS 0%"), std::string::npos) << stopped.err;
+    EXPECT_NE(stopped.err.find("scree: in frame "), std::string::npos) << stopped.err;
+    EXPECT_NE(stopped.err.find("nothing was written"), std::string::npos) << stopped.err;
+    EXPECT_FALSE(fs::exists(file("s.json")));
+}
+
 // One that failed left that of an earlier take, which a resume believed.
 TEST_F(InterruptionTest, AnExportOlderThanItsFramesIsWrittenAgain)
 {
