@@ -16,7 +16,7 @@ struct PosesFile {
 };
 
 /// Throws Error{usage} when some of what moves in the shot is no copy of an item: the nodes of an
-/// [[import]] have shapes of their own.
+/// [[import]] have shapes of their own; or when two of its files would have one name.
 void requirePosableBodies(const Shot& shot, const std::string& output);
 
 /// A file holds copies of one body: one for each [[body]] and [[emitter]] that moves, and each of

@@ -550,6 +550,21 @@ TEST_F(ShotTools, AHeaderThatPromisesTooMuchIsToldAsALackOfMemory)
         << refused.err;
 }
 
+// The second was written over the first, and both were named.
+TEST_F(ShotTools, PosesOfTwoThatWouldHaveOneFileAreRefusedAtOnce)
+{
+    const std::string emitter =
+        "[[emitter]]\nname = \"rocks\"\nshape = [\"block\", \"slab\"]\nmaterial = \"wood\"\n"
+        "count = 4\nbox = { min = [-3, 2, -3], max = [3, 6, 3] }\n";
+    const std::string slab = "[shape.slab]\nbox = { size = [0.4, 0.1, 0.4] }\n";
+    writeFileBytes(folder / "rocks.toml",
+                   test::shotTextOf(
+                       {}, slab + emitter + test::bodyText("rocks_slab", "position = [9, 1, 0]")));
+    const Outcome refused = run("settle rocks.toml -o o.poses");
+    EXPECT_EQ(refused.code, 64);
+    EXPECT_TRUE(contains(refused.err, "'o_rocks_slab.poses'")) << refused.err;
+}
+
 // ffmpeg took what stands before a colon for a protocol.
 TEST_F(ShotTools, AFilmMayHaveAColonInItsName)
 {
