@@ -318,7 +318,7 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
           {"disk_bytes", report.estimate.diskBytes},
           {"memory_bytes", report.estimate.memoryBytes}}},
     };
-    std::printf("%s\n", json.dump(2).c_str());
+    std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
 int checkShot(const CheckOptions& options, Console& console)

@@ -63,7 +63,7 @@ void printJson(const TakeComparison& comparison)
                               {"memory_only", first.isMemoryOnly}};
         if (first.offset) json["difference"]["offset_frames"] = *first.offset;
     }
-    std::printf("%s\n", json.dump(2).c_str());
+    std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ void printJson(const TakeReader& take, const TakeSummary& summary)
         for (const char* key : {"wall_s", "cpu_s", "worst_overlap_ratio", "worst_overlap_frame",
                                 "last_kinetic_energy_J", "last_state_hash"})
             json[key] = nullptr;
-    std::printf("%s\n", json.dump(2).c_str());
+    std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
 }  // namespace

@@ -590,5 +590,19 @@ TEST_F(ShotTools, AFilmThatIsALinkIsMadeWhereItLeads)
     }
 }
 
+// They ended with 70: JSON holds UTF-8 alone, folders and names of files need not.
+TEST_F(ShotTools, WhatIsNoUtf8IsReplacedInJson)
+{
+    const std::string latin = "dr\xf6p";
+    std::filesystem::create_directories(folder / latin);
+    writeFileBytes(folder / latin / "open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    writeFileBytes(
+        folder / latin / "s.toml",
+        test::shotTextOf({.frames = "1001"}, test::bodyText("low", "position = [0, 0.65, 0]")));
+    const Outcome checked = run("check '" + latin + "/s.toml' --json --estimate 1");
+    EXPECT_EQ(checked.code, 0) << checked.err;
+    EXPECT_TRUE(nlohmann::json::accept(checked.out)) << checked.out;
+}
+
 }  // namespace
 }  // namespace scree
