@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -15,6 +16,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/stop_signals.h"
+#include "tools/take_frames.h"
 
 namespace scree {
 namespace {
@@ -44,6 +46,13 @@ struct TakeSummary {
     FrameSummary last;
     std::size_t untold = 0;           ///< frames that stats.jsonl says nothing of
     std::vector<MovingBody> fastest;  ///< in the last frame, a few of those that move at all
+
+    std::vector<int> wholeFrames() const
+    {
+        std::vector<int> whole;
+        std::ranges::set_difference(frames, damaged, std::back_inserter(whole));
+        return whole;
+    }
 };
 
 /// Of what may move by itself: who keeps a heap awake is what people ask.
@@ -190,14 +199,19 @@ Command addInfoCommand(CLI::App& program)
     CLI::App* command = program.add_subcommand("info", "Say what is in a take");
     command->add_option("TAKE", options->take, "The take directory")->required();
     command->add_flag("--json", options->json, "As one JSON object");
-    command->footer("Example:\n  scree info takes/rings_100 --json");
-    return {command, [options](Console&) {
+    command->footer(
+        "When frames of the shot are missing or damaged the exit code is 66.\n"
+        "Example:\n  scree info takes/rings_100 --json");
+    return {command, [options](Console& console) {
                 const TakeReader take(options->take);
+                const TakeSummary summary = summarize(take);
                 if (options->json)
-                    printJson(take, summarize(take));
+                    printJson(take, summary);
                 else
-                    printText(take, summarize(take));
-                return kExitDone;
+                    printText(take, summary);
+                const TakeFrames whole{summary.wholeFrames(),
+                                       framesLacking(take.info(), summary.wholeFrames())};
+                return finishTakeFrames(whole, options->take, console);
             }};
 }
 

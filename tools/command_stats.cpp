@@ -7,10 +7,10 @@
 #include "render/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
-#include "tools/exit_code.h"
 #include "tools/stats_page.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/take_frames.h"
 #include "tools/take_painter.h"
 
 namespace scree {
@@ -52,7 +52,8 @@ int runStats(const StatsOptions& options, Console& console)
     heedStop("no page was written");
     writeFileBytes(output, makeStatsPage(take, thumbnails));
     std::printf("%s\n", output.c_str());
-    return kExitDone;
+    const TakeFrames shown{take.frames(), framesLacking(take.info(), take.frames())};
+    return finishTakeFrames(shown, output.string(), console);
 }
 
 }  // namespace
@@ -67,7 +68,9 @@ Command addStatsCommand(CLI::App& program)
     command
         ->add_option("--pictures", options->pictures, "Frames that are drawn, evenly spread [32]")
         ->check(CLI::Range(0, 1000));
-    command->footer("Example:\n  scree stats takes/rings_100 -o rings.html");
+    command->footer(
+        "When frames of the shot are missing the page shows those that are there, and the exit "
+        "code is 66.\nExample:\n  scree stats takes/rings_100 -o rings.html");
     return {command, [options](Console& console) { return runStats(*options, console); }};
 }
 

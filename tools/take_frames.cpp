@@ -1,5 +1,7 @@
 #include "tools/take_frames.h"
 
+#include <set>
+
 #include "tools/command_line.h"
 #include "tools/exit_code.h"
 #include "tools/shell_line.h"
@@ -37,6 +39,15 @@ std::string framesBeyond(const TakeInfo& info, int first, int last)
     if (last < info.lastFrame)
         text += (text.empty() ? "" : ",") + rangeOf(last + 1, info.lastFrame);
     return text;
+}
+
+std::string framesLacking(const TakeInfo& info, const std::vector<int>& frames)
+{
+    const std::set<int> there(frames.begin(), frames.end());
+    std::vector<int> lacking;
+    for (int frame = info.firstFrame; frame <= info.lastFrame; ++frame)
+        if (!there.contains(frame)) lacking.push_back(frame);
+    return lacking.empty() ? "" : describeFrames(lacking);
 }
 
 int finishTakeFrames(const TakeFrames& chosen, const std::string& output, Console& console)

@@ -28,6 +28,9 @@ TakeFrames chooseTakeFrames(const std::string& asked, const TakeReader& take, Co
 /// The frames of the shot before `first` and after `last`: "1016-1040", or "" when there are none.
 std::string framesBeyond(const TakeInfo& info, int first, int last);
 
+/// The frames of the shot that are not among those: "1004,1006-1040", or "" when all are.
+std::string framesLacking(const TakeInfo& info, const std::vector<int>& frames);
+
 /// The exit code of a command that made `output` of those frames. What is missing there ends with
 /// an error, so that nobody takes a part for the whole; what was made stays, it may be all that is
 /// wanted.

@@ -448,5 +448,23 @@ TEST_F(MishapsTest, AnOverlapThatContactsDoNotTellOfIsInTheFiguresOfEveryFrame)
     EXPECT_EQ(frames, 6);
 }
 
+// A farm took them for whole: never 0 with frames missing.
+TEST_F(MishapsTest, WhatTellsOfATakeThatLacksFramesExitsWith66)
+{
+    const std::string path = take("t");
+    EXPECT_EQ(runScree({"info", path}).code, 0);
+    EXPECT_EQ(runScree({"stats", path, "--pictures", "0"}).code, 0);
+    fs::resize_file(TakePaths{path}.frame(1002), 0);
+    EXPECT_EQ(runScree({"info", path, "--json"}).code, 66);
+    fs::remove(TakePaths{path}.frame(1004));
+    const Outcome told = runScree({"info", path});
+    EXPECT_EQ(told.code, 66);
+    EXPECT_TRUE(says(told, "lacks frames 1002-1004x2 of the shot")) << told.err;
+    const Outcome plotted = runScree({"stats", path, "--pictures", "0"});
+    EXPECT_EQ(plotted.code, 66);
+    EXPECT_TRUE(says(plotted, "lacks frames 1004 of the shot")) << plotted.err;
+    EXPECT_TRUE(fs::exists(TakePaths{path}.statsPage()));
+}
+
 }  // namespace
 }  // namespace scree
