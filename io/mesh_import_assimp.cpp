@@ -25,7 +25,10 @@ namespace fs = std::filesystem;
 /// Opens files for reading, in the asset's folder and below; remembers what it refused.
 class FolderSystem final : public Assimp::DefaultIOSystem {
 public:
-    explicit FolderSystem(const fs::path& folder) : folder_(folder) {}
+    explicit FolderSystem(const std::string& asset)
+        : folder_(fs::absolute(asset).lexically_normal().parent_path())
+    {
+    }
 
     Assimp::IOStream* Open(const char* file, const char* mode) override
     {
@@ -51,12 +54,13 @@ public:
     const std::string& refused() const { return refused_; }
 
 private:
+    /// By the name as it is written: where links lead is up to who has put them there. Stores and
+    /// version control keep what stands in one folder in many.
     bool isInside(const char* file) const
     {
-        std::error_code code;
-        const fs::path path = fs::weakly_canonical(fs::absolute(file), code);
+        const fs::path path = fs::absolute(file).lexically_normal();
         const fs::path relative = path.lexically_relative(folder_);
-        const bool isIn = !code && !relative.empty() && *relative.begin() != "..";
+        const bool isIn = !relative.empty() && *relative.begin() != "..";
         if (!isIn) refused_ = file;
         return isIn;
     }
@@ -149,7 +153,7 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
         throw Error(ErrorKind::badInput, "its header has no end: the file is cut short");
     Assimp::Importer importer;
     keepLoadersOf(ending, importer);
-    auto* files = new FolderSystem(fs::weakly_canonical(fs::absolute(path)).parent_path());
+    auto* files = new FolderSystem(path);
     importer.SetIOHandler(files);  // which deletes it
     if (ending == "obj") {
         std::optional<std::string> text = textWithObjNames(readFileBytes(path));

@@ -447,5 +447,17 @@ TEST(MeshImport, AGltfWhoseWordsCannotBeReadIsRefused)
     EXPECT_EQ(importFile(folder / "zeros.gltf").nodes.size(), 3u);
 }
 
+// Asset stores keep each file under the hash of its bytes, and a folder of links for people.
+TEST(MeshImport, AnAssetOfLinksIsReadThoughTheyLeadApart)
+{
+    const test::TemporaryFolder store, folder;
+    test::writeGltf(store);
+    std::filesystem::create_directory(store / "f3");
+    std::filesystem::rename(store / "data.bin", store / "f3/9a");
+    std::filesystem::create_symlink(store / "f3/9a", folder / "data.bin");
+    std::filesystem::create_symlink(store / "set.gltf", folder / "set.gltf");
+    EXPECT_EQ(importFile(folder / "set.gltf").nodes.size(), 3u);
+}
+
 }  // namespace
 }  // namespace scree
