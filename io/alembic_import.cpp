@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <string>
+#include <unordered_map>
 
 #include "core/math/rotation.h"
 #include "io/alembic_mesh.h"
@@ -132,7 +134,9 @@ private:
         }
     }
 
-    StoredObject sourceOf(const StoredObject& instance) const
+    using Children = std::unordered_map<std::string, StoredObject>;
+
+    StoredObject sourceOf(const StoredObject& instance)
     {
         const auto property = find(reader_.properties(instance), ".instanceSource");
         if (!property) reader_.refuse("is damaged: an instance does not say of what");
@@ -141,17 +145,27 @@ private:
         StoredObject object = reader_.top();
         for (std::size_t at = 0; at != std::string::npos;) {
             const std::size_t end = path.find('/', at + 1);
-            const std::string name = path.substr(at + 1, end - at - 1);
-            const std::vector<StoredObject> children = reader_.children(object);
-            const auto child = std::find_if(children.begin(), children.end(),
-                                            [&](const auto& c) { return c.name == name; });
+            const Children& children = childrenOf(object, path.substr(0, at));
+            const auto child = children.find(path.substr(at + 1, end - at - 1));
             if (child == children.end()) {
                 reader_.refuse("is damaged: it repeats '" + path + "', which it does not have");
             }
-            object = *child;
+            object = child->second;
             at = end;
         }
         return object;
+    }
+
+    /// By their names. Thousands of instances ask for them: they are read once.
+    const Children& childrenOf(const StoredObject& object, const std::string& path)
+    {
+        const auto [known, isNew] = children_.try_emplace(path);
+        if (!isNew) return known->second;
+        for (StoredObject& child : reader_.children(object)) {
+            const std::string name = child.name;
+            known->second.try_emplace(name, std::move(child));
+        }
+        return known->second;
     }
 
     // ---- transforms
@@ -375,6 +389,7 @@ private:
     AlembicReader reader_;
     std::uint32_t mostDepth_;
     ImportedFile file_;
+    std::unordered_map<std::string, Children> children_;  // of sources of instances, by path
     std::uint32_t objectCount_ = 0;
     double matrixCount_ = 0.0;
 };

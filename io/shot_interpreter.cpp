@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "core/math/rotation.h"
 #include "io/emitter.h"
@@ -62,6 +63,7 @@ public:
         readMaterials();
         readMaterialPairs(tree_, shot_, problems_);
         shapeNames_ = readShapes(tree_, folder_, isStrict_, shot_, problems_);
+        isShapeName_.insert(shapeNames_.begin(), shapeNames_.end());
         readForceFields(tree_, groups_, shot_, problems_);
         if (const ShotNode* bodies = tree_.find("body")) {
             for (const ShotNode& body : bodies->items) readBody(body);
@@ -190,9 +192,8 @@ private:
             ShotBody body;
             body.location = node.where;
             body.name = placed.name;
-            for (int i = 2; ownerOfName_.contains(body.name); ++i) {
-                body.name = placed.name + "_" + std::to_string(i);
-            }
+            body.name = freeName(placed.name, lastBody_,
+                                 [&](const auto& name) { return ownerOfName_.contains(name); });
             ownerOfName_.emplace(body.name, node.where);
             body.shape = shapeOfNode(placed, settings, node.where);
             body.material = material->text;
@@ -205,6 +206,19 @@ private:
             if (isRight) isRight = readImportedStart(node, body);
             shot_.bodies.push_back(std::move(body));
         }
+    }
+
+    /// The wanted name, or with the first number that nobody has. Files have thousands of nodes of
+    /// one name: `last` remembers which number was given.
+    template <class IsTaken>
+    static std::string freeName(const std::string& wanted,
+                                std::unordered_map<std::string, int>& last, const IsTaken& isTaken)
+    {
+        if (!isTaken(wanted)) return wanted;
+        int& number = last.try_emplace(wanted, 1).first->second;
+        while (isTaken(wanted + "_" + std::to_string(++number))) {
+        }
+        return wanted + "_" + std::to_string(number);
     }
 
     /// How a body of an import begins. False, and a report, when it cannot.
@@ -225,17 +239,14 @@ private:
     std::string shapeOfNode(const PlacedNode& placed, const ShapeSettings& settings,
                             const SourceLocation& where)
     {
-        for (const ShotShape& shape : shot_.shapes) {
-            const auto* known = std::get_if<NodeSpec>(&shape.source);
-            if (known && known->path == placed.shape.path && known->mesh == placed.shape.mesh) {
-                return shape.name;
-            }
-        }
+        // A mesh is one file's: of each [[import]] it is read anew.
+        std::string& known = shapeOfMesh_[placed.shape.mesh.get()];
+        if (!known.empty()) return known;
         ShotShape shape;
-        shape.name = placed.name;
-        while (std::find(shapeNames_.begin(), shapeNames_.end(), shape.name) != shapeNames_.end()) {
-            shape.name += "_";
-        }
+        shape.name = freeName(placed.name, lastShape_,
+                              [&](const auto& name) { return isShapeName_.contains(name); });
+        isShapeName_.insert(shape.name);
+        known = shape.name;
         shape.source = placed.shape;
         shape.settings = settings;
         shape.location = where;
@@ -520,6 +531,9 @@ private:
     std::vector<std::string> materialNames_, shapeNames_;
     Owners ownerOfName_;  // of the bodies, copies one by one
     Owners ownerOfItem_;  // of [[body]] and [[emitter]], whose name the copies need not have
+    std::unordered_set<std::string> isShapeName_;                  // of shapeNames_
+    std::unordered_map<const TriMesh*, std::string> shapeOfMesh_;  // of what imports show
+    std::unordered_map<std::string, int> lastBody_, lastShape_;    // numbers given, by name
     bool isTooManyReported_ = false;
     bool isStrict_ = false;
     GroupNames groups_;

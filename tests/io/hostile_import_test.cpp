@@ -459,5 +459,33 @@ TEST(MeshImport, AnAssetOfLinksIsReadThoughTheyLeadApart)
     EXPECT_EQ(importFile(folder / "set.gltf").nodes.size(), 3u);
 }
 
+// Names grew by a letter for each: what a file of many rocks made was no name for a file.
+TEST(ShotImport, ManyMeshesOfOneNameAreNumbered)
+{
+    const test::TemporaryFolder folder;
+    test::writeGltf(folder);
+    const auto nodes = [](const std::string& scale) {
+        return R"({"name":"Rock","mesh":0,"scale":)" + scale + "},";
+    };
+    std::string text = test::gltfText("data.bin");
+    const std::size_t begin = text.find("{\"name\":\"Mug.big\""), end = text.find("],\n\"meshes\"");
+    text.replace(begin, end - begin,
+                 nodes("[1,1,1]") + nodes("[2,2,2]") + nodes("[1,1,1]") +
+                     R"({"name":"Rock","mesh":0,"scale":[3,3,3]})");
+    text.replace(text.find("[0,1,2]}],\"nodes\""), 7, "[0,1,2,3]");
+    std::ofstream(folder / "rocks.gltf") << text;
+    const Shot shot = parseShotText(
+        "scree = 1\n[shot]\nname = \"s\"\n[material.m]\n[[import]]\n"
+        "material = \"m\"\nfile = \"" +
+            (folder / "rocks.gltf").string() + "\"\n",
+        "s.toml");
+    std::vector<std::string> bodies, shapes;
+    for (const ShotBody& body : shot.bodies) bodies.push_back(body.name + ":" + *body.shape);
+    for (const ShotShape& shape : shot.shapes) shapes.push_back(shape.name);
+    EXPECT_EQ(bodies, (std::vector<std::string>{"Rock:Rock", "Rock_2:Rock_2", "Rock_3:Rock",
+                                                "Rock_4:Rock_3"}));
+    EXPECT_EQ(shapes, (std::vector<std::string>{"Rock", "Rock_2", "Rock_3"}));
+}
+
 }  // namespace
 }  // namespace scree
