@@ -47,15 +47,21 @@ struct ImportedCamera {
     std::vector<ImportedKey> keys;   ///< in order of time; empty for one that never moves
     double fovDegrees = 35.0;        ///< vertical; of one that zooms the first; 0: orthographic
     std::vector<ImportedZoom> zoom;  ///< in order of time; empty for one that never zooms
-    bool isZoomLost = false;         ///< the file has a zoom that cannot be read
-    std::string lostJoin;            ///< as of a node
-    std::string lostClips;           ///< likewise
+    /// Width over height of a film that programs fit to the picture, whatever its shape, and whose
+    /// vertical angle is told; 0: the angle is the picture's.
+    double filmAspect = 0.0;
+    bool isZoomLost = false;  ///< the file has a zoom that cannot be read
+    std::string lostJoin;     ///< as of a node
+    std::string lostClips;    ///< likewise
+    std::string lostLens;     ///< what else its lens does that is not shown here, if so
+    std::string unusable;     ///< why nobody can look through it, if so
 };
 
 struct ImportedFile {
     std::vector<ImportedNode> nodes;      ///< in the order of the file's tree
     std::vector<ImportedCamera> cameras;  ///< likewise; at least one of both
     bool isYUp = false;                   ///< the format says so
+    std::string upAxis;                   ///< "+z", of a file that says so itself; it is not turned
     /// The format or its reader gives faces points of their own, of which equal ones have been
     /// joined: nobody made them two. Otherwise points are as the file has them.
     bool hadLoosePoints = false;

@@ -12,6 +12,7 @@
 #include <assimp/Importer.hpp>
 
 #include "core/base/error.h"
+#include "io/fbx_lens.h"
 #include "io/file_bytes.h"
 #include "io/gltf_reading.h"
 #include "io/mesh_import_nodes.h"
@@ -133,6 +134,16 @@ std::optional<double> metresPerUnitOf(const aiScene& scene, const std::string& e
     return std::nullopt;
 }
 
+/// Which way an FBX file says is up; its reader turns nothing.
+std::string upAxisOf(const aiScene& scene, const std::string& ending)
+{
+    std::int32_t axis = 0, sign = 1;
+    if (ending != "fbx" || !scene.mMetaData || !scene.mMetaData->Get("UpAxis", axis)) return "";
+    scene.mMetaData->Get("UpAxisSign", sign);
+    if (axis < 0 || axis > 2) return "";
+    return std::string(sign < 0 ? "-" : "+") + "xyz"[axis];
+}
+
 }  // namespace
 
 ImportedFile importWithAssimp(const std::string& path, const std::string& ending,
@@ -169,7 +180,8 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     if (problem.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     if (!scene || !scene->mRootNode) throw Error(ErrorKind::badInput, problem);
     ImportedFile file;
-    readNodes(*scene, isGltf ? &gltf : nullptr, mostDepth, file);
+    const FbxLens lens = ending == "fbx" ? readFbxLens(readFileBytes(path)) : FbxLens();
+    readNodes(*scene, isGltf ? &gltf : nullptr, ending == "fbx" ? &lens : nullptr, mostDepth, file);
     const bool isZoomLost = !file.cameras.empty() && animatesLens(path);
     for (ImportedCamera& camera : file.cameras) camera.isZoomLost = isZoomLost;
     if (ending == "ply" && hasUvsOfFaces(path)) {
@@ -177,6 +189,7 @@ ImportedFile importWithAssimp(const std::string& path, const std::string& ending
     }
     file.metresPerUnit = metresPerUnitOf(*scene, ending);
     file.isYUp = isGltf;
+    file.upAxis = upAxisOf(*scene, ending);
     return file;
 }
 

@@ -66,6 +66,7 @@ public:
         if (std::isfinite(metres) && metres > 0.0) file.metresPerUnit = metres;
         file.isYUp = cursor_.take<std::uint8_t>() != 0;
         file.countsFramesFromZero = cursor_.take<std::uint8_t>() != 0;
+        file.upAxis = takeText(kLongestSentence, "letters in a sentence");
         const std::uint32_t count = takeCount(limits_.nodes, "nodes (--import-nodes)");
         for (std::uint32_t i = 0; i < count; ++i) file.nodes.push_back(takeNode());
         const std::uint32_t cameras = takeCount(limits_.nodes, "cameras (--import-nodes)");
@@ -159,6 +160,11 @@ private:
         camera.isZoomLost = cursor_.take<std::uint8_t>() != 0;
         camera.lostJoin = takeText(kLongestSentence, "letters in a sentence");
         camera.lostClips = takeText(kLongestSentence, "letters in a sentence");
+        camera.lostLens = takeText(kLongestSentence, "letters in a sentence");
+        camera.unusable = takeText(kLongestSentence, "letters in a sentence");
+        camera.filmAspect = cursor_.take<double>();
+        if (!std::isfinite(camera.filmAspect) || camera.filmAspect < 0.0)
+            refuse("has a camera '" + camera.name + "' with a film of no size");
         return camera;
     }
 
@@ -206,6 +212,7 @@ std::string encodeImport(const ImportedFile& file)
     appendBytes(bytes, file.metresPerUnit.value_or(0.0));
     appendBytes(bytes, static_cast<std::uint8_t>(file.isYUp));
     appendBytes(bytes, static_cast<std::uint8_t>(file.countsFramesFromZero));
+    appendText(bytes, file.upAxis);
     appendBytes(bytes, static_cast<std::uint32_t>(file.nodes.size()));
     for (const ImportedNode& node : file.nodes) {
         appendText(bytes, node.name);
@@ -234,6 +241,9 @@ std::string encodeImport(const ImportedFile& file)
         appendBytes(bytes, static_cast<std::uint8_t>(camera.isZoomLost));
         appendText(bytes, camera.lostJoin);
         appendText(bytes, camera.lostClips);
+        appendText(bytes, camera.lostLens);
+        appendText(bytes, camera.unusable);
+        appendBytes(bytes, camera.filmAspect);
     }
     return bytes;
 }

@@ -281,8 +281,9 @@ Pose poseInNode(const aiCamera& camera)
 /// Walks the tree of a file. Meshes come out in the axes of their node with its scale baked.
 class NodeReader {
 public:
-    NodeReader(const aiScene& scene, const GltfReading* gltf, std::uint32_t mostDepth)
-        : scene_(scene), mostDepth_(mostDepth), gltf_(gltf)
+    NodeReader(const aiScene& scene, const GltfReading* gltf, const FbxLens* fbx,
+               std::uint32_t mostDepth)
+        : scene_(scene), mostDepth_(mostDepth), gltf_(gltf), fbx_(fbx)
     {
         for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
             const aiAnimation& animation = *scene.mAnimations[a];
@@ -382,7 +383,7 @@ private:
         if (const std::string why = doubt(); !why.empty()) throw Error(ErrorKind::badInput, why);
         ImportedCamera result;
         result.name = camera.mName.C_Str();
-        result.fovDegrees = verticalDegrees(camera);
+        readAngle(camera, result);
         const Pose nodeFromCamera = poseInNode(camera);
         const auto fileFromCamera = [&](const aiMatrix4x4& fileFromNode) {
             return Parts(fileFromNode).pose() * nodeFromCamera;
@@ -396,13 +397,24 @@ private:
 
     /// assimp keeps a horizontal angle: of FBX the file's own, of glTF the vertical one times the
     /// aspect, which is 1 where the file names none.
-    double verticalDegrees(const aiCamera& camera) const
+    /// Where FBX has no angle it says 1 degree; programs write a film and a focal length instead.
+    void readAngle(const aiCamera& camera, ImportedCamera& result) const
     {
         const double aspect = camera.mAspect > 0.0f ? camera.mAspect : 1.0;
-        const double angle = gltf_
-                                 ? camera.mHorizontalFOV / aspect
-                                 : 2.0 * std::atan(std::tan(0.5 * camera.mHorizontalFOV) / aspect);
-        return angle * 180.0 / kPi;
+        double tangent = std::tan(0.5 * camera.mHorizontalFOV);
+        constexpr double kNone = kPi / 180.0;
+        if (fbx_ && !fbx_->hasOneDegree && std::abs(camera.mHorizontalFOV - kNone) < 1e-6) {
+            if (!fbx_->halfTangent) {
+                result.unusable =
+                    "has no angle of view, nor a film and focal length that it would follow from: "
+                    "export it with 'FieldOfView'";
+                return;
+            }
+            tangent = *fbx_->halfTangent;
+        }
+        const double angle =
+            gltf_ ? camera.mHorizontalFOV / aspect : 2.0 * std::atan(tangent / aspect);
+        result.fovDegrees = angle * 180.0 / kPi;
     }
 
     /// When the node or one above it has a key.
@@ -523,6 +535,7 @@ private:
     const aiScene& scene_;
     std::uint32_t mostDepth_;
     const GltfReading* gltf_;                            // null of other files
+    const FbxLens* fbx_;                                 // likewise
     std::map<std::string, Channel> channels_;            // by the name of their node
     std::map<std::string, std::set<unsigned>> clipsOf_;  // likewise, in the order of the file
     Stretches stretches_;
@@ -536,10 +549,10 @@ private:
 
 }  // namespace
 
-void readNodes(const aiScene& scene, const GltfReading* gltf, std::uint32_t mostDepth,
-               ImportedFile& file)
+void readNodes(const aiScene& scene, const GltfReading* gltf, const FbxLens* fbx,
+               std::uint32_t mostDepth, ImportedFile& file)
 {
-    NodeReader reader(scene, gltf, mostDepth);
+    NodeReader reader(scene, gltf, fbx, mostDepth);
     reader.visit(*scene.mRootNode);
     file.nodes = reader.takeNodes();
     file.cameras = reader.takeCameras();

@@ -277,6 +277,20 @@ void warnOfLosses(const ShotNode& import, const ImportedFile& file,
                       "with its deformers applied");
 }
 
+/// Of a file that lies on its side in the shot, unless it is turned there.
+void warnOfUp(const ShotNode& node, const ImportedFile& file, const std::string& path,
+              const Shot& shot, ProblemList& problems)
+{
+    const std::string up = shot.zUp ? "+z" : "+y";
+    const bool isTurned = node.mentions("rotation") || node.mentions("orientation");
+    if (file.upAxis.empty() || file.upAxis == up || isTurned) return;
+    const std::string way = shot.zUp && file.upAxis == "+y"    ? ": rotation = [90, 0, 0] turns it"
+                            : !shot.zUp && file.upAxis == "+z" ? ": rotation = [-90, 0, 0] turns it"
+                                                               : ": 'rotation' turns it";
+    problems.warn(node.find("file")->where, "'" + path + "' says that its up is " + file.upAxis +
+                                                ", and the shot's is " + up + way);
+}
+
 ImportedFile readAsset(const std::string& path, const Shot& shot)
 {
     if (const std::string obstacle = obstacleTo(path); !obstacle.empty())
@@ -309,6 +323,7 @@ std::vector<PlacedNode> readImportedNodes(const ShotNode& node, const std::strin
     }
     requireBodies(node, file, path, isChosen, problems);
     warnOfLosses(node, file, isChosen, isKeyed, problems);
+    warnOfUp(node, file, path, shot, problems);
     const Placement placement(node, shot, file, problems);
     MeshPool pool;
     for (std::size_t i = 0; i < file.nodes.size(); ++i) {
@@ -353,6 +368,12 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
                          "' is orthographic: only perspective ones can be used");
         return std::nullopt;
     }
+    if (!imported->unusable.empty()) {
+        problems.add(node.find("file")->where,
+                     "camera '" + imported->name + "' of '" + path + "' " + imported->unusable);
+        return std::nullopt;
+    }
+    warnOfUp(node, file, path, shot, problems);
     const Placement placement(node, shot, file, problems);
     // Between samples it turns steadily, as elsewhere; a key a frame keeps it from cutting corners.
     constexpr KeyInterpolation kSteady = KeyInterpolation::linear;

@@ -297,7 +297,8 @@ const std::vector<ShotKey> kImportKeys = {
      .isRequired = true,
      .help = "obj, ply, stl, glb, gltf, fbx or abc, relative to the shot file. glTF is in metres "
              "and FBX says its unit; the lengths of others are the shot's. Up is +y in glTF and "
-             "Alembic; others are taken for the shot's."},
+             "Alembic; others are taken for the shot's, and an FBX that says otherwise is warned "
+             "of."},
     {.path = "import.nodes",
      .type = textOrTexts,
      .byDefault = "\"*\"",

@@ -262,5 +262,55 @@ TEST(CameraImport, ThatZoomsInAWayThatIsNotReadIsWarnedOfWithItsPlace)
     }
 }
 
+std::string withoutAngle(const std::string& lens)
+{
+    std::string text = fbxText("");
+    const std::string angle = "P: \"FieldOfView\", \"FieldOfView\", \"\", \"A\", 40";
+    return text.replace(text.find(angle), angle.size(), lens);
+}
+
+// It was one degree, which showed a wall of one colour.
+TEST(CameraImport, AnFbxWithoutAnAngleSeesWhatItsFilmAndFocalLengthSay)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.fbx";
+    const std::string film = "P: \"FilmWidth\", \"double\", \"Number\", \"\", 1.5\n";
+    writeFileBytes(path, withoutAngle(film + "P: \"FocalLength\", \"Number\", \"\", \"A\", 50"));
+    const Shot shot = parseShotText(shotText(path, ""), "s.toml");
+    ASSERT_EQ(shot.cameras.size(), 1u);
+    const double half = std::atan(0.5 * 1.5 * 25.4 / 50.0 * 9.0 / 16.0);
+    EXPECT_NEAR(shot.cameras[0].fovDegrees, 2.0 * half * 180.0 / kPi, 1e-4);
+
+    writeFileBytes(path, withoutAngle(film));
+    EXPECT_EQ(test::messageOfShot(shotText(path, "")),
+              "s.toml:6:8: camera 'view' of '" + path +
+                  "' has no angle of view, nor a film and focal length that it would follow from: "
+                  "export it with 'FieldOfView'");
+
+    std::string narrow = fbxText("");
+    narrow.replace(narrow.find("\"A\", 40"), 7, "\"A\", 1");
+    writeFileBytes(path, narrow);
+    EXPECT_NEAR(parseShotText(shotText(path, ""), "s.toml").cameras[0].fovDegrees, 9.0 / 16.0,
+                1e-3);
+}
+
+TEST(CameraImport, AnFbxThatLiesOnItsSideIsWarnedOfUnlessItIsTurned)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.fbx";
+    std::string text = fbxText("");
+    text.insert(text.find("  P: \"UnitScaleFactor\""),
+                "  P: \"UpAxis\", \"int\", \"Integer\", \"\", 2\n"
+                "  P: \"UpAxisSign\", \"int\", \"Integer\", \"\", 1\n");
+    writeFileBytes(path, text);
+    const Shot shot = parseShotText(shotText(path, ""), "s.toml");
+    ASSERT_EQ(shot.warnings.size(), 1u);
+    EXPECT_EQ(shot.warnings[0], "s.toml:6:8: '" + path +
+                                    "' says that its up is +z, and the shot's is +y: rotation = "
+                                    "[-90, 0, 0] turns it");
+    EXPECT_TRUE(
+        parseShotText(shotText(path, "rotation = [-90, 0, 0]\n"), "s.toml").warnings.empty());
+}
+
 }  // namespace
 }  // namespace scree
