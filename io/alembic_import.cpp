@@ -335,12 +335,15 @@ private:
         }
         ImportedCamera camera;
         camera.name = name;
-        camera.fovDegrees = fovOf(reader_.sample(*core, 0), object.name);
+        const Lens lens = lensOf(reader_.sample(*core, 0), object.name);
+        camera.fovDegrees = fovOf(lens);
+        camera.filmAspect = lens.filmWidth / lens.filmHeight;
+        camera.lostLens = lostOf(lens);
         const std::uint32_t count = core->firstChange > 0 ? core->sampleCount : 0;
         if (count > kMostSamples) reader_.refuse("has too many samples of '" + name + "'");
         for (std::uint32_t i = 0; i < count; ++i) {
             camera.zoom.push_back(
-                {reader_.secondsOf(*core, i), fovOf(reader_.sample(*core, i), object.name)});
+                {reader_.secondsOf(*core, i), fovOf(lensOf(reader_.sample(*core, i), name))});
         }
         camera.fileFromCamera = poseOf(fileFromCamera.matrices.front());
         for (std::size_t i = 0; i < fileFromCamera.seconds.size(); ++i) {
@@ -349,16 +352,38 @@ private:
         file_.cameras.push_back(std::move(camera));
     }
 
-    /// The vertical angle of view of a sample of a lens.
-    double fovOf(std::string_view bytes, const std::string& name) const
+    /// The numbers of a sample of a lens, as they stand in the file; others follow.
+    struct Lens {
+        double focalLength = 0.0;                   ///< [mm]
+        double filmWidth = 0.0, shiftAcross = 0.0;  ///< [cm]
+        double filmHeight = 0.0, shiftUp = 0.0;     ///< [cm]
+        double squeeze = 1.0;                       ///< of its picture in width
+    };
+
+    Lens lensOf(std::string_view bytes, const std::string& name) const
     {
-        // Focal length [mm], film width and its shift, film height [cm], ….
-        std::array<double, 4> lens{};
+        Lens lens;
         if (bytes.size() < sizeof lens) {
             reader_.refuse("is damaged: the camera '" + name + "' lacks numbers");
         }
-        std::memcpy(lens.data(), bytes.data(), sizeof lens);
-        return 2.0 * std::atan(5.0 * lens[3] / lens[0]) * 180.0 / kPi;
+        std::memcpy(&lens, bytes.data(), sizeof lens);
+        return lens;
+    }
+
+    /// The vertical angle of view of a film.
+    static double fovOf(const Lens& lens)
+    {
+        return 2.0 * std::atan(5.0 * lens.filmHeight / lens.focalLength) * 180.0 / kPi;
+    }
+
+    static std::string lostOf(const Lens& lens)
+    {
+        const bool isShifted = lens.shiftAcross != 0.0 || lens.shiftUp != 0.0;
+        const bool isSqueezed = lens.squeeze != 1.0;
+        if (!isShifted && !isSqueezed) return "";
+        return isShifted && isSqueezed ? "film offset and lens squeeze"
+               : isShifted             ? "film offset"
+                                       : "lens squeeze";
     }
 
     static void readKeys(const MatrixTrack& fileFromMesh, const Mat3& S, ImportedNode& node)

@@ -166,6 +166,16 @@ double fovAt(const ImportedCamera& camera, double seconds)
     return before.fovDegrees + share * (after->fovDegrees - before.fovDegrees);
 }
 
+/// What a picture shows of the vertical angle of a film, which programs lay across its width, or
+/// where it is taller than wide, across its height.
+double fovInPicture(double filmDegrees, double filmAspect, const ShotRender& render)
+{
+    if (filmAspect == 0.0) return filmDegrees;
+    const double aspect = static_cast<double>(render.size[0]) / render.size[1];
+    const double share = aspect >= 1.0 ? filmAspect / aspect : std::max(filmAspect, 1.0);
+    return 2.0 * std::atan(share * std::tan(0.5 * filmDegrees * kPi / 180.0)) * 180.0 / kPi;
+}
+
 /// How far from its eye a camera's target is, which files do not say: as far as the middle of what
 /// moves, or else stands. Pictures take it for the scale of things, haze and near plane included.
 double distanceToAction(const Pose& worldFromCamera, const Shot& shot)
@@ -384,7 +394,8 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     camera.isSmooth = false;
     for (int frame = shot.firstFrame; frame <= shot.lastFrame; ++frame) {
         const double seconds = (frame - shot.firstFrame) / shot.framesPerSecond;
-        const double fov = fovAt(*imported, seconds + placement.startSeconds());
+        const double fov = fovInPicture(fovAt(*imported, seconds + placement.startSeconds()),
+                                        imported->filmAspect, shot.render);
         camera.keys.push_back(keyAt(script.at(seconds), frame, fov, shot));
         if (!changes) break;
     }
@@ -401,6 +412,13 @@ std::optional<SceneCamera> readImportedCamera(const ShotNode& node, const std::s
     if (!imported->lostClips.empty()) {
         warnOfClips(node.find("file")->where, "camera '" + imported->name + "'",
                     imported->lostClips, problems);
+    }
+    if (!imported->lostLens.empty()) {
+        problems.warn(node.find("file")->where,
+                      "the " + imported->lostLens + " of camera '" + imported->name + "' of '" +
+                          path +
+                          "' is not shown here: other programs show another part of the "
+                          "scene");
     }
     if (imported->isZoomLost) {
         problems.warn(node.find("file")->where,

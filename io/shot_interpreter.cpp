@@ -458,9 +458,6 @@ private:
 
     void readLook()
     {
-        if (const ShotNode* cameras = tree_.find("camera")) {
-            for (const ShotNode& camera : cameras->items) readCamera(camera);
-        }
         if (const ShotNode* render = tree_.find("render")) {
             shot_.render.size = toInts<2>(*render->find("size"));
             if (const ShotNode* burnIn = render->find("burnin"))
@@ -468,6 +465,10 @@ private:
             if (const ShotNode* moments = render->find("motion_blur"))
                 shot_.render.motionBlur = static_cast<int>(moments->integer);
             if (const ShotNode* still = render->find("still")) readStill(*still);
+        }
+        // After the size of the pictures: their shape decides what a camera of a file sees.
+        if (const ShotNode* cameras = tree_.find("camera")) {
+            for (const ShotNode& camera : cameras->items) readCamera(camera);
         }
         if (const ShotNode* output = tree_.find("output")) {
             for (const ShotNode& word : output->find("export")->items) {

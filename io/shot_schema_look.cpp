@@ -25,7 +25,9 @@ const std::vector<ShotKey> kLookKeys = {
      .help =
          "A glb, gltf, fbx or abc file, relative to the shot file, whose camera it is, with the "
          "motion it has there; units, axes and times as in [[import]]. Roll is kept; so "
-         "is the zoom of an abc, while that of an fbx or a glTF extension is warned of."},
+         "is the zoom of an abc, while that of an fbx or a glTF extension is warned of. The film "
+         "of an abc lies across the picture's width, or its height if that is more, as in "
+         "Blender; an fbx without an angle of view has that of its film and focal length."},
     {.path = "camera.node",
      .type = text,
      .help = "Which camera of the file: the first whose name fits, with * and ? for what may be "

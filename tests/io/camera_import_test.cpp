@@ -312,5 +312,57 @@ TEST(CameraImport, AnFbxThatLiesOnItsSideIsWarnedOfUnlessItIsTurned)
         parseShotText(shotText(path, "rotation = [-90, 0, 0]\n"), "s.toml").warnings.empty());
 }
 
+/// An Alembic file whose only camera has a film of 36 by 24 mm, as Blender writes it whatever the
+/// picture, behind 50 mm; `shift` [cm].
+void writeFilmAsset(const std::filesystem::path& output, double shift)
+{
+    SceneDescription scene = test::sceneOf({test::bodyNamed("mover")});
+    scene.cameras = {someCameras().front()};
+    scene.aspect = 1.5;
+    scene.cameras[0].fovDegrees = 2.0 * std::atan(12.0 / 50.0) * 180.0 / kPi;
+    const std::unique_ptr<FrameWriter> writer = makeFrameWriter(output);
+    writer->begin(scene, kFirst, 1);
+    writer->write(test::frameWith(kFirst, {test::tumblingPose(0, 0)}));
+    writer->finish();
+    if (shift == 0.0) return;
+    // After its width of 3.6 cm.
+    const double film[] = {3.6, 0.0}, shifted[] = {3.6, shift};
+    std::string bytes = readFileBytes(output);
+    const std::string before(reinterpret_cast<const char*>(film), sizeof film);
+    const std::string after(reinterpret_cast<const char*>(shifted), sizeof shifted);
+    ASSERT_NE(bytes.find(before), std::string::npos);
+    bytes.replace(bytes.find(before), before.size(), after);
+    writeFileBytes(output, bytes);
+}
+
+// The height of the film was taken for the height of the picture: in 16:9 all was too small.
+TEST(CameraImport, OfAnAlembicFileFillsThePictureWithTheWidthOfItsFilm)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "film.abc";
+    writeFilmAsset(path, 0.0);
+    const auto fovIn = [&](const std::string& size) {
+        const Shot shot =
+            parseShotText(shotText(path, "[render]\nsize = " + size + "\n"), "s.toml");
+        EXPECT_TRUE(shot.warnings.empty());
+        return shot.cameras.at(0).fovDegrees * kPi / 180.0;
+    };
+    const double half = 18.0 / 50.0;  // of the width, through the focal length
+    EXPECT_NEAR(std::tan(0.5 * fovIn("[1600, 900]")), half * 9.0 / 16.0, 1e-9);
+    EXPECT_NEAR(std::tan(0.5 * fovIn("[1500, 1000]")), half / 1.5, 1e-9);
+    EXPECT_NEAR(std::tan(0.5 * fovIn("[500, 1000]")), half, 1e-9);  // laid across its height
+}
+
+TEST(CameraImport, AFilmThatIsShiftedIsWarnedOf)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "film.abc";
+    writeFilmAsset(path, 0.25);
+    const Shot shot = parseShotText(shotText(path, ""), "s.toml");
+    ASSERT_EQ(shot.warnings.size(), 1u);
+    EXPECT_TRUE(shot.warnings[0].starts_with("s.toml:6:8: the film offset of camera 'still'"))
+        << shot.warnings[0];
+}
+
 }  // namespace
 }  // namespace scree
