@@ -510,10 +510,11 @@ TEST_F(ShotTools, TheEstimateOfTheDiskIsThatOfTheFinishedTake)
 
 TEST_F(ShotTools, OverwritingATakeRemovesItsPageOfFigures)
 {
-    ASSERT_EQ(run("sim drop.toml -o t --frames 1002").code, 0);
+    const std::string two = " --set 'shot.frames=\"1001-1002\"'";
+    ASSERT_EQ(run("sim drop.toml -o t" + two).code, 0);
     ASSERT_EQ(run("stats t --pictures 0").code, 0);
     ASSERT_TRUE(std::filesystem::exists(folder / "t/stats.html"));
-    ASSERT_EQ(run("sim drop.toml -o t --frames 1002 --overwrite").code, 0);
+    ASSERT_EQ(run("sim drop.toml -o t --overwrite" + two).code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder / "t/stats.html"));
 }
 

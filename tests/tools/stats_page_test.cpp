@@ -30,10 +30,10 @@ TEST(StatsPage, Base64FollowsTheStandardsExamples)
 std::string pageOfAShortTake(const TemporaryFolder& folder)
 {
     const std::string take = quoted(folder / "take"), page = quoted(folder / "stats.html");
-    const CommandResult made =
-        runCommand(std::string(SCREE_PROGRAM) + " -q sim " +
-                   quoted(sourceFile("shots/stack_10.toml")) + " --frames 1001-1003 -o " + take +
-                   " && " + SCREE_PROGRAM + " stats " + take + " --pictures 2 -o " + page);
+    const CommandResult made = runCommand(
+        std::string(SCREE_PROGRAM) + " -q sim " + quoted(sourceFile("shots/stack_10.toml")) +
+        " --set 'shot.frames=\"1001-1003\"' -o " + take + " && " + SCREE_PROGRAM + " stats " +
+        take + " --pictures 2 -o " + page);
     EXPECT_EQ(made.exitCode, 0) << made.output;
     return readFileBytes(folder / "stats.html");
 }
