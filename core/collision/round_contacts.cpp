@@ -358,10 +358,20 @@ Rounding betweenSides(TouchingBody& first, TouchingBody& second, const FeatureCo
             second.partWithin()};
 }
 
-}  // namespace
+/// Whether surfaces that have passed each other there lie in each other by a good part of that. The
+/// rim of a can that slides over a seam passes the side of the block ahead, but on top of it: told
+/// of that it stopped, or fell over.
+bool areInEachOther(const RelativePair& pair, const FeatureContact& contact)
+{
+    constexpr double kPart = 0.25;
+    if (contact.gap >= -sharpnessOf(pair)) return true;  // as good as touching
+    const Vec3 onSecond = contact.point - contact.gap * contact.normal;
+    return pair.second.distance.value(contact.point) < kPart * contact.gap ||
+           pair.first.distance.value(pair.reversed() * onSecond) < kPart * contact.gap;
+}
 
-Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
-                      const FeatureContact& contact)
+Rounding rounded(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
+                 const FeatureContact& contact)
 {
     Vec3 n = contact.normal;
     TouchingBody first(pair.first, ofFirst, pair.rotation, pair.translation, contact.point, -n);
@@ -416,6 +426,17 @@ Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart
                 second.partWithin()};
     }
     return {};
+}
+
+}  // namespace
+
+Rounding roundContact(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
+                      const FeatureContact& contact)
+{
+    const Rounding rounding = rounded(pair, ofFirst, ofSecond, contact);
+    const bool isThere =
+        rounding.result != Result::rounded || areInEachOther(pair, rounding.contact);
+    return isThere ? rounding : Rounding{Result::elsewhere};
 }
 
 std::optional<Vec3> placeOnRim(const Shape& shape, const Vec3& near, const Vec3& outward)

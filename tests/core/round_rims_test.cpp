@@ -304,5 +304,28 @@ TEST(RoundRims, AnExactCylinderRollsHoweverItIsDrawn)
     }
 }
 
+// Its rim passes the side of the block ahead, but on top of it: told of that it stopped dead, or
+// fell over.
+TEST(RoundRims, ACanSlidesOverASeamAsOverAFloor)
+{
+    constexpr double kFriction = 0.2, kSpeed = 1.5;
+    const auto block = exactBox({1.0, 0.2, 1.0}, 1);
+    for (const auto& shape : {can(32), can(20), exactCylinder(kRadius, 1.0)}) {
+        World world;
+        const MaterialId material = addMaterial(world, kFriction, 0.0);
+        for (const double x : {-0.5, 0.5})
+            addFixed(world, material, block, {{x, -0.1, 0.0}, Quat::Identity()});
+        const BodyId body = addBody(world, shape, material, {{-0.6, 0.5, 0.0}, Quat::Identity()},
+                                    1.0, {kSpeed, 0.0, 0.0});
+        const Vec3 start = world.motion[body].position;
+        Stepper stepper(screeSettings());
+        for (int k = 0; k < 240; ++k) stepper.step(world, 1.0 / 240.0);
+        const double stops = kSpeed * kSpeed / (2.0 * kFriction * 9.8);
+        const Vec3 way = world.motion[body].position - start;
+        EXPECT_NEAR(way.x(), stops, 0.01 * stops) << shape->name;
+        EXPECT_NEAR(way.y(), 0.0, 1e-3) << shape->name;
+    }
+}
+
 }  // namespace
 }  // namespace scree::test
