@@ -265,6 +265,7 @@ TEST(TortureMesh, EveryOtherDefectIsRefusedByName)
     flat.points.row(1).setZero();
     const int fin = static_cast<int>(cube().points.cols());
     const TriMesh inner = scaled(cube(), 0.5);
+    const TriMesh block = makeBox(Vec3::Ones(), {1, 1, 1});
     struct Case {
         const char* name;
         TriMesh mesh;
@@ -281,9 +282,9 @@ TEST(TortureMesh, EveryOtherDefectIsRefusedByName)
          "non-manifold edge"},
         {"two that pierce", both(cube(), moved(cube(), Vec3(0.61, 0.43, 0.27))),
          "face that pierces another"},
-        {"two that pierce on a grid", both(cube(), moved(cube(), Vec3::Constant(0.5))),
+        {"two that pierce on a grid", both(block, moved(block, Vec3::Constant(0.5))),
          "face that pierces another"},
-        {"two flush ones that overlap", both(cube(), moved(cube(), Vec3(0.5, 0.5, 0.0))),
+        {"two flush ones that overlap", both(block, moved(block, Vec3(0.5, 0.5, 0.0))),
          "part that lies inside another"},
         {"one within another", both(cube(), inner), "part that lies inside another"},
         {"a part inside-out", both(cube(), moved(turned(inner), Vec3(5, 0, 0))),
