@@ -360,14 +360,17 @@ Rounding betweenSides(TouchingBody& first, TouchingBody& second, const FeatureCo
 
 /// Whether surfaces that have passed each other there lie in each other by a good part of that. The
 /// rim of a can that slides over a seam passes the side of the block ahead, but on top of it: told
-/// of that it stopped, or fell over.
+/// of that it stopped, or fell over. The field of the one whose facets lie less deep below what
+/// they stand for tells.
 bool areInEachOther(const RelativePair& pair, const FeatureContact& contact)
 {
     constexpr double kPart = 0.25;
     if (contact.gap >= -sharpnessOf(pair)) return true;  // as good as touching
+    const bool isBySecond = pair.second.bulge() <= pair.first.bulge();
+    const Shape& shape = isBySecond ? pair.second : pair.first;
     const Vec3 onSecond = contact.point - contact.gap * contact.normal;
-    return pair.second.distance.value(contact.point) < kPart * contact.gap ||
-           pair.first.distance.value(pair.reversed() * onSecond) < kPart * contact.gap;
+    const Vec3 place = isBySecond ? contact.point : pair.reversed() * onSecond;
+    return shape.distance.value(place) < kPart * contact.gap + shape.bulge();
 }
 
 Rounding rounded(const RelativePair& pair, ContactPart ofFirst, ContactPart ofSecond,
