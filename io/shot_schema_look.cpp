@@ -13,7 +13,8 @@ const std::vector<ShotKey> kLookKeys = {
     {.path = "camera",
      .type = tableList,
      .help = "Points of view. Without any, previews frame the action by themselves, "
-             "without the few bodies of many that go far from all others."},
+             "without the few bodies of many that go far from all others, and without those that "
+             "fall off the set."},
     {.path = "camera.name",
      .type = text,
      .byDefault = "\"main\"",

@@ -1,6 +1,8 @@
 #include "tools/take_painter.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
@@ -41,6 +43,41 @@ SceneFrame sampleAt(const std::vector<SceneFrame>& samples, double offset, doubl
     return result;
 }
 
+/// Which bodies have fallen off the set: below all that stands there, and not from the start. What
+/// rolled off a table fell on, and the table was a few pixels wide.
+class FallenOff {
+public:
+    FallenOff(const SceneDescription& scene, const Vec3& up)
+        : up_(up), hasBegunAbove_(scene.bodies.size(), 0)
+    {
+    }
+
+    /// There is a ground that nobody falls off.
+    void standsOnPlane() { lowest_ = -std::numeric_limits<double>::infinity(); }
+
+    /// Of the set, one box after the other.
+    void standsAt(const Aabb& box) { lowest_ = std::min(lowest_, spanOf(box).first); }
+
+    /// Whether what moves has, in frames from the first on.
+    bool contains(std::size_t body, const Aabb& box)
+    {
+        const bool isBelow = spanOf(box).second < lowest_;
+        if (!isBelow) hasBegunAbove_[body] = 1;
+        return isBelow && hasBegunAbove_[body];
+    }
+
+private:
+    /// From its lowest to its highest place.
+    std::pair<double, double> spanOf(const Aabb& box) const
+    {
+        return std::minmax(up_.dot(box.min), up_.dot(box.max));
+    }
+
+    Vec3 up_;
+    double lowest_ = std::numeric_limits<double>::infinity();
+    std::vector<char> hasBegunAbove_;
+};
+
 /// What movable bodies do, or all bodies when none moves; planes not at all.
 Camera frameAction(const TakeReader& take, const SceneDescription& scene, double aspect)
 {
@@ -50,13 +87,25 @@ Camera frameAction(const TakeReader& take, const SceneDescription& scene, double
     const Vec3 up = scene.zUp ? Vec3::UnitZ() : Vec3::UnitY();
     Framing view(threeQuarterView(scene.zUp), up, aspect);
     std::vector<Framing> seen(scene.bodies.size(), view);
+    FallenOff fallenOff(scene, up);
+    std::vector<std::pair<std::size_t, Aabb>> boxes;  // of a frame
     take.forWholeFrames(take.frames(), [&](int number, const SceneFrame& frame) {
+        boxes.clear();
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
-            if (take.info().bodies[body].isPlane) continue;
+            if (take.info().bodies[body].isPlane) {
+                fallenOff.standsOnPlane();
+                continue;
+            }
             if (!isSeen(scene.bodies[body], number)) continue;
             const Pose& pose = frame.worldFromAsset[body];
-            seen[body].include(transformed(meshBoxes[scene.bodies[body].mesh],
-                                           pose.orientation.toRotationMatrix(), pose.position));
+            const Aabb box = transformed(meshBoxes[scene.bodies[body].mesh],
+                                         pose.orientation.toRotationMatrix(), pose.position);
+            if (!scene.bodies[body].moves) fallenOff.standsAt(box);
+            boxes.push_back({body, box});
+        }
+        for (const auto& [body, box] : boxes) {
+            if (!scene.bodies[body].moves || !fallenOff.contains(body, box))
+                seen[body].include(box);
         }
     });
     std::vector<Framing> moving, all;

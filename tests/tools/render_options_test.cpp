@@ -152,8 +152,7 @@ TEST_F(RenderOptions, SkipExistingDrawsWhatIsMissingOrOlderThanItsFrame)
     EXPECT_TRUE(fs::exists(pictures / "p.1003.png"));
 
     // Pictures of one camera and size stayed where those of another were asked for.
-    for (const std::string other :
-         {"--camera pan", "--look speed", "--burnin"}) {
+    for (const std::string other : {"--camera pan", "--look speed", "--burnin"}) {
         ASSERT_EQ(render("--frames 1001 --skip-existing " + other).exitCode, 0);
         EXPECT_NE(fs::last_write_time(kept), drawn) << other;
         fs::last_write_time(kept, drawn);
@@ -447,6 +446,30 @@ TEST(TakePainter, CountsOnlyWhoIsThere)
     const TakePainter painter(take, "", {160, 90});
     EXPECT_EQ(painter.bodyCountAt(1001), 2u) << "the ground and one block";
     EXPECT_EQ(painter.bodyCountAt(1004), 3u);
+}
+
+// Pins that were bowled off a lane fell on, and the lane was a few pixels wide.
+TEST(TakePainter, WhatFallsOffTheSetDoesNotWidenTheView)
+{
+    const auto distance = [](const std::string& frames) {
+        const TemporaryFolder folder;
+        std::ofstream(folder / "s.toml")
+            << "scree = 1\n[shot]\nname = \"s\"\nframes = \"" + frames +
+                   "\"\n[material.wood]\ndensity = 600\n[shape.block]\nbox = { size = [1, 1, 1] "
+                   "}\n[[body]]\nname = \"table\"\nshape = \"block\"\nmaterial = \"wood\"\nmotion "
+                   "= \"static\"\n[[body]]\nname = \"block\"\nshape = \"block\"\nmaterial = "
+                   "\"wood\"\nposition = [1.1, 1, 0]\n";
+        const CommandResult made =
+            runCommand(quoted(SCREE_PROGRAM) + " sim -q " + quoted(folder / "s.toml") + " -o " +
+                       quoted(folder / "take"));
+        EXPECT_EQ(made.exitCode, 0) << made.output;
+        const TakeReader take(folder / "take");
+        const SceneCamera view =
+            viewOfAction(take, take.describe(TakeReader::PlaneSize::any), 16.0 / 9.0);
+        return (view.eye - view.target).norm();
+    };
+    // It falls past the table in half a second, and in two as far as a house is high.
+    EXPECT_LT(distance("1001-1049"), 1.2 * distance("1001-1015"));
 }
 
 // A view of all that happens grows with the take: half of a film was seen from nearer by.
