@@ -17,11 +17,14 @@
 namespace scree::test {
 namespace {
 
+/// Of `a` as it was modelled, moved to `place`, and `b` as it was.
 std::vector<GapContact> contactsOf(const Shape& a, const Vec3& place, const Shape& b, double reach)
 {
     std::vector<GapContact> contacts;
-    const Pose worldFromA{place, Quat::Identity()}, worldFromB;
-    NearFeatures().findContacts({&a, &b, worldFromA, worldFromB}, reach, contacts);
+    const Pose worldFromAsset{place, Quat::Identity()};
+    NearFeatures().findContacts(
+        {&a, &b, worldFromAsset * inverse(a.bodyFromAsset), inverse(b.bodyFromAsset)}, reach,
+        contacts);
     return contacts;
 }
 
@@ -92,8 +95,7 @@ TEST(ContactFeatures, AGentleDomeStandsOnItself)
     ASSERT_GT(signedVolume(mesh), 0.0);
     const auto shape = coarselySampled(mesh, MeshRepair::none);
     const auto plane = buildPlaneShape("plane");
-    const double lowest = shape->box.min.y();
-    const auto contacts = contactsOf(*shape, {0.0, -lowest, 0.0}, *plane, 1e-4);
+    const auto contacts = contactsOf(*shape, Vec3::Zero(), *plane, 1e-4);
     ASSERT_FALSE(contacts.empty());
     double least = 1.0;
     for (const GapContact& contact : contacts) least = std::min(least, contact.gap);
