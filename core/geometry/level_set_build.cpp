@@ -130,12 +130,13 @@ private:
         return (p - closestOn(triangle, p).point).norm();
     }
 
-    /// Whether the face says so that a point is closest to. An edge or a corner does not.
+    /// Whether the face says so that a point is closest to. An edge or a corner does not. Nearer
+    /// than a spacing OpenVDB errs now and then, and the mesh itself is asked (signed_distance.h).
     bool isOutside(const Vec3& p, const ClosestOnTriangle& closest) const
     {
         if (closest.feature != TriangleFeature::face) return false;
         const Vec3 normal = cornersOf(mesh_, nearest_).normal();
-        return normal.dot(p - closest.point) > kSpare * layout_.spacing;
+        return normal.dot(p - closest.point) > layout_.spacing;
     }
 
     /// Of a point that OpenVDB takes for solid. Within its distance from the surface a point has
@@ -252,6 +253,10 @@ Vec3 wayToSurface(const NodeSource& source, const NodeLayout& layout, const Inde
 /// has none around the walls of a cavity, where it sees nothing but inside.
 bool isForgotten(const NodeSource& source, const NodeLayout& layout, const Index3& block)
 {
+    constexpr int kHalf = kBlockCells / 2;
+    const openvdb::Coord middle(kBlockCells * block[0] + kHalf, kBlockCells * block[1] + kHalf,
+                                kBlockCells * block[2] + kHalf);
+    if (source.band->tree().getValue(middle) > 0.0f) return false;
     const Vec3 way = wayToSurface(source, layout, block);
     if (source.sides) return way.norm() < kBlockCells * kHalfDiagonal + kBandVoxels;
     if (way.cwiseAbs().maxCoeff() < 0.5 * kBlockCells)
