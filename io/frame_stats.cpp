@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/dynamics/step_figures.h"
 #include "io/text_forms.h"
 
 namespace scree {
@@ -91,32 +92,12 @@ void addEarlier(const FrameReport& earlier, FrameReport& later)
     later.steps += earlier.steps;
     later.longestStep = std::max(earlier.longestStep, later.longestStep);
     later.substepCapReached = earlier.substepCapReached || later.substepCapReached;
-    const StepReport& before = earlier.sum;
-    StepReport& sum = later.sum;
-    const auto takeLarger = [&](auto StepReport::*figure) {
-        sum.*figure = std::max(before.*figure, sum.*figure);
-    };
-    takeLarger(&StepReport::broadPairs);
-    takeLarger(&StepReport::touchingPairs);
-    takeLarger(&StepReport::contactPairs);
-    takeLarger(&StepReport::contacts);
-    takeLarger(&StepReport::levels);
-    takeLarger(&StepReport::largestLevel);
-    takeLarger(&StepReport::deepestBeforePushOut);
-    takeLarger(&StepReport::deepestAfterPushOut);
-    const auto add = [&](auto StepReport::*figure) { sum.*figure += before.*figure; };
-    add(&StepReport::dt);
-    add(&StepReport::collisionImpulses);
-    add(&StepReport::contactImpulses);
-    add(&StepReport::shockImpulses);
-    add(&StepReport::pushes);
-    add(&StepReport::loopsAtTheirCap);
-    add(&StepReport::pushesCut);
-    add(&StepReport::pushOutWork);
-    if (before.worstOverlapRatio < sum.worstOverlapRatio) return;
-    sum.worstOverlapRatio = before.worstOverlapRatio;
-    sum.worstA = before.worstA;
-    sum.worstB = before.worstB;
+    StepReport sum = earlier.sum;
+    addFigures(later.sum, sum);
+    sum.limitedBy = later.sum.limitedBy;
+    sum.nonFinite = later.sum.nonFinite;
+    sum.nonFinitePhase = later.sum.nonFinitePhase;
+    later.sum = sum;
 }
 
 std::string encodeStats(const FrameStats& stats, const World& world)

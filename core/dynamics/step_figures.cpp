@@ -77,15 +77,8 @@ void describeOverlap(const WorstOverlap& worst, StepReport& report)
     report.worstB = worst.b;
 }
 
-void addStep(const StepReport& step, FrameReport& frame)
+void addFigures(const StepReport& step, StepReport& sum)
 {
-    StepReport& sum = frame.sum;
-    if (frame.steps == 0 || step.dt < frame.shortestStep) {
-        frame.shortestStep = step.dt;
-        sum.limitedBy = step.limitedBy;
-    }
-    frame.longestStep = std::max(frame.longestStep, step.dt);
-    ++frame.steps;
     sum.dt += step.dt;
     sum.broadPairs = std::max(sum.broadPairs, step.broadPairs);
     sum.touchingPairs = std::max(sum.touchingPairs, step.touchingPairs);
@@ -107,9 +100,21 @@ void addStep(const StepReport& step, FrameReport& frame)
         sum.worstA = step.worstA;
         sum.worstB = step.worstB;
     }
+    for (std::size_t p = 0; p < sum.seconds.size(); ++p) sum.seconds[p] += step.seconds[p];
+}
+
+void addStep(const StepReport& step, FrameReport& frame)
+{
+    StepReport& sum = frame.sum;
+    if (frame.steps == 0 || step.dt < frame.shortestStep) {
+        frame.shortestStep = step.dt;
+        sum.limitedBy = step.limitedBy;
+    }
+    frame.longestStep = std::max(frame.longestStep, step.dt);
+    ++frame.steps;
+    addFigures(step, sum);
     sum.nonFinite = step.nonFinite;
     sum.nonFinitePhase = step.nonFinitePhase;
-    for (std::size_t p = 0; p < sum.seconds.size(); ++p) sum.seconds[p] += step.seconds[p];
 }
 
 void describeState(const World& world, const Vec3& gravity, FrameReport& report)

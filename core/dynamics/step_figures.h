@@ -35,6 +35,10 @@ void describeOverlap(const WorstOverlap& worst, StepReport& report);
 /// Takes a step into the figures of its frame: sums, or the worst so far.
 void addStep(const StepReport& step, FrameReport& frame);
 
+/// Counts, work and seconds summed, all else the largest; who limited a step and what is no longer
+/// a number are left as they are.
+void addFigures(const StepReport& step, StepReport& sum);
+
 /// Energies, momenta, who is awake and the hash, of the world as it is. `gravity` in [m/s²].
 void describeState(const World& world, const Vec3& gravity, FrameReport& report);
 
