@@ -2,7 +2,6 @@
 #include "core/dynamics/gaps/gap_overrun.h"
 
 #include <algorithm>
-#include <span>
 
 #include "core/dynamics/body_pairs.h"
 
@@ -13,11 +12,10 @@ namespace {
 constexpr double kVisible = 1e-3;
 
 /// How deep in each other two surfaces are when the step ends [m].
-double overrun(const GapRow& row, const GapBody& a, const GapBody& b, bool bounces, double dt)
+double overrun(const GapRow& row, const GapBody& a, const GapBody& b, double dt)
 {
-    // What still closes is stopped by contacts, and what opens may be closed by them, unless it has
-    // bounced.
-    const double u = bounces ? std::max(velocityAt(row, a, b).dot(row.normal), 0.0) : 0.0;
+    // What still closes is stopped by contacts.
+    const double u = std::max(velocityAt(row, a, b).dot(row.normal), 0.0);
     return -(openAt(row, a, b) + dt * u);
 }
 
@@ -32,12 +30,10 @@ bool endOverrunsOf(const GapPair& pair, double visible, double dt, GapScratch& s
 {
     GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
     if (a.hitAt == 0.0 && b.hitAt == 0.0) return false;
-    const auto rows = scratch.rowsOf(pair);
-    const bool bounces = std::ranges::any_of(rows, &GapRow::wasHit);
     bool isChanged = false;
-    for (const GapRow& row : rows) {
+    for (const GapRow& row : scratch.rowsOf(pair)) {
         // Not the other way round: of what is no number nothing is taken back, for ever.
-        if (!(overrun(row, a, b, bounces, dt) > visible)) continue;
+        if (!(overrun(row, a, b, dt) > visible)) continue;
         const double ofA = row.normal.dot(a.shift + a.turn.cross(row.rA));
         const double ofB = -row.normal.dot(b.shift + b.turn.cross(row.rB));
         if (ofA < 0.0) moveFromTheStart(a);
