@@ -10,9 +10,12 @@
 #include "io/frame_stats.h"
 #include "io/take_reader.h"
 #include "io/text_forms.h"
+#include "io/world_state.h"
 
 namespace scree {
 namespace {
+
+namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const TakeBranch& branch, const std::string& why)
 {
@@ -107,28 +110,10 @@ void wakeWhoSettled(ContactMemory& memory)
     }
 }
 
-}  // namespace
-
-TakeBranch parseBranch(const std::string& text)
+void requireSameShot(const TakeBranch& branch, const Shot& shot, const World& world,
+                     const TakeInfo& info)
 {
-    const std::size_t at = text.rfind('@');
-    TakeBranch branch;
-    if (at != std::string::npos && at > 0) {
-        branch.take = text.substr(0, at);
-        const char *begin = text.data() + at + 1, *end = text.data() + text.size();
-        const auto result = std::from_chars(begin, end, branch.frame);
-        if (result.ec == std::errc() && result.ptr == end && begin != end) return branch;
-    }
-    throw Error(ErrorKind::usage,
-                "\"" + text +
-                    "\" does not say where to begin: write TAKE@FRAME, for example "
-                    "takes/rings_100@1080");
-}
-
-void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
-                 const TakeInfo& info)
-{
-    if (!std::filesystem::exists(TakePaths{branch.take}.info()))
+    if (!fs::exists(TakePaths{branch.take}.info()))
         throw Error(ErrorKind::missingInput, "cannot branch off \"" + branch.take.string() +
                                                  "\": it is no take, for it has no take.json");
     const TakeReader from(branch.take);
@@ -146,6 +131,9 @@ void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
         refuse(branch, "its bodies begin elsewhere, with other speeds or seed");
 }
 
+/// What to tell of bodies whose keys say that they stand elsewhere when the branch begins than the
+/// frame has them: the first step takes them there through whatever is in the way. Empty when all
+/// stand right.
 std::string jumpAtBranch(const TakeBranch& branch, const Shot& shot, const World& world)
 {
     constexpr double kSeen = 1e-3;  // of the body
@@ -177,11 +165,52 @@ std::string jumpAtBranch(const TakeBranch& branch, const Shot& shot, const World
            "way";
 }
 
+}  // namespace
+
+TakeBranch parseBranch(const std::string& text)
+{
+    const std::size_t at = text.rfind('@');
+    TakeBranch branch;
+    if (at != std::string::npos && at > 0) {
+        branch.take = text.substr(0, at);
+        const char *begin = text.data() + at + 1, *end = text.data() + text.size();
+        const auto result = std::from_chars(begin, end, branch.frame);
+        if (result.ec == std::errc() && result.ptr == end && begin != end) return branch;
+    }
+    throw Error(ErrorKind::usage,
+                "\"" + text +
+                    "\" does not say where to begin: write TAKE@FRAME, for example "
+                    "takes/rings_100@1080");
+}
+
+void refuseBranchOffItself(const TakeBranch& branch, const fs::path& folder)
+{
+    std::error_code code;
+    if (!fs::equivalent(branch.take, folder, code) || code) return;
+    throw Error(ErrorKind::usage, "--from \"" + branch.take.string() +
+                                      "\" is the very take that is to be written: choose another "
+                                      "folder with -o");
+}
+
+void recordBranch(const TakeBranch& branch, const Shot& shot, const World& world, TakeInfo& info,
+                  std::vector<std::string>& notices)
+{
+    requireSameShot(branch, shot, world, info);
+    if (const std::string jump = jumpAtBranch(branch, shot, world); !jump.empty())
+        notices.push_back(jump);
+    std::error_code code;
+    const fs::path absolute = fs::absolute(branch.take, code).lexically_normal();
+    info.branchTake = (code ? branch.take : absolute).string();
+    info.branchFrame = branch.frame;
+    info.branchHash =
+        hashText(readBranchFrame(TakeReader(branch.take), branch, branch.frame, shot));
+}
+
 std::string readBranchFrame(const TakeReader& from, const TakeBranch& branch, int frame,
                             const Shot& shot)
 {
     std::error_code code;
-    if (!std::filesystem::exists(from.paths().frame(frame), code)) {
+    if (!fs::exists(from.paths().frame(frame), code)) {
         throw Error(ErrorKind::missingInput, "\"" + branch.take.string() + "\" has no frame " +
                                                  std::to_string(frame) + " to begin with");
     }

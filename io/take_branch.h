@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/scene/world.h"
 #include "io/shot.h"
@@ -22,18 +23,18 @@ struct TakeBranch {
 /// "takes/a@1080" → both parts. Throws Error{usage}.
 TakeBranch parseBranch(const std::string& text);
 
-/// Looks at all that a branch needs before anything of the new take is touched: reads every frame
-/// that is to be copied. `world` stands at time zero and `info` is the new take's. The two shots
-/// may differ in settings only: Error{badInput} says which body, mass, mesh, frame rate or
-/// beginning is another; Error{missingInput} and Error{inputOutput} name a frame that is missing or
-/// damaged.
-void checkBranch(const TakeBranch& branch, const Shot& shot, const World& world,
-                 const TakeInfo& info);
+/// Throws Error{usage} when the branch's take is the folder itself: to overwrite it would be to
+/// lose what the branch is to begin with.
+void refuseBranchOffItself(const TakeBranch& branch, const std::filesystem::path& folder);
 
-/// What to tell of bodies whose keys say that they stand elsewhere when the branch begins than the
-/// frame has them: the first step takes them there through whatever is in the way. Empty when all
-/// stand right.
-std::string jumpAtBranch(const TakeBranch& branch, const Shot& shot, const World& world);
+/// Writes into `info`, the new take's, where it is branched off, after a look at all that the
+/// branch needs: before anything of the new take is touched every frame that is to be copied is
+/// read. `world` stands at time zero. The two shots may differ in settings only: Error{badInput}
+/// says which body, mass, mesh, frame rate or beginning is another; Error{missingInput} and
+/// Error{inputOutput} name a frame that is missing or damaged. Bodies whose keys say that they
+/// stand elsewhere at that frame than they do are a notice.
+void recordBranch(const TakeBranch& branch, const Shot& shot, const World& world, TakeInfo& info,
+                  std::vector<std::string>& notices);
 
 /// The bytes of a frame of the branch's take as a frame of the shot. In the last one, where bodies
 /// are to feel other settings from there on, those that had fallen asleep are awake.

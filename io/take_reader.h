@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "core/picture/scene_description.h"
+#include "io/frame_file.h"
 #include "io/frame_stats.h"
-#include "io/take.h"
+#include "io/take_folder.h"
 #include "io/take_info.h"
 
 namespace scree {

@@ -7,6 +7,8 @@
 #include "core/base/error.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
+#include "io/frame_stats.h"
+#include "io/take_info.h"
 
 namespace scree {
 namespace {

@@ -2,7 +2,7 @@
 // Folders called "frames" or "images" are common, and what else stands in them is somebody's.
 #pragma once
 
-#include "io/take.h"
+#include "io/take_folder.h"
 
 namespace scree {
 

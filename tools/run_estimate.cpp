@@ -9,8 +9,8 @@
 #include "io/build_world.h"
 #include "io/frame_stats.h"
 #include "io/ply_mesh.h"
-#include "io/take.h"
 #include "io/take_info.h"
+#include "io/world_state.h"
 #include "tools/broken_frame.h"
 #include "tools/cpu_time.h"
 

@@ -7,7 +7,7 @@
 #include "io/build_world.h"
 #include "io/frame_file.h"
 #include "io/shot_parser.h"
-#include "io/take.h"
+#include "io/world_state.h"
 #include "tests/support/small_shot.h"
 
 namespace scree {

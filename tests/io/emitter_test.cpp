@@ -15,6 +15,7 @@
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
 #include "io/shot_parser.h"
+#include "io/take.h"
 #include "io/take_reader.h"
 #include "tests/support/abc_check.h"
 #include "tests/support/export_scene.h"

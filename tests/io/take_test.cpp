@@ -23,6 +23,7 @@
 #include "io/file_bytes.h"
 #include "io/shot_parser.h"
 #include "io/take_reader.h"
+#include "io/world_state.h"
 #include "tests/support/refusal.h"
 #include "tests/support/small_gltf.h"
 #include "tests/support/small_shot.h"
