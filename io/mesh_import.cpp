@@ -20,13 +20,6 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kEndings = {"obj", "ply", "stl", "glb", "gltf", "fbx", "abc"};
 
-std::string endingOf(const std::string& path)
-{
-    std::string ending = fs::path(path).extension().string();
-    if (!ending.empty()) ending.erase(0, 1);
-    return inSmallLetters(ending);
-}
-
 /// STL has no shared points, glTF none along seams, and the readers of OBJ and FBX take theirs
 /// apart.
 bool givesLoosePoints(const std::string& ending)

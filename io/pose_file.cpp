@@ -103,7 +103,8 @@ std::vector<Pose> readPoseFile(const std::string& path, const SourceLocation& wh
     std::string line;
     int lineNumber = 0, problemCount = 0;
     while (std::getline(file, line) && problemCount < kMostProblems) {
-        ++lineNumber;
+        // What editors on Windows put before a text in UTF-8.
+        if (++lineNumber == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
         PoseLine poseLine(line);
         if (poseLine.isEmpty()) continue;
         Pose pose;

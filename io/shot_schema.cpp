@@ -2,27 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <unordered_map>
 
 #include "core/base/error.h"
 #include "io/nearest_word.h"
+#include "io/text_forms.h"
 
 namespace scree {
 namespace {
-
-std::string numberText(double number)
-{
-    char buffer[40];
-    std::snprintf(buffer, sizeof buffer, "%.10g", number);
-    return buffer;
-}
 
 /// " from 0 to 1000", " above 0", " above 0 and below 180"; nothing without limits.
 std::string rangeText(const ShotKey& key)
 {
     const bool hasMin = std::isfinite(key.min), hasMax = std::isfinite(key.max);
-    const std::string min = numberText(key.min), max = numberText(key.max);
+    const std::string min = formatted("%.10g", key.min), max = formatted("%.10g", key.max);
     if (hasMin && hasMax && key.min == key.max) return " " + min;
     if (hasMin && hasMax && key.isOpen) return " above " + min + " and below " + max;
     if (hasMin && hasMax) return " from " + min + " to " + max;

@@ -1,8 +1,9 @@
 #include "io/shot_tree.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
+
+#include "io/number_text.h"
 
 namespace scree {
 
@@ -47,9 +48,7 @@ const ShotNode* ShotNode::find(std::string_view key) const
 
 std::string toTomlText(double number)
 {
-    char buffer[40];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, number);
-    std::string text(buffer, end);
+    std::string text = numberText(number);
     // Without this a whole number would read back as an integer, and a large one not at all.
     const bool isFinite = text.find('n') == std::string::npos;
     if (isFinite && text.find_first_of(".e") == std::string::npos) text += ".0";

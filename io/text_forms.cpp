@@ -11,6 +11,12 @@ std::string inSmallLetters(std::string text)
     return text;
 }
 
+std::string endingOf(const std::filesystem::path& file)
+{
+    const std::string ending = file.extension().string();
+    return ending.empty() ? ending : inSmallLetters(ending.substr(1));
+}
+
 std::string shortened(const std::string& text, std::size_t longest)
 {
     if (text.size() <= longest) return text;

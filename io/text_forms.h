@@ -3,12 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace scree {
 
-/// ASCII letters in small: endings of files are told apart so.
+/// ASCII letters in small.
 std::string inSmallLetters(std::string text);
+
+/// By which the format of a file is known: "png" of "a/B.PNG"; empty where there is none.
+std::string endingOf(const std::filesystem::path& file);
 
 /// Cut to at most that many bytes, the last three of which say so: between characters of UTF-8, not
 /// inside one.

@@ -73,12 +73,6 @@ int affinityCount()
     return std::max(CPU_COUNT(&mask), 1);
 }
 
-/// In small letters, with its dot.
-std::string endingOf(const std::string& name)
-{
-    return inSmallLetters(std::filesystem::path(name).extension().string());
-}
-
 /// Quota and period of one group: cpu.max of version 2, two files in version 1.
 std::optional<double> quotaOfGroup(const std::filesystem::path& group)
 {
@@ -233,6 +227,11 @@ void addOverrides(CLI::App& command, std::vector<std::string>& overrides)
         ->take_all();
 }
 
+void addProgress(CLI::App& command, std::string& word)
+{
+    command.add_option("--progress", word, "auto, tty, alf, json or none");
+}
+
 void addNoCache(CLI::App& command, bool& noCache)
 {
     command.add_flag("--no-cache", noCache,
@@ -263,6 +262,19 @@ std::vector<std::pair<std::string, std::string>> changedLimits(const ImportLimit
     return changed;
 }
 
+std::vector<std::string> wordsOfRun(const std::vector<std::string>& overrides,
+                                    const ImportLimits& limits, std::optional<int> threads,
+                                    bool noCache)
+{
+    std::vector<std::string> words;
+    for (const std::string& text : overrides) words.insert(words.end(), {"--set", text});
+    for (const auto& [flag, value] : changedLimits(limits))
+        words.insert(words.end(), {flag, value});
+    if (threads) words.insert(words.end(), {"--threads", std::to_string(*threads)});
+    if (noCache) words.push_back("--no-cache");
+    return words;
+}
+
 std::string complaintIfNotFinite(const std::string& text)
 {
     // What is no number at all is complained of where it is converted.
@@ -280,14 +292,14 @@ std::function<std::string(const std::string&)> oneOf(const std::vector<std::stri
 void requirePageName(const std::string& name)
 {
     const std::string ending = endingOf(name);
-    if (ending.empty() || ending == ".html" || ending == ".htm") return;
+    if (ending.empty() || ending == "html" || ending == "htm") return;
     throw Error(ErrorKind::usage,
                 "\"" + name + "\": the page is HTML; expected a name ending in .html");
 }
 
 void requirePngName(const std::string& name)
 {
-    if (endingOf(name) == ".png") return;
+    if (endingOf(name) == "png") return;
     throw Error(
         ErrorKind::usage,
         "\"" + name + "\": pictures are written as PNG; expected a name " + "ending in .png");

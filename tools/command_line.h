@@ -50,12 +50,20 @@ void addOverrides(CLI::App& command, std::vector<std::string>& overrides);
 /// Adds --no-cache. `noCache` must outlive the command.
 void addNoCache(CLI::App& command, bool& noCache);
 
+/// Adds --progress. `word`, for parseProgressMode, must outlive the command.
+void addProgress(CLI::App& command, std::string& word);
+
 /// Adds the flags that change what an asset may hold: --import-points and the like. `limits` must
 /// outlive the command.
 void addImportLimits(CLI::App& command, ImportLimits& limits);
 
 /// Those flags and their values that are not the defaults.
 std::vector<std::pair<std::string, std::string>> changedLimits(const ImportLimits& limits);
+
+/// The options of those kinds that were given, as words of a command that is to do the same again.
+std::vector<std::string> wordsOfRun(const std::vector<std::string>& overrides,
+                                    const ImportLimits& limits, std::optional<int> threads,
+                                    bool noCache);
 
 /// For CLI11's check of an option: a complaint when the number is none, or without end. The ranges
 /// of the library let "nan" pass, and "inf" where they have no upper end.

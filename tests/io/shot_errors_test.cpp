@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file_bytes.h"
 #include "io/shot_parser.h"
 #include "tests/support/refusal.h"
 #include "tests/support/support.h"
@@ -516,6 +517,22 @@ TEST(ShotErrors, ProblemsOfAPoseFileAreLocatedInThatFile)
             ":4:5: 'zero' is not a finite number\n" +  //
             poses + ":5:8: the orientation qw qx qy qz is zero\n" + poses +
             ":6:3: 'inf' is not a finite number");
+}
+
+// Its mark of UTF-8 was no finite number.
+TEST(ShotErrors, FilesOfEditorsOnWindowsAreRead)
+{
+    const test::TemporaryFolder folder;
+    const std::string mark = "\xef\xbb\xbf";
+    for (const std::string first : {"# x y z qw qx qy qz\r\n", ""}) {
+        writeFileBytes(folder / "b.poses", mark + first + "0 2 0 1 0 0 0\r\n1 2 0 1 0 0 0");
+        std::string text = body("shape = \"block\"\nposes = \"b.poses\"\n");
+        for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
+            text.insert(at, "\r");
+        const Shot shot = parseShotText(mark + text, (folder / "s.toml").string());
+        ASSERT_EQ(shot.bodies.size(), 2u);
+        EXPECT_EQ(shot.bodies[1].worldFromAsset.position, Vec3(1, 2, 0));
+    }
 }
 
 TEST(ShotErrors, BadOverridesNameTheirOwnText)
