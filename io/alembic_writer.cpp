@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -19,6 +18,7 @@
 #include "io/byte_order.h"
 #include "io/camera_names.h"
 #include "io/camera_pose.h"
+#include "io/number_text.h"
 
 namespace scree {
 
@@ -78,13 +78,6 @@ Channels hiddenAt(const Pose& parentFromChild)
     Channels channels = channelsOf(parentFromChild);
     for (const std::size_t column : {0, 4, 8}) std::fill_n(&channels[column], 3, 0.0);
     return channels;
-}
-
-std::string shortestText(double value)
-{
-    std::array<char, 32> letters;
-    const auto end = std::to_chars(letters.data(), letters.data() + letters.size(), value).ptr;
-    return std::string(letters.data(), end);
 }
 
 std::string zeroTerminated(const std::string& text)
@@ -170,7 +163,7 @@ public:
 private:
     void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
     void writeFrame(const SceneFrame& frame) override;
-    void finishScene() override;
+    void finishScene(const FinishWatch& watch) override;
 
     MeshSamples writeMesh(const SceneMesh& mesh);
     void addSample(TransformTrack& track, const Channels& channels);
@@ -291,11 +284,14 @@ void AlembicWriter::addSample(TransformTrack& track, const Channels& channels)
     }
 }
 
-void AlembicWriter::finishScene()
+void AlembicWriter::finishScene(const FinishWatch& watch)
 {
     std::vector<AlembicObject> children;
     children.reserve(bodies_.size() + scene_->cameras.size());
-    for (std::size_t body = 0; body < bodies_.size(); ++body) children.push_back(writeBody(body));
+    for (std::size_t body = 0; body < bodies_.size(); ++body) {
+        watch(static_cast<double>(body) / static_cast<double>(bodies_.size()));
+        children.push_back(writeBody(body));
+    }
     const std::vector<std::string> names = cameraNames(*scene_);
     for (std::size_t k = 0; k < names.size(); ++k)
         children.push_back(writeCamera(scene_->cameras[k], names[k]));
@@ -314,7 +310,7 @@ void AlembicWriter::finishScene()
     archive_->finish(
         std::span(&root, 1),
         "_ai_AlembicVersion=layout of Alembic 1.8.12;_ai_Application=Scree;_ai_DCC_FPS=" +
-            shortestText(scene_->framesPerSecond));
+            numberText(scene_->framesPerSecond));
 }
 
 AlembicProperty AlembicWriter::textProperty(const std::string& name, const std::string& text)

@@ -184,11 +184,11 @@ std::vector<double> FrameWriter::times() const
     return times;
 }
 
-void FrameWriter::finish()
+void FrameWriter::finish(const FinishWatch& watch)
 {
     SCREE_CHECK(scene_ != nullptr && framesLeft_ == 0,
                 std::to_string(framesLeft_) + " announced frames were not written");
-    finishScene();
+    finishScene(watch);
     scene_ = nullptr;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "core/picture/scene_description.h"
 
 namespace scree {
+
+/// Told while finish() is at work how much of it is done (0 … 1). It may throw to break off.
+using FinishWatch = std::function<void(double share)>;
 
 /// The public calls check what every format needs (names, order and completeness of frames, finite
 /// poses), so that a format only writes. Nothing is visible under the output's name before
@@ -21,6 +25,10 @@ public:
 
     /// Whether the format can hold samples between frames.
     virtual bool holdsSubframes() const { return false; }
+
+    /// How long finish() takes, about, against all calls of write() together: what holds all times
+    /// of a body in one place is written at the end.
+    virtual double finishCost() const { return 0.0; }
 
     /// What of the scene the format cannot hold though its readers would look for it, a sentence
     /// each.
@@ -40,8 +48,8 @@ public:
     /// beyond what single precision holds.
     void write(const SceneFrame& frame);
 
-    /// Throws Error{inputOutput} when the disk refuses, as write() may.
-    void finish();
+    /// Throws Error{inputOutput} when the disk refuses, as write() may. `watch` is called often.
+    void finish(const FinishWatch& watch = [](double) {});
 
 protected:
     const std::vector<double>& offsets() const { return offsets_; }
@@ -52,7 +60,7 @@ protected:
 private:
     virtual void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) = 0;
     virtual void writeFrame(const SceneFrame& frame) = 0;
-    virtual void finishScene() = 0;
+    virtual void finishScene(const FinishWatch& watch) = 0;
 
     const SceneDescription* scene_ = nullptr;
     std::vector<double> offsets_;

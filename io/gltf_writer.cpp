@@ -87,17 +87,21 @@ std::string paddedTo4(std::string bytes, char filling)
     return bytes;
 }
 
+/// All motion is read from the spool twice.
+constexpr double kFinishCost = 1.0;
+
 class GltfWriter final : public FrameWriter {
 public:
     explicit GltfWriter(fs::path output) : output_(std::move(output)) {}
 
     bool holdsSubframes() const override { return true; }
+    double finishCost() const override { return kFinishCost; }
     std::vector<std::string> losses(const SceneDescription& scene) const override;
 
 private:
     void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
     void writeFrame(const SceneFrame& frame) override;
-    void finishScene() override;
+    void finishScene(const FinishWatch& watch) override;
 
     std::size_t addView(std::uint64_t byteCount, std::optional<int> target);
     std::size_t addAccessor(std::size_t view, std::uint64_t offset, std::size_t count,
@@ -114,7 +118,7 @@ private:
     std::size_t addValues(const std::vector<float>& values, std::size_t count, const char* type);
     void addChannel(Json& samplers, Json& channels, std::size_t node, const char* path,
                     const char* interpolation, std::size_t input, std::size_t output);
-    void writeMotion();
+    void writeMotion(const FinishWatch& watch);
 
     double secondsOf(double frame) const { return (frame - firstFrame_) / scene_->framesPerSecond; }
 
@@ -180,7 +184,7 @@ void GltfWriter::writeFrame(const SceneFrame& frame)
     motion_->append(frame);
 }
 
-void GltfWriter::finishScene()
+void GltfWriter::finishScene(const FinishWatch& watch)
 {
     // Describe everything.
     json_["asset"] = {{"version", "2.0"}, {"generator", "Scree"}};
@@ -215,7 +219,7 @@ void GltfWriter::finishScene()
         appendBytes(chunk, static_cast<std::uint32_t>(binaryBytes_));
         appendBytes(chunk, kBinaryChunk);
         file_->write(chunk + meshBytes_);
-        writeMotion();
+        writeMotion(watch);
     }
     SCREE_CHECK(file_->size() == fileBytes, "a .glb of another size than announced");
     motion_.reset();
@@ -480,7 +484,7 @@ void GltfWriter::addAnimation()
            {{"firstFrame", firstFrame_}, {"framesPerSecond", scene_->framesPerSecond}}}}});
 }
 
-void GltfWriter::writeMotion()
+void GltfWriter::writeMotion(const FinishWatch& watch)
 {
     if (!json_.contains("animations")) return;
     std::string bytes;
@@ -488,18 +492,20 @@ void GltfWriter::writeMotion()
         appendBytes(bytes, static_cast<float>(secondsOf(time)));
     file_->write(bytes);
 
-    const auto writeTracks = [&](bool Changes::*changes, auto valuesOf) {
+    const auto count = static_cast<double>(motion_->bodies().size());
+    const auto writeTracks = [&](double before, bool Changes::*changes, auto valuesOf) {
         motion_->visitTracks([&](std::size_t k, std::span<const MotionSample> track) {
+            watch(before + 0.5 * static_cast<double>(k) / count);
             if (!(changes_[motion_->bodies()[k]].*changes)) return;
             bytes.clear();
             for (const MotionSample& sample : track) bytes += bytesOf(valuesOf(sample));
             file_->write(bytes);
         });
     };
-    writeTracks(&Changes::translation, [](const MotionSample& sample) -> Eigen::Vector3f {
+    writeTracks(0.0, &Changes::translation, [](const MotionSample& sample) -> Eigen::Vector3f {
         return sample.worldFromAsset.position.cast<float>();
     });
-    writeTracks(&Changes::rotation, [](const MotionSample& sample) -> Eigen::Vector4f {
+    writeTracks(0.5, &Changes::rotation, [](const MotionSample& sample) -> Eigen::Vector4f {
         return sample.worldFromAsset.orientation.coeffs().cast<float>();
     });
 }

@@ -41,7 +41,7 @@ private:
         file.commit();
     }
 
-    void finishScene() override {}
+    void finishScene(const FinishWatch& /*watch*/) override {}
 
     fs::path fileOf(int frame) const { return framePath(output_.string(), frame); }
 

@@ -54,7 +54,7 @@ public:
 private:
     void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
     void writeFrame(const SceneFrame& frame) override;
-    void finishScene() override {}
+    void finishScene(const FinishWatch& /*watch*/) override {}
 
     fs::path includeFile() const;
     void writeInclude();

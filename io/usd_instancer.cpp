@@ -72,7 +72,10 @@ Vec3 placeOf(const std::vector<MotionSample>& samples)
 
 class InstancerTimes {
 public:
-    InstancerTimes(UsdText& text, MotionSpool& motion) : text_(text), motion_(motion) {}
+    InstancerTimes(UsdText& text, MotionSpool& motion, const FinishWatch& watch)
+        : text_(text), motion_(motion), watch_(watch)
+    {
+    }
 
     /// Writes an array attribute at every time; `append` writes one body's value.
     void write(const char* attribute,
@@ -89,14 +92,20 @@ public:
     {
         text_.openTimes(attribute);
         for (std::size_t i = 0; i < motion_.times().size(); ++i) {
+            watch_(static_cast<double>(done_++) /
+                   static_cast<double>(kAttributes * motion_.times().size()));
             text_.time(motion_.times()[i], valueText(motion_.readTime(i)));
         }
         text_.closeTimes();
     }
 
 private:
+    static constexpr std::size_t kAttributes = 6;
+
     UsdText& text_;
     MotionSpool& motion_;
+    const FinishWatch& watch_;
+    std::size_t done_ = 0;  // times, of all attributes
 };
 
 std::vector<Aabb> meshBoxes(const SceneDescription& scene)
@@ -174,11 +183,12 @@ void writeInvisibleIds(UsdText& text, const SceneDescription& scene, int firstFr
     text.closeTimes();
 }
 
-void writeMotion(UsdText& text, const SceneDescription& scene, MotionSpool& motion)
+void writeMotion(UsdText& text, const SceneDescription& scene, MotionSpool& motion,
+                 const FinishWatch& watch)
 {
     const Vec3 place = placeOf(motion.readTime(0));
     const std::vector<Aabb> boxes = meshBoxes(scene);
-    InstancerTimes times(text, motion);
+    InstancerTimes times(text, motion, watch);
 
     times.writeValues("float3[] extent", [&](const std::vector<MotionSample>& samples) {
         return extentText(scene, motion.bodies(), boxes, samples, place);
@@ -208,7 +218,7 @@ void writeMotion(UsdText& text, const SceneDescription& scene, MotionSpool& moti
 }  // namespace
 
 void writeUsdInstancer(UsdText& text, const UsdNames& names, const SceneDescription& scene,
-                       int firstFrame, MotionSpool& motion)
+                       int firstFrame, MotionSpool& motion, const FinishWatch& watch)
 {
     const std::vector<std::size_t>& bodies = motion.bodies();
     if (bodies.empty()) return;
@@ -236,7 +246,7 @@ void writeUsdInstancer(UsdText& text, const UsdNames& names, const SceneDescript
     text.line("    interpolation = \"vertex\"");
     text.line(")");
 
-    writeMotion(text, scene, motion);
+    writeMotion(text, scene, motion, watch);
     writePrototypes(text, names, scene, prototypes);
     text.closePrim();
 }

@@ -12,6 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Reading a frame and setting it aside is quick, numbers as text are not.
+constexpr double kFinishCost = 3.0;
+
 enum class UsdForm { primPerBody, instancer };
 
 class UsdWriter final : public FrameWriter {
@@ -19,13 +22,14 @@ public:
     UsdWriter(fs::path output, UsdForm form) : output_(std::move(output)), form_(form) {}
 
     bool holdsSubframes() const override { return true; }
+    double finishCost() const override { return kFinishCost; }
 
 private:
     void beginScene(const SceneDescription& scene, int firstFrame, int frameCount) override;
     void writeFrame(const SceneFrame& frame) override;
-    void finishScene() override;
+    void finishScene(const FinishWatch& watch) override;
 
-    void writeMovingBodies(UsdText& text);
+    void writeMovingBodies(UsdText& text, const FinishWatch& watch);
     void writeStaticBodies(UsdText& text) const;
     void openBody(UsdText& text, std::size_t body) const;
     void writeOpsAndBirth(UsdText& text, const SceneBody& body) const;
@@ -88,7 +92,7 @@ void UsdWriter::writeFrame(const SceneFrame& frame)
     motion_->append(frame);
 }
 
-void UsdWriter::finishScene()
+void UsdWriter::finishScene(const FinishWatch& watch)
 {
     writeUsdHeader(*file_, *names_, *scene_, firstFrame_, firstFrame_ + frameCount_ - 1);
     UsdText text(*file_);
@@ -99,9 +103,9 @@ void UsdWriter::finishScene()
     writeUsdCameras(text, *names_, *scene_, times());
     writeStaticBodies(text);
     if (form_ == UsdForm::instancer) {
-        writeUsdInstancer(text, *names_, *scene_, firstFrame_, *motion_);
+        writeUsdInstancer(text, *names_, *scene_, firstFrame_, *motion_, watch);
     } else {
-        writeMovingBodies(text);
+        writeMovingBodies(text, watch);
     }
     text.closePrim();
     motion_.reset();
@@ -153,9 +157,11 @@ void UsdWriter::writeStaticBodies(UsdText& text) const
     }
 }
 
-void UsdWriter::writeMovingBodies(UsdText& text)
+void UsdWriter::writeMovingBodies(UsdText& text, const FinishWatch& watch)
 {
+    const auto count = static_cast<double>(motion_->bodies().size());
     motion_->visitTracks([&](std::size_t k, std::span<const MotionSample> track) {
+        watch(static_cast<double>(k) / count);
         openBody(text, motion_->bodies()[k]);
         writeTrack(text, "quatd xformOp:orient", motion_->times(), track, orientationText);
         writeTrack(text, "double3 xformOp:translate", motion_->times(), track, translationText);

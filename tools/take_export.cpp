@@ -1,16 +1,78 @@
 #include "tools/take_export.h"
 
+#include <cmath>
 #include <system_error>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/diagnostics/phase_timer.h"
 #include "io/atomic_file.h"
 #include "io/frame_writer.h"
+#include "io/text_forms.h"
 #include "tools/command_line.h"
 #include "tools/stop_signals.h"
 #include "tools/take_painter.h"
 
 namespace scree {
+namespace {
+
+/// Of an export: what its writer does at the end counts as so many frames more, so that all is done
+/// where 100 % is said.
+class ExportProgress {
+public:
+    ExportProgress(Console& console, ProgressMode mode, std::filesystem::path output,
+                   const std::vector<int>& frames, double finishCost)
+        : console_(console),
+          isSilent_(mode == ProgressMode::none),
+          output_(std::move(output)),
+          frames_(frames),
+          framesAtTheEnd_(
+              static_cast<int>(std::lround(finishCost * static_cast<double>(frames.size())))),
+          shown_(console, mode, "export", static_cast<int>(frames.size()) + framesAtTheEnd_)
+    {
+    }
+
+    void frameDone(int frame, double seconds)
+    {
+        shown_.frameDone(frame, seconds);
+        tellNowAndThen("frame " + std::to_string(frame) + " of " + describeFrames(frames_));
+    }
+
+    /// `share` of what the writer does at the end is done.
+    void finishing(double share)
+    {
+        const int done = static_cast<int>(share * framesAtTheEnd_) - toldAtTheEnd_;
+        const double seconds = done > 0 ? atTheEnd_.seconds() / done : 0.0;
+        for (int i = 0; i < done; ++i) shown_.frameDone(frames_.back(), seconds);
+        if (done > 0) atTheEnd_ = {};
+        toldAtTheEnd_ += done;
+        shown_.insideFrame(frames_.back(), 0.0);
+        tellNowAndThen("all frames are read, " + percent(share) + " of the rest is done");
+    }
+
+    void finished() { finishing(1.0); }
+
+private:
+    /// Where no progress is shown; that of a simulation has reached its end and must not go back.
+    void tellNowAndThen(const std::string& place)
+    {
+        if (!isSilent_ || sinceLastWord_.seconds() < static_cast<double>(kLongestSilence.count()))
+            return;
+        sinceLastWord_ = {};
+        console_.info("still writing " + output_.string() + ": " + place);
+    }
+
+    Console& console_;
+    bool isSilent_;
+    std::filesystem::path output_;
+    const std::vector<int>& frames_;
+    int framesAtTheEnd_, toldAtTheEnd_ = 0;
+    Progress shown_;
+    Stopwatch sinceLastWord_, atTheEnd_;
+};
+
+}  // namespace
+
 bool exportTake(const TakeReader& take, const std::vector<int>& frames,
                 const std::filesystem::path& output, Console& console, ProgressMode progress)
 {
@@ -29,8 +91,7 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
     if (scene.cameras.empty()) scene.cameras.push_back(viewOfAction(take, scene, scene.aspect));
     for (const std::string& loss : writer->losses(scene))
         console.warning("\"" + output.string() + "\": " + loss);
-    Progress shown(console, progress, "export", frameCount);
-    Stopwatch sinceLastWord;
+    ExportProgress shown(console, progress, output, frames, writer->finishCost());
     const bool withSubframes = writer->holdsSubframes();
     writer->begin(scene, frames.front(), frameCount,
                   withSubframes ? take.offsets() : std::vector<double>{0.0});
@@ -42,14 +103,16 @@ bool exportTake(const TakeReader& take, const std::vector<int>& frames,
         else
             writer->write(take.readFrame(frame));
         shown.frameDone(frame, watch.seconds());
-        const bool isRecent =
-            sinceLastWord.seconds() < static_cast<double>(kLongestSilence.count());
-        if (progress != ProgressMode::none || isRecent) continue;
-        sinceLastWord = {};
-        console.info("still writing " + output.string() + ": frame " + std::to_string(frame) +
-                     " of " + describeFrames(frames));
     }
-    writer->finish();
+    try {
+        writer->finish([&](double share) {
+            heedStop();
+            shown.finishing(share);
+        });
+    } catch (const Stopped&) {
+        return false;
+    }
+    shown.finished();
     return true;
 }
 

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "tests/support/export_scene.h"
@@ -17,7 +20,7 @@ namespace {
 class SilentWriter final : public FrameWriter {
     void beginScene(const SceneDescription&, int, int) override {}
     void writeFrame(const SceneFrame&) override {}
-    void finishScene() override {}
+    void finishScene(const FinishWatch&) override {}
 };
 
 template <class Action>
@@ -62,6 +65,36 @@ TEST(FrameWriter, APoseNeedsNoPlaceForTheFrameNumber)
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
     }
     messageOf(ErrorKind::usage, [] { makePoseWriter("x.fbx"); });
+}
+
+// It worked on for minutes after the last frame, and could not be asked to stop.
+TEST(FrameWriter, TheEndTellsHowFarItIsAndCanBeBrokenOff)
+{
+    const SceneDescription scene = test::sceneOf(
+        {test::bodyNamed("a"), test::bodyNamed("b"), test::bodyNamed("c"), test::bodyNamed("d")});
+    for (const char* name : {"x.usda", "x.instances.usda", "x.glb", "x.abc"}) {
+        const test::TemporaryFolder folder;
+        const auto write = [&](const FinishWatch& watch) {
+            const auto writer = makeFrameWriter(folder / name);
+            writer->begin(scene, 1, 3);
+            for (int frame = 1; frame <= 3; ++frame)
+                writer->write(test::tumblingFrame(scene, frame, 1));
+            writer->finish(watch);
+        };
+        std::vector<double> shares;
+        struct Enough {};
+        EXPECT_THROW(write([&](double share) {
+                         shares.push_back(share);
+                         if (share > 0.4) throw Enough();
+                     }),
+                     Enough)
+            << name;
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << name;
+        ASSERT_GT(shares.size(), 1u) << name;
+        EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end())) << name;
+        write([&](double share) { EXPECT_LE(share, 1.0) << name; });
+        EXPECT_TRUE(std::filesystem::exists(folder / name));
+    }
 }
 
 TEST(FrameWriter, AFolderThatDoesNotExistIsFoundBeforeTheFirstFrame)
