@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
+#include "core/base/hash.h"
 #include "core/base/parallel.h"
 #include "core/diagnostics/phase_timer.h"
 #include "core/dynamics/stepper.h"
@@ -19,8 +20,9 @@
 #include "io/pose_json.h"
 #include "io/shape_cache.h"
 #include "io/shot_parser.h"
-#include "io/take.h"
+#include "io/take_folder.h"
 #include "io/text_forms.h"
+#include "io/world_state.h"
 #include "tools/broken_frame.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
@@ -28,7 +30,9 @@
 #include "tools/progress.h"
 #include "tools/repair_report.h"
 #include "tools/rolling_advice.h"
+#include "tools/settle_checkpoint.h"
 #include "tools/settled_poses.h"
+#include "tools/shell_line.h"
 #include "tools/shot_warnings.h"
 #include "tools/start_rule.h"
 #include "tools/stop_signals.h"
@@ -44,12 +48,31 @@ struct SettleOptions {
     // The literal method keeps two blocks on each other creeping by 0.0016 for ever.
     double tolerance = 5e-3;
     std::optional<int> threads;
-    bool noCache = false;
+    bool noCache = false, resume = false;
     std::vector<std::string> overrides;
     ImportLimits importLimits;
 };
 
 constexpr double kWindowSeconds = 0.5;  // over which nothing may move
+
+/// So much is lost at most when the program is killed or the machine goes down [s].
+constexpr double kBetweenSaves = 300.0;
+
+/// The command that goes on. It repeats all that decides what the pose becomes.
+std::string commandToGoOn(const SettleOptions& options)
+{
+    std::vector<std::string> words = {"scree", "settle", options.shot, "-o", options.output};
+    const SettleOptions usual;
+    if (options.seconds != usual.seconds)
+        words.insert(words.end(), {"--seconds", formatted("%.15g", options.seconds)});
+    if (options.tolerance != usual.tolerance)
+        words.insert(words.end(), {"--tolerance", formatted("%.15g", options.tolerance)});
+    for (const std::string& word :
+         wordsOfRun(options.overrides, options.importLimits, options.threads, options.noCache))
+        words.push_back(word);
+    words.push_back("--resume");
+    return shellLine(words);
+}
 
 /// How far any point of the body can be from where it was, in bounding radii.
 double movedRadii(const Shape& shape, const BodyMotion& before, const BodyMotion& now)
@@ -105,7 +128,8 @@ public:
         : options_(options),
           console_(console),
           progressMode_(parseProgressMode(options.progress)),
-          shot_(parseShot(options.shot, options.overrides, options.importLimits))
+          shot_(parseShot(options.shot, options.overrides, options.importLimits)),
+          checkpoint_(checkpointBeside(options.output))
     {
         if (writesPoses()) requirePosableBodies(shot_, options.output);
         createFolderOf(options.output, console);
@@ -115,15 +139,26 @@ public:
         world_ = buildStoppably(shot_, cache, console);
         endOfEvents_ = endOfEvents(world_);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
+        for (const std::string& note : notesBeforeStart(shot_)) console.info(note);
         applyStartRule(shot_, world_, console);
         for (const std::string& warning : warningsBeforeStart(shot_, world_))
             console.warning(warning);
+        startHash_ = hashText(encodeFrame(captureState(shot_, world_)));
+        past_ = {world_.motion};
+        takeUpCheckpoint();
     }
 
     int run()
     {
-        if (!simulate()) throw Stopped{"nothing is at rest yet, and nothing was written"};
+        if (!simulate()) {
+            console_.info("stopped in frame " + std::to_string(world_.clock.frame + 1) +
+                          ", nothing is at rest yet; the state is saved, go on with: " +
+                          commandToGoOn(options_));
+            return kExitStopped;
+        }
         for (const std::string& file : write()) std::printf("%s\n", file.c_str());
+        std::error_code ignored;
+        std::filesystem::remove(checkpoint_, ignored);
         if (unrest_.isNone()) return kExitDone;
         console_.error("not at rest after " + describeDuration(options_.seconds) + ": " +
                        reasonOfUnrest() + "; the pose is written all the same");
@@ -131,6 +166,28 @@ public:
     }
 
 private:
+    void takeUpCheckpoint()
+    {
+        if (!options_.resume) {
+            if (isThere(checkpoint_))
+                console_.info("\"" + checkpoint_.string() +
+                              "\" is of a run that was stopped: --resume would go on with it");
+            return;
+        }
+        std::optional<SettleCheckpoint> left = readCheckpoint(checkpoint_, startHash_);
+        if (!left) return;
+        restoreState(world_, left->state);
+        past_ = std::move(left->past);
+        console_.info("going on from frame " + std::to_string(world_.clock.frame) +
+                      " after the start");
+    }
+
+    void save()
+    {
+        writeCheckpoint(checkpoint_, startHash_, {captureState(shot_, world_), past_});
+        sinceSave_ = {};
+    }
+
     /// False when it was stopped before all was at rest.
     bool simulate()
     {
@@ -138,23 +195,17 @@ private:
         const auto window = static_cast<std::size_t>(
             std::max(1.0, std::ceil(kWindowSeconds * shot_.framesPerSecond)));
         const int most = static_cast<int>(std::ceil(options_.seconds * shot_.framesPerSecond));
-        const double duration = 1.0 / shot_.framesPerSecond;
-        Progress progress(console_, progressMode_, "settle", most);
-        std::deque<std::vector<BodyMotion>> past = {world_.motion};
-        for (int frame = 1; frame <= most; ++frame) {
+        const int done = static_cast<int>(world_.clock.frame);
+        Progress progress(console_, progressMode_, "settle", most, std::min(done, most));
+        unrest_.isTooEarly = true;
+        for (int frame = done + 1; frame <= most; ++frame) {
             const Stopwatch watch;
-            const auto askStop = [&] {
-                progress.insideFrame(frame, world_.clock.frameTimeDone / duration);
-                if (takeSaveRequest()) tellHowFar(frame, most);
-                return stopRequested();
-            };
-            const FrameReport report = stepper.advanceFrame(world_, duration, askStop);
-            if (!report.finished) return false;
-            refuseBroken(report, shot_.firstFrame + frame);
-            past.push_back(world_.motion);
-            if (past.size() > window + 1) past.pop_front();
-            unrest_ = unrestSince(past.front(), report.births);
-            unrest_.isTooEarly = unrest_.isTooEarly || past.size() <= window;
+            FrameReport report;
+            if (!advance(stepper, progress, frame, report)) return false;
+            past_.push_back(world_.motion);
+            if (past_.size() > window + 1) past_.pop_front();
+            unrest_ = unrestSince(past_.front(), report.births);
+            unrest_.isTooEarly = unrest_.isTooEarly || past_.size() <= window;
             if (unrest_.isNone()) {
                 console_.info("at rest after " + std::to_string(frame) + " frames");
                 return true;
@@ -162,17 +213,37 @@ private:
             progress.frameDone(frame, watch.seconds(),
                                {report.bodiesAwake, report.sum.contactPairs});
             // A frame of one step has no place between steps to be asked at.
-            if (takeSaveRequest()) tellHowFar(frame, most);
-            if (stopRequested()) return false;
+            const bool isAsked = takeSaveRequest(), isStopped = stopRequested() && frame < most;
+            if (isAsked || isStopped || sinceSave_.seconds() > kBetweenSaves) save();
+            if (isAsked) tellSaved();
+            if (isStopped) return false;
         }
         return true;
     }
 
-    /// In place of saving: a pose that is not at rest would be taken for one that is.
-    void tellHowFar(int frame, int most)
+    /// Ends the frame; false when it was stopped within it.
+    bool advance(Stepper& stepper, Progress& progress, int frame, FrameReport& report)
     {
-        console_.answer("scree: in frame " + std::to_string(frame) + " of at most " +
-                        std::to_string(most) + "; settle writes its pose at the end only");
+        const double duration = 1.0 / shot_.framesPerSecond;
+        bool isToSave = false;
+        const auto askStop = [&] {
+            progress.insideFrame(frame, world_.clock.frameTimeDone / duration);
+            isToSave = takeSaveRequest();
+            return isToSave || stopRequested();
+        };
+        do {
+            report = stepper.advanceFrame(world_, duration, askStop);
+            refuseBroken(report, shot_.firstFrame + frame);
+            if (!report.finished) save();
+            if (isToSave && !report.finished) tellSaved();
+        } while (!report.finished && !stopRequested());
+        return report.finished;
+    }
+
+    void tellSaved()
+    {
+        console_.answer("scree: saved in frame " + std::to_string(world_.clock.frame + 1) +
+                        " after the start, sub-step " + std::to_string(world_.clock.subStep));
     }
 
     Unrest unrestSince(const std::vector<BodyMotion>& before, const BirthReport& births) const
@@ -255,6 +326,10 @@ private:
     ProgressMode progressMode_;
     Shot shot_;
     World world_;
+    std::filesystem::path checkpoint_;
+    std::uint64_t startHash_ = 0;               // of the state the run began in
+    std::deque<std::vector<BodyMotion>> past_;  // at the ends of the last frames
+    Stopwatch sinceSave_;
     double endOfEvents_ = 0.0;  // [s]
     Unrest unrest_;             // after the last frame
 };
@@ -285,10 +360,15 @@ Command addSettleCommand(CLI::App& program)
     command->add_option("--threads", options->threads, "Number of threads [all]");
     addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
-    command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
+    addProgress(*command, options->progress);
+    command->add_flag(
+        "--resume", options->resume,
+        "Go on with a run that was stopped, to the same bits; begin when there is none");
     command->footer(
         "Ends with 79 when something still moves at the end; the pose is written all the same.\n"
-        "Stopped before, it ends with 75, writes nothing and begins anew when it is run again.\n"
+        "Stopped by SIGINT or SIGTERM it ends with 75; --resume goes on to the same pose, from the "
+        "state\nit has kept in OUTPUT.checkpoint, which it also keeps every five minutes and at "
+        "SIGUSR1.\n"
         "A .poses file is what [[body]] poses = \"rings.poses\" reads; there is one for each "
         "[[body]] and [[emitter]] that moves, out_NAME.poses where they are several.\n"
         "Example:\n  scree settle shots/rings_100.toml -o rings.poses");

@@ -1,0 +1,105 @@
+// A line that says what it is; the hash of the start; how many moments there are of how many
+// bodies, and 13 numbers for each body of each; how long the state is as a frame file, and that;
+// the hash of all before it.
+#include "tools/settle_checkpoint.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "io/byte_cursor.h"
+#include "io/byte_order.h"
+#include "io/file_bytes.h"
+
+namespace scree {
+namespace {
+
+constexpr std::string_view kTitle = "scree settle 1\n";
+
+/// Position, orientation (x y z w), velocity, angular momentum.
+using Record = std::array<double, 13>;
+
+Record recordOf(const BodyMotion& motion)
+{
+    Record record;
+    double* end = std::copy_n(motion.position.data(), 3, record.data());
+    end = std::copy_n(motion.orientation.coeffs().data(), 4, end);
+    end = std::copy_n(motion.velocity.data(), 3, end);
+    std::copy_n(motion.angularMomentum.data(), 3, end);
+    return record;
+}
+
+BodyMotion motionOf(const Record& record)
+{
+    BodyMotion motion;
+    motion.position = Eigen::Map<const Vec3>(record.data());
+    motion.orientation.coeffs() = Eigen::Map<const Eigen::Vector4d>(&record[3]);
+    motion.velocity = Eigen::Map<const Vec3>(&record[7]);
+    motion.angularMomentum = Eigen::Map<const Vec3>(&record[10]);
+    return motion;
+}
+
+}  // namespace
+
+std::filesystem::path checkpointBeside(const std::filesystem::path& output)
+{
+    return output.string() + ".checkpoint";
+}
+
+void writeCheckpoint(const std::filesystem::path& path, std::uint64_t startHash,
+                     const SettleCheckpoint& checkpoint)
+{
+    std::string bytes(kTitle);
+    appendBytes(bytes, startHash);
+    appendBytes(bytes, static_cast<std::uint64_t>(checkpoint.past.size()));
+    appendBytes(bytes, static_cast<std::uint64_t>(checkpoint.state.motion.size()));
+    for (const std::vector<BodyMotion>& moment : checkpoint.past)
+        for (const BodyMotion& motion : moment) bytes += bytesOf(recordOf(motion));
+    const std::string state = encodeFrame(checkpoint.state);
+    appendBytes(bytes, static_cast<std::uint64_t>(state.size()));
+    bytes += state;
+    appendBytes(bytes, hashText(bytes));
+    writeFileBytes(path, bytes);
+}
+
+std::optional<SettleCheckpoint> readCheckpoint(const std::filesystem::path& path,
+                                               std::uint64_t startHash)
+{
+    if (!isThere(path)) return {};
+    const std::string bytes = readFileBytes(path);
+    const auto refuse = [&] {
+        throw Error(ErrorKind::inputOutput, {path.string(), 0, 0},
+                    "is damaged, or no checkpoint of scree settle; without --resume the run begins "
+                    "anew");
+    };
+    const std::size_t hashBytes = sizeof(std::uint64_t);
+    if (bytes.size() < kTitle.size() + hashBytes || !bytes.starts_with(kTitle) ||
+        readBytes<std::uint64_t>(bytes, bytes.size() - hashBytes) !=
+            hashText(std::string_view(bytes).substr(0, bytes.size() - hashBytes)))
+        refuse();
+    ByteCursor cursor(std::string_view(bytes).substr(0, bytes.size() - hashBytes), refuse);
+    cursor.takeText(kTitle.size());
+    if (cursor.take<std::uint64_t>() != startHash)
+        throw Error(ErrorKind::badInput,
+                    "\"" + path.string() +
+                        "\" is of another shot, or an asset or the program has changed since; "
+                        "without --resume the run begins anew");
+    const auto moments = cursor.take<std::uint64_t>(), bodies = cursor.take<std::uint64_t>();
+    SettleCheckpoint checkpoint;
+    for (std::uint64_t i = 0; i < moments; ++i) {
+        cursor.require(bodies, sizeof(Record));
+        std::vector<Record> records(bodies);
+        cursor.takeInto(std::span(records));
+        std::vector<BodyMotion>& moment = checkpoint.past.emplace_back();
+        for (const Record& record : records) moment.push_back(motionOf(record));
+    }
+    const auto stateBytes = cursor.take<std::uint64_t>();
+    checkpoint.state = decodeFrame(cursor.takeText(stateBytes), path);
+    if (checkpoint.state.motion.size() != bodies) refuse();
+    return checkpoint;
+}
+
+}  // namespace scree
