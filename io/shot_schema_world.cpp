@@ -99,8 +99,9 @@ const std::vector<ShotKey> kBodyKeys = {
      .type = numbers,
      .unit = "shot's unit of length",
      .isRequired = true,
-     .help = "From copy to copy along x, y and z. Less than the size of the body and they start "
-             "inside each other."},
+     .help = "From copy to copy along x, y and z, to both sides of the position: of three copies "
+             "the middle one stands on it, of two none does. Less than the size of the body and "
+             "they start inside each other."},
     {.path = "body.poses",
      .type = text,
      .isFile = true,
@@ -190,7 +191,11 @@ const std::vector<ShotKey> kBodyKeys = {
      .unit = "frame",
      .min = -1000000000,
      .max = 1000000000,
-     .help = "Frame at which a keyed body becomes dynamic, with the velocity it has just then."},
+     .help =
+         "Frame at which a keyed body becomes dynamic, with the velocity it has just then: that is "
+         "none at or after the last key of smooth motion, which ends at rest there, and of "
+         "linear motion at the last key that of its last stretch, after it none. What is thrown "
+         "has a key after its release, or linear motion."},
     {.path = "body.keyed_from",
      .type = integer,
      .unit = "frame",
@@ -499,7 +504,8 @@ const std::vector<ShotKey> kEmitterKeys = {
     {.path = "emitter.layout.grid",
      .type = table,
      .isRequired = true,
-     .help = "Places in rows, x running fastest, then y, then z."},
+     .help = "Places in rows about layout.position, which is the middle of the block, x running "
+             "fastest, then y, then z."},
     {.path = "emitter.layout.grid.count",
      .type = integers,
      .min = 1,

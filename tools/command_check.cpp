@@ -13,9 +13,11 @@
 #include "io/build_world.h"
 #include "io/shape_cache.h"
 #include "io/shot_parser.h"
+#include "tools/birth_forecast.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/parts_progress.h"
 #include "tools/repair_report.h"
 #include "tools/rolling_advice.h"
 #include "tools/run_estimate.h"
@@ -28,11 +30,11 @@ namespace scree {
 namespace {
 
 constexpr double kMostEstimateSeconds = 20.0;
-constexpr std::size_t kMostOverlapsPrinted = 20;
 constexpr std::size_t kMostShapesPrinted = 24;
+constexpr int kParts = 5;  ///< the world, its shapes, overlaps, warnings, the estimate
 
 struct CheckOptions {
-    std::string shot;
+    std::string shot, progress = "auto";
     bool resolved = false, json = false, noCache = false, allShapes = false;
     int estimateFrames = 3;
     std::optional<int> threads;
@@ -75,7 +77,8 @@ std::map<std::string, ShapeUse> collectUses(const World& world)
     return uses;
 }
 
-ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
+ShotReport examine(const Shot& shot, const World& world, int estimateFrames,
+                   PartsProgress& progress)
 {
     ShotReport report;
     report.bodies = world.bodyCount();
@@ -84,10 +87,16 @@ ShotReport examine(const Shot& shot, const World& world, int estimateFrames)
     }
     report.shapes = collectUses(world);
     report.repairs = repairsOf(world);
+    progress.partDone();
     report.notes = rollingAdvice(shot, world);
+    for (const std::string& note : notesBeforeStart(shot)) report.notes.push_back(note);
     report.overlaps = findStartOverlaps(world, shot.penetrationWarn);
+    progress.partDone();
     report.warnings = warningsBeforeStart(shot, world);
+    for (const std::string& late : foretellBirths(shot, world)) report.warnings.push_back(late);
+    progress.partDone();
     report.estimate = estimateRun(shot, world, estimateFrames, kMostEstimateSeconds, stopRequested);
+    progress.partDone();
     return report;
 }
 
@@ -211,16 +220,7 @@ void printText(const Shot& shot, const World& world, const ShotReport& report,
         printShapesTogether(report.shapes);
     }
     printList("repaired", report.repairs);
-    std::vector<std::string> overlaps;
-    for (const StartOverlap& overlap : report.overlaps) {
-        if (overlaps.size() == kMostOverlapsPrinted) {
-            overlaps.push_back("and " + std::to_string(report.overlaps.size() - overlaps.size()) +
-                               " more");
-            break;
-        }
-        overlaps.push_back(describe(overlap, world));
-    }
-    printList("overlaps at the start", overlaps);
+    printList("overlaps at the start", describeWorst(report.overlaps, world));
     printList("notes", report.notes);
     printList("warnings", report.warnings);
     const RunEstimate& estimate = report.estimate;
@@ -323,6 +323,7 @@ void printJson(const Shot& shot, const World& world, const ShotReport& report)
 
 int checkShot(const CheckOptions& options, Console& console)
 {
+    const ProgressMode progressMode = parseProgressMode(options.progress);
     const Shot shot = parseShot(options.shot, options.overrides, options.importLimits);
     if (options.resolved) {
         std::printf("%s", shot.resolvedText.c_str());
@@ -330,8 +331,10 @@ int checkShot(const CheckOptions& options, Console& console)
     }
     setThreadCount(threadsToUse(options.threads));
     ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
+    PartsProgress progress(console, progressMode, kParts);
     const World world = buildStoppably(shot, cache, console);
-    const ShotReport report = examine(shot, world, options.estimateFrames);
+    progress.partDone();
+    const ShotReport report = examine(shot, world, options.estimateFrames, progress);
     heedEarlySignals(console);
     if (options.json)
         printJson(shot, world, report);
@@ -369,6 +372,7 @@ Command addCheckCommand(CLI::App& program)
     command->add_option("--threads", options->threads, "Number of threads [all]");
     addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
+    addProgress(*command, options->progress);
     command->footer(
         "Ends with 65 when sim would refuse the shot, also for bodies that overlap where it "
         "begins.\n"

@@ -43,7 +43,7 @@ Command addExportCommand(CLI::App& program)
             "out.####.obj, out.####.ply or out.####.pov")
         ->required();
     command->add_option("--frames", options->frames, "Only these, without gaps: 1001-1240");
-    command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
+    addProgress(*command, options->progress);
     command->footer(std::string(kMissingFramesHelp) +
                     "Example:\n  scree export takes/rings_100 -o rings.abc");
     return {command, [options](Console& console) { return runExport(*options, console); }};

@@ -21,6 +21,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/parts_progress.h"
 #include "tools/picture_file.h"
 #include "tools/shell_line.h"
 #include "tools/stop_signals.h"
@@ -37,7 +38,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kLookAtChild{20};
 
 struct MovieOptions {
-    std::string input, output;
+    std::string input, output, progress = "auto";
     double framesPerSecond = 0.0;
 };
 
@@ -138,13 +139,6 @@ void requireWholePictures(const PictureSequence& sequence)
     });
 }
 
-std::string format(const char* pattern, double value)
-{
-    char text[64];
-    std::snprintf(text, sizeof text, pattern, value);
-    return text;
-}
-
 /// What ffmpeg takes for a file whatever letters it has: "a:b.png" is one of a protocol called a,
 /// and "-a.mp4" an option.
 std::string plainFile(const std::string& path)
@@ -176,7 +170,7 @@ std::vector<std::string> listedInput(const PictureSequence& sequence)
             return {};
     }
     return {"-f",         "png_pipe",
-            "-framerate", format("%.10g", sequence.framesPerSecond / spacingOf(sequence)),
+            "-framerate", formatted("%.10g", sequence.framesPerSecond / spacingOf(sequence)),
             "-i",         list};
 }
 
@@ -189,7 +183,7 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
     const SplitPattern split = splitFramePattern(sequence.pattern.string());
     if (spacing == 1 && sequence.frames.front() >= 0) {
         return {"-framerate",
-                format("%.10g", sequence.framesPerSecond),
+                formatted("%.10g", sequence.framesPerSecond),
                 "-start_number",
                 std::to_string(sequence.frames.front()),
                 "-i",
@@ -210,7 +204,7 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
     const char* special = "*?[]\\{}";
     const std::string number(length - split.head.size() - split.tail.size(), '?');
     return {"-framerate",
-            format("%.10g", sequence.framesPerSecond / spacing),
+            formatted("%.10g", sequence.framesPerSecond / spacing),
             "-pattern_type",
             "glob",
             "-i",
@@ -222,16 +216,16 @@ std::vector<std::string> inputArguments(const PictureSequence& sequence)
 struct Container {
     const char *ending, *muxer;
 };
-constexpr Container kContainers[] = {{".mp4", "mp4"}, {".m4v", "mp4"}, {".mov", "mov"}};
+constexpr Container kContainers[] = {{"mp4", "mp4"}, {"m4v", "mp4"}, {"mov", "mov"}};
 
 /// ffmpeg's name of the container that the ending asks for.
 std::string muxerOf(const std::string& name)
 {
-    const std::string ending = inSmallLetters(fs::path(name).extension().string());
+    const std::string ending = endingOf(name);
     std::string known;
     for (const Container& container : kContainers) {
         if (ending == container.ending) return container.muxer;
-        known += (known.empty() ? "" : ", ") + std::string(container.ending);
+        known += (known.empty() ? "." : ", .") + std::string(container.ending);
     }
     throw Error(
         ErrorKind::usage,
@@ -299,6 +293,7 @@ void runProgram(const std::vector<std::string>& command)
 
 int runMovie(const MovieOptions& options, Console& console)
 {
+    const ProgressMode mode = parseProgressMode(options.progress);
     const std::string muxer = muxerOf(options.output);
     const PictureSequence sequence = findPictures(options);
     const TakeFrames chosen = tellMissingPictures(options, sequence, console);
@@ -308,7 +303,10 @@ int runMovie(const MovieOptions& options, Console& console)
     const fs::path output = AtomicFile{named}.target();
     console.info(shellLine(makeCommand(sequence, muxer, named.string())));
 
+    // ffmpeg does not tell how far it is.
+    PartsProgress progress(console, mode, 2);
     requireWholePictures(sequence);
+    progress.partDone();
 
     // Under another name first, such as AtomicFile gives: an interrupted ffmpeg leaves half a film.
     const fs::path temporary = output.parent_path() / ("." + output.filename().string() + "." +
@@ -325,6 +323,7 @@ int runMovie(const MovieOptions& options, Console& console)
         fs::remove(temporary, code);
         throw;
     }
+    progress.partDone();
     std::printf("%s\n", named.c_str());
     return finishTakeFrames(chosen, named.string(), console);
 }
@@ -345,6 +344,7 @@ Command addMovieCommand(CLI::App& program)
     command->add_option("--fps", options->framesPerSecond, "Frames per second [of the shot, or 24]")
         ->check(complaintIfNotFinite)
         ->check(CLI::Range(0.01, 10000.0));
+    addProgress(*command, options->progress);
     command->footer(
         "Of a take whose pictures end before its shot it makes what it can and ends with 66; a "
         "pattern "

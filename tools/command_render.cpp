@@ -263,7 +263,7 @@ Command addRenderCommand(CLI::App& program)
         ->excludes(burnIn);
     command->add_flag("--slate", options->slate,
                       "A card that says what follows, one picture before the first");
-    command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
+    addProgress(*command, options->progress);
     command->footer(std::string(kMissingFramesHelp) +
                     "Example:\n  scree render takes/rings_100 --frames 1001-1240x2 --size 640x360");
     return {command, [options](Console& console) { return RenderRun(*options, console).run(); }};

@@ -9,6 +9,7 @@
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/parts_progress.h"
 #include "tools/picture_file.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
@@ -24,14 +25,14 @@ constexpr int kUsualCount = 12;
 
 struct SheetOptions {
     std::vector<std::string> inputs;
-    std::string output, frames, camera;
+    std::string output, frames, camera, progress = "auto";
     std::optional<int> count;
     SheetLayout layout;
 };
 
 /// Draws the frames anew, in the size of the cells: quicker than reading large pictures.
 std::vector<LabelledImage> paintTake(const SheetOptions& options, const TakeReader& take,
-                                     const std::vector<int>& chosen)
+                                     const std::vector<int>& chosen, Console& console)
 {
     // Who names frames wants to see them all, if he does not say how many.
     const bool isSpread = options.frames.empty() || options.count;
@@ -40,17 +41,22 @@ std::vector<LabelledImage> paintTake(const SheetOptions& options, const TakeRead
     const std::array<int, 2> shotSize = take.info().pictureSize;
     const int width = options.layout.cellWidth;
     const int height = std::max(1, width * shotSize[1] / shotSize[0]);
+    PartsProgress progress(console, parseProgressMode(options.progress),
+                           static_cast<int>(frames.size()));
     TakePainter painter(take, options.camera, {width, height});
     std::vector<LabelledImage> pictures;
     for (const int frame : frames) {
         if (stopRequested()) break;
         pictures.push_back({painter.paint(frame), std::to_string(frame)});
+        progress.partDone();
     }
     return pictures;
 }
 
-std::vector<LabelledImage> readPictures(const SheetOptions& options)
+std::vector<LabelledImage> readPictures(const SheetOptions& options, Console& console)
 {
+    PartsProgress progress(console, parseProgressMode(options.progress),
+                           static_cast<int>(options.inputs.size()));
     std::vector<LabelledImage> pictures;
     for (const std::string& path : options.inputs) {
         if (stopRequested()) break;
@@ -63,6 +69,7 @@ std::vector<LabelledImage> readPictures(const SheetOptions& options)
         const int width = std::min(image.width, options.layout.cellWidth);
         const int height = std::max(1, image.height * width / image.width);
         pictures.push_back({downscaled(image, width, height), fs::path(path).stem().string()});
+        progress.partDone();
     }
     return pictures;
 }
@@ -79,6 +86,7 @@ void writeSheet(const SheetOptions& options, const std::vector<LabelledImage>& p
 int runSheet(const SheetOptions& options, Console& console)
 {
     setThreadCount(threadsToUse(std::nullopt));
+    parseProgressMode(options.progress);  // what is no such word is told first
     requirePngName(options.output);
     std::error_code ignored;
     const bool isTake = options.inputs.size() == 1 && fs::is_directory(options.inputs[0], ignored);
@@ -87,14 +95,14 @@ int runSheet(const SheetOptions& options, Console& console)
     if (!isTake && areThere && !(options.frames.empty() && options.camera.empty()))
         throw Error(ErrorKind::usage, "--frames and --camera belong to a take, not to pictures");
     if (!isTake) {
-        writeSheet(options, readPictures(options), console);
+        writeSheet(options, readPictures(options, console), console);
         return kExitDone;
     }
     const TakeReader take(options.inputs[0]);
     const TakeFrames chosen = chooseTakeFrames(options.frames, take, console);
     if (chosen.frames.empty())
         throw Error(ErrorKind::missingInput, "\"" + options.inputs[0] + "\" has no frames to draw");
-    writeSheet(options, paintTake(options, take, chosen.frames), console);
+    writeSheet(options, paintTake(options, take, chosen.frames, console), console);
     return finishTakeFrames(chosen, options.output, console);
 }
 
@@ -119,6 +127,7 @@ Command addSheetCommand(CLI::App& program)
     command->add_option("--width", options->layout.cellWidth, "Of one picture, in pixels [400]")
         ->check(CLI::Range(16, 4096));
     command->add_option("--camera", options->camera, "Name of a camera of the shot [the first]");
+    addProgress(*command, options->progress);
     command->footer(std::string(kMissingFramesHelp) +
                     "Example:\n  scree sheet takes/rings_100 -o rings.png");
     return {command, [options](Console& console) { return runSheet(*options, console); }};

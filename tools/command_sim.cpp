@@ -25,6 +25,7 @@
 #include "tools/commands.h"
 #include "tools/cpu_time.h"
 #include "tools/exit_code.h"
+#include "tools/overlap_watch.h"
 #include "tools/progress.h"
 #include "tools/repair_report.h"
 #include "tools/shell_line.h"
@@ -39,9 +40,6 @@
 namespace scree {
 namespace {
 
-/// Worst frames named when a limit was broken.
-constexpr std::size_t kNamedFrames = 5;
-
 /// The command that goes on with the take. It repeats all that decides what the take becomes: given
 /// other settings, --resume would refuse.
 std::string commandToGoOn(const SimOptions& options, const std::string& folder)
@@ -52,10 +50,9 @@ std::string commandToGoOn(const SimOptions& options, const std::string& folder)
     };
     if (!options.frames.empty()) add("--frames", options.frames);
     if (!options.from.empty()) add("--from", options.from);
-    for (const std::string& text : options.overrides) add("--set", text);
-    for (const auto& [flag, value] : changedLimits(options.importLimits)) add(flag, value);
-    if (options.threads) add("--threads", std::to_string(*options.threads));
-    if (options.noCache) words.push_back("--no-cache");
+    for (const std::string& word :
+         wordsOfRun(options.overrides, options.importLimits, options.threads, options.noCache))
+        words.push_back(word);
     words.push_back("--resume");
     return shellLine(words);
 }
@@ -75,11 +72,13 @@ public:
         ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
         world_ = buildStoppably(shot_, cache, console);
         for (const std::string& repair : repairsOf(world_)) console.info(repair);
+        for (const std::string& note : notesBeforeStart(shot_)) console.info(note);
         applyStartRule(shot_, world_, console);
         for (const std::string& warning : warningsBeforeStart(shot_, world_)) {
             console.warning(warning);
         }
         subframes_.emplace(shot_, world_);
+        overlaps_.emplace(shot_, world_, console);
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
                                       : options.resume  ? ExistingTake::resume
                                                         : ExistingTake::refuse;
@@ -108,7 +107,7 @@ public:
             return kExitStopped;
         }
         if (options_.printsTake) std::printf("%s\n", folder.c_str());
-        return judgeOverlap() ? kExitDone : kExitQuality;
+        return overlaps_->judge(take_->summaries(), lastFrame_) ? kExitDone : kExitQuality;
     }
 
 private:
@@ -159,7 +158,7 @@ private:
             writeInitialFrame();
             progress.frameDone(shot_.firstFrame, 0.0, {}, 0.0);  // nothing to time yet
         } else {
-            untold_ = readFrameFile(take_->paths().frame(shot_.firstFrame)).untold;
+            overlaps_->goOnLookingAt(readFrameFile(take_->paths().frame(shot_.firstFrame)).untold);
         }
         for (int frame = shot_.firstFrame + 1; frame <= lastFrame_ && !isStopped_; ++frame)
             if (!take_->hasFrame(frame)) simulateFrame(frame, stepper, progress);
@@ -172,9 +171,9 @@ private:
         FrameStats stats;
         stats.frame = shot_.firstFrame;
         stats.report = reportStart(world_, shot_.settings.gravity);
-        lookAtPoses(shot_.firstFrame, stats.report);
+        overlaps_->lookAtPoses(shot_.firstFrame, stats.report);
         stats.report.sum.deepestBeforePushOut = stats.report.sum.deepestAfterPushOut;
-        take_->writeFrame(world_, stats, {}, {}, untold_);
+        take_->writeFrame(world_, stats, {}, {}, overlaps_->untold());
     }
 
     void simulateFrame(int frame, Stepper& stepper, Progress& progress)
@@ -212,10 +211,10 @@ private:
             stoppedIn_ = frame;
             return;
         }
-        lookAtPoses(frame, stats.report);
-        take_->writeFrame(world_, stats, subframes_->samples(), lastStep(), untold_);
+        overlaps_->lookAtPoses(frame, stats.report);
+        take_->writeFrame(world_, stats, subframes_->samples(), lastStep(), overlaps_->untold());
         subframes_->begin(world_, {});
-        warnOfOverlap(frame, stats.report);
+        overlaps_->warn(frame, stats.report);
         warnOfCap(frame, stats.report);
         if (frame == shot_.lastFrame) warnOfUnborn();
         progress.frameDone(frame, stats.wallSeconds,
@@ -240,13 +239,13 @@ private:
         const std::optional<FrameState> left = take_->prepareFor(frame, world_);
         subframes_->begin(world_, left ? left->between : std::vector<SceneFrame>());
         if (!left) return {};
-        untold_ = left->untold;
+        overlaps_->goOnLookingAt(left->untold);
         return left->soFar;
     }
 
     void save(const FrameReport& soFar)
     {
-        take_->writeCheckpoint(world_, subframes_->samples(), soFar, untold_);
+        take_->writeCheckpoint(world_, subframes_->samples(), soFar, overlaps_->untold());
     }
 
     void tellSaved(int frame)
@@ -280,87 +279,12 @@ private:
                          std::to_string(waiting) + " still waited at the last frame)");
     }
 
-    /// A step knows overlaps by the contacts it found, and is silent about what it did not find. So
-    /// every two seconds of the shot, and in its last frame, the poses are looked at afresh: the
-    /// points of every body in the field of every other. What is found there is looked at in every
-    /// frame from then on, until it is out; frames keep which pairs these are, so that a run that
-    /// was interrupted goes on looking.
-    void lookAtPoses(int frame, FrameReport& report)
-    {
-        const int every = std::max(1, static_cast<int>(std::lround(2.0 * shot_.framesPerSecond)));
-        const bool isLook = (frame - shot_.firstFrame) % every == 0 || frame == shot_.lastFrame;
-        const std::vector<StartOverlap> overlaps =
-            isLook ? findStartOverlaps(world_, report.sum.worstOverlapRatio) : stillOverlapping();
-        untold_.clear();
-        for (const StartOverlap& overlap : overlaps) {
-            untold_.push_back({overlap.a, overlap.b});
-            report.sum.deepestAfterPushOut =
-                std::max(report.sum.deepestAfterPushOut, overlap.depth);
-            // Of the first frame start.overlap has told.
-            if (overlap.isThroughWall && frame > shot_.firstFrame) warnOfWall(frame, overlap);
-        }
-        if (overlaps.empty() || overlaps.front().ratio <= report.sum.worstOverlapRatio) return;
-        report.sum.worstOverlapRatio = overlaps.front().ratio;
-        report.sum.worstA = overlaps.front().a;
-        report.sum.worstB = overlaps.front().b;
-    }
-
-    /// Those of the untold that overlap now, the worst ratio first.
-    std::vector<StartOverlap> stillOverlapping()
-    {
-        if (untold_.empty()) return {};
-        if (!measure_) measure_.emplace(world_);
-        std::vector<StartOverlap> still;
-        for (const BodyPair& bodies : untold_) {
-            if (const auto now = (*measure_)(bodies, placePair(world_, bodies), 0.0))
-                still.push_back(*now);
-        }
-        std::ranges::stable_sort(still, std::ranges::greater{}, &StartOverlap::ratio);
-        return still;
-    }
-
-    /// Every breach is in stats.jsonl; here each grade is told once when it happens, so that a
-    /// night's log stays short.
-    /// What goes on for many frames is a warning in the first alone.
-    void warnOnce(bool& wasTold, const std::string& text)
-    {
-        if (wasTold)
-            console_.detail(text);
-        else
-            console_.warning(text);
-        wasTold = true;
-    }
-
-    void warnOfOverlap(int frame, const FrameReport& report)
-    {
-        const double ratio = report.sum.worstOverlapRatio;
-        if (ratio <= shot_.penetrationWarn) return;
-        const bool isFailure = ratio > shot_.penetrationFail;
-        const auto bodyName = [&](BodyId body) {
-            return body >= 0 ? world_.info[body].name : std::string("?");
-        };
-        const std::string text =
-            "frame " + std::to_string(frame) + ": " + bodyName(report.sum.worstA) + " and " +
-            bodyName(report.sum.worstB) + " overlap by " + percent(ratio) +
-            " of the smaller one's length, " +
-            (isFailure ? "beyond penetration.fail; the run goes on" : "beyond penetration.warn");
-        warnOnce(isFailure ? toldFailure_ : toldWarning_, text);
-    }
-
-    /// What has come there seldom comes out again.
-    void warnOfWall(int frame, const StartOverlap& overlap)
-    {
-        const std::string text =
-            "frame " + std::to_string(frame) + ": " + describe(overlap, world_);
-        warnOnce(toldWall_, text);
-    }
-
     void warnOfCap(int frame, const FrameReport& report)
     {
         if (!report.substepCapReached) return;
         const std::string text = "frame " + std::to_string(frame) +
                                  ": solver.substeps.max is reached; fast thin bodies may tunnel";
-        warnOnce(toldCap_, text);
+        warnOnce(console_, toldCap_, text);
     }
 
     /// Caches the shot asks for, made once the take is complete. False when stopped on the way.
@@ -395,41 +319,6 @@ private:
         return true;
     }
 
-    /// Looks over the whole take, earlier sittings included. False when a frame broke the limit;
-    /// how the first one overlaps is for start.overlap to judge.
-    bool judgeOverlap()
-    {
-        const std::string failed = framesBeyond("penetration.fail", shot_.penetrationFail, 1);
-        // The first has been told.
-        const std::string warned = framesBeyond("penetration.warn", shot_.penetrationWarn, 2);
-        if (failed.empty() && !warned.empty()) console_.warning(warned);
-        if (!failed.empty()) console_.error(failed);
-        return failed.empty();
-    }
-
-    /// What to say of frames that overlap by more than a limit, the worst first; empty: fewer than
-    /// `least` do.
-    std::string framesBeyond(const std::string& name, double limit, std::size_t least)
-    {
-        std::vector<FrameSummary> broken;
-        for (const FrameSummary& frame : take_->summaries())
-            if (frame.frame > shot_.firstFrame && frame.frame <= lastFrame_ &&
-                frame.overlapRatio > limit)
-                broken.push_back(frame);
-        if (broken.size() < least) return "";
-        std::stable_sort(broken.begin(), broken.end(), [](const auto& a, const auto& b) {
-            return a.overlapRatio > b.overlapRatio;
-        });
-        std::string text = std::to_string(broken.size()) +
-                           (broken.size() == 1 ? " frame overlaps" : " frames overlap") +
-                           " by more than " + name + " = " + percent(limit) + "; worst:";
-        for (std::size_t i = 0; i < std::min(broken.size(), kNamedFrames); ++i)
-            text += (i == 0 ? " " : "; ") + std::to_string(broken[i].frame) + " (" +
-                    broken[i].worstA + ", " + broken[i].worstB + ": " +
-                    percent(broken[i].overlapRatio) + ")";
-        return text;
-    }
-
     const SimOptions& options_;
     Console& console_;
     ProgressMode progressMode_;
@@ -438,12 +327,11 @@ private:
     std::optional<TakeWriter> take_;
     std::optional<SubframeRecorder> subframes_;
     LastStep lastStep_;
-    std::vector<BodyPair> untold_;           // found by the last look at poses, and not out since
-    std::optional<OverlapMeasure> measure_;  // of world_, once asked for
+    std::optional<OverlapWatch> overlaps_;
     int lastFrame_ = 0;
     bool isStopped_ = false;
     int stoppedIn_ = 0;
-    bool toldWarning_ = false, toldFailure_ = false, toldCap_ = false, toldWall_ = false;
+    bool toldCap_ = false;
 };
 
 }  // namespace
@@ -484,7 +372,7 @@ Command addSimCommand(CLI::App& program)
                         "so when there is nothing to resume");
     addNoCache(*command, options->noCache);
     addOverrides(*command, options->overrides);
-    command->add_option("--progress", options->progress, "auto, tty, alf, json or none");
+    addProgress(*command, options->progress);
     command->footer(
         "Stops cleanly on SIGINT and SIGTERM (exit code 75); SIGUSR1 saves and goes on.\n"
         "Example:\n  scree sim shots/rings_100.toml --set material.steel.friction=0.3 -o takes/b");

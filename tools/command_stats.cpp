@@ -7,6 +7,7 @@
 #include "render/png_writer.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
+#include "tools/parts_progress.h"
 #include "tools/stats_page.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
@@ -19,26 +20,31 @@ namespace {
 constexpr int kThumbnailWidth = 480;
 
 struct StatsOptions {
-    std::string take, output;
+    std::string take, output, progress = "auto";
     int pictures = 32;
 };
 
-std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count)
+std::vector<Thumbnail> paintThumbnails(const TakeReader& take, int count, Console& console,
+                                       ProgressMode mode)
 {
     const std::vector<int> frames = spreadFrames(take.frames(), count);
     const std::array<int, 2> shotSize = take.info().pictureSize;
     const int height = std::max(1, kThumbnailWidth * shotSize[1] / shotSize[0]);
+    PartsProgress progress(console, mode, static_cast<int>(frames.size()));
     TakePainter painter(take, "", {kThumbnailWidth, height});
     std::vector<Thumbnail> thumbnails(frames.size());
     parallelFor(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end && !stopRequested(); ++i)
+        for (std::size_t i = begin; i < end && !stopRequested(); ++i) {
             thumbnails[i] = {frames[i], encodePng(painter.paint(frames[i]))};
+            progress.partDone();
+        }
     });
     return thumbnails;
 }
 
 int runStats(const StatsOptions& options, Console& console)
 {
+    const ProgressMode progress = parseProgressMode(options.progress);
     requirePageName(options.output);
     setThreadCount(threadsToUse(std::nullopt));
     const TakeReader take(options.take);
@@ -48,7 +54,8 @@ int runStats(const StatsOptions& options, Console& console)
         options.output.empty() ? take.paths().statsPage() : std::filesystem::path(options.output);
     createFolderOf(output, console);
     const std::vector<Thumbnail> thumbnails =
-        options.pictures > 0 ? paintThumbnails(take, options.pictures) : std::vector<Thumbnail>();
+        options.pictures > 0 ? paintThumbnails(take, options.pictures, console, progress)
+                             : std::vector<Thumbnail>();
     heedStop("no page was written");
     writeFileBytes(output, makeStatsPage(take, thumbnails));
     std::printf("%s\n", output.c_str());
@@ -68,6 +75,7 @@ Command addStatsCommand(CLI::App& program)
     command
         ->add_option("--pictures", options->pictures, "Frames that are drawn, evenly spread [32]")
         ->check(CLI::Range(0, 1000));
+    addProgress(*command, options->progress);
     command->footer(
         "When frames of the shot are missing the page shows those that are there, and the exit "
         "code is 66.\nExample:\n  scree stats takes/rings_100 -o rings.html");

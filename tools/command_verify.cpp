@@ -4,11 +4,11 @@
 
 #include "core/base/parallel.h"
 #include "io/atomic_file.h"
-#include "io/take.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/cpu_time.h"
 #include "tools/exit_code.h"
+#include "tools/parts_progress.h"
 #include "tools/simulation.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
@@ -19,7 +19,7 @@ namespace {
 
 struct VerifyOptions {
     std::vector<std::string> ids;
-    std::string method = "both", report, shots, takes = "takes";
+    std::string method = "both", report, shots, takes = "takes", progress = "auto";
     bool full = false, judgeOnly = false, json = false, list = false;
     std::optional<int> threads;
 };
@@ -37,7 +37,7 @@ int listExperiments()
 /// judge.
 void simulateLargeShot(const std::filesystem::path& shot, const std::string& method,
                        const std::filesystem::path& take, const VerifyOptions& options,
-                       Console& console)
+                       const PartsProgress& progress, Console& console)
 {
     SimOptions sim;
     sim.shot = shot.string();
@@ -46,23 +46,20 @@ void simulateLargeShot(const std::filesystem::path& shot, const std::string& met
     sim.resume = true;
     sim.overrides = {"solver.method=" + method};
     sim.printsTake = false;
+    if (progress.isShown()) sim.progress = "none";  // each run's own would begin at 0 again
     simulate(sim, console);
 }
 
 int runVerify(const VerifyOptions& options, Console& console)
 {
     if (options.list) return listExperiments();
+    const ProgressMode mode = parseProgressMode(options.progress);
     verify::Context context;
     context.shots =
         options.shots.empty() ? verify::findShots() : std::filesystem::path(options.shots);
     context.form = options.full ? verify::Form::full : verify::Form::brief;
     context.wantsPictures = !options.report.empty();
     context.takes = options.takes;
-    if (options.full && !options.judgeOnly) {
-        context.simulate = [&](const auto& shot, const std::string& method, const auto& take) {
-            simulateLargeShot(shot, method, take, options, console);
-        };
-    }
     setThreadCount(threadsToUse(options.threads));
     if (!options.report.empty()) {  // now, not after hours
         requirePageName(options.report);
@@ -71,8 +68,15 @@ int runVerify(const VerifyOptions& options, Console& console)
     }
 
     const auto chosen = verify::chooseExperiments(options.ids);
+    const std::vector<std::string> methods = verify::methodsToRun(options.method);
+    PartsProgress progress(console, mode, static_cast<int>(chosen.size() * methods.size()));
+    if (options.full && !options.judgeOnly) {
+        context.simulate = [&](const auto& shot, const std::string& method, const auto& take) {
+            simulateLargeShot(shot, method, take, options, progress, console);
+        };
+    }
     std::vector<verify::Result> results;
-    for (const std::string& method : verify::methodsToRun(options.method)) {
+    for (const std::string& method : methods) {
         context.method = method;
         for (const verify::Experiment* experiment : chosen) {
             console.detail(std::string(experiment->id) + " " + experiment->title + ", " + method);
@@ -84,6 +88,7 @@ int runVerify(const VerifyOptions& options, Console& console)
             if (!options.json) std::printf("%s\n", verify::toText(result).c_str());
             std::fflush(stdout);
             results.push_back(std::move(result));
+            progress.partDone();
         }
     }
 
@@ -121,6 +126,7 @@ Command addVerifyCommand(CLI::App& program)
     command->add_flag("--judge-only", options->judgeOnly,
                       "Judge the large takes that are there, simulate none");
     command->add_option("--threads", options->threads, "Number of threads [all]");
+    addProgress(*command, options->progress);
     command->footer(
         "Exit code 0 when all musts pass, 79 when one fails or could not be run.\n"
         "Example:\n  scree verify E1 E5 -o report.html");

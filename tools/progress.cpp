@@ -57,18 +57,24 @@ ProgressMode parseProgressMode(const std::string& word)
                                       didYouMean(word, {"auto", "tty", "alf", "json", "none"}));
 }
 
+ProgressMode chosenMode(ProgressMode mode, const Console& console)
+{
+    if (mode == ProgressMode::tty && isDumb()) return ProgressMode::alf;
+    if (mode != ProgressMode::automatic) return mode;
+    if (console.isQuiet) return ProgressMode::none;
+    // Who reads the log as JSON could not read other lines.
+    if (console.format == LogFormat::json) return ProgressMode::json;
+    return ::isatty(STDERR_FILENO) && !isDumb() ? ProgressMode::tty : ProgressMode::alf;
+}
+
 Progress::Progress(Console& console, ProgressMode mode, const std::string& what, int frameCount,
                    int framesDone)
-    : console_(console), mode_(mode), what_(what), frameCount_(frameCount), framesDone_(framesDone)
+    : console_(console),
+      mode_(chosenMode(mode, console)),
+      what_(what),
+      frameCount_(frameCount),
+      framesDone_(framesDone)
 {
-    if (mode_ == ProgressMode::tty && isDumb()) mode_ = ProgressMode::alf;
-    if (mode_ != ProgressMode::automatic) return;
-    if (console_.isQuiet)
-        mode_ = ProgressMode::none;
-    else if (console_.format == LogFormat::json)
-        mode_ = ProgressMode::json;  // who reads the log as JSON could not read other lines
-    else
-        mode_ = ::isatty(STDERR_FILENO) && !isDumb() ? ProgressMode::tty : ProgressMode::alf;
 }
 
 Progress::~Progress()

@@ -18,6 +18,10 @@ enum class ProgressMode { automatic, tty, alf, json, none };
 /// "auto", "tty", "alf", "json" or "none"; throws Error{usage}.
 ProgressMode parseProgressMode(const std::string& word);
 
+/// What "automatic" comes to: a redrawn line on a terminal, lines for a farm elsewhere, JSON among
+/// messages in JSON, nothing where all is quiet. A dumb terminal gets lines whoever asks for what.
+ProgressMode chosenMode(ProgressMode mode, const Console& console);
+
 /// What is told of a frame besides its number; pictures have neither bodies nor contacts.
 struct ProgressFigures {
     int bodiesAwake = -1;

@@ -161,7 +161,51 @@ void warnOfGroundsUpsideDown(const Shot& shot, const World& world,
     }
 }
 
+bool isSame(const Pose& a, const Pose& b)
+{
+    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
+/// Whether keys move a body up to about the moment it is let go, and yet it is at rest then. Who
+/// holds a pose for longer wants it held.
+bool isThrowWithoutSpeed(const Shot& shot, const ShotBody& body)
+{
+    constexpr double kRounding = 1e-6;  // of a frame
+    if (!body.releaseFrame || body.keys.size() < 2) return false;
+    const MotionKey &last = body.keys.back(), &before = body.keys[body.keys.size() - 2];
+    if (isSame(last.pose, before.pose)) return false;
+    const double held =
+        *body.releaseFrame - shot.firstFrame - last.time * shot.framesPerSecond;  // [frames]
+    const bool endsAtRest = body.interpolation == KeyInterpolation::smooth;
+    return held > (endsAtRest ? -kRounding : kRounding) && held < 1.0 + kRounding;
+}
+
 }  // namespace
+
+std::vector<std::string> notesBeforeStart(const Shot& shot)
+{
+    // All bodies of an import stand at one place of the shot's file.
+    std::map<std::string, std::vector<const ShotBody*>> thrown;
+    for (const ShotBody& body : shot.bodies)
+        if (isThrowWithoutSpeed(shot, body)) thrown[toString(body.location)].push_back(&body);
+    std::vector<std::string> notes;
+    for (const auto& [place, bodies] : thrown) {
+        const ShotBody& body = *bodies.front();
+        const bool endsAtRest = body.interpolation == KeyInterpolation::smooth;
+        const std::string others =
+            bodies.size() > 1 ? " (and " + std::to_string(bodies.size() - 1) + " more)" : "";
+        notes.push_back(
+            place + ": '" + body.name + "'" + others + " is let go at frame " +
+            std::to_string(*body.releaseFrame) +
+            " at rest: " + (endsAtRest ? "smooth motion ends at rest" : "its motion ends") +
+            " at its last key, at frame " +
+            formatted("%g", shot.firstFrame + body.keys.back().time * shot.framesPerSecond) +
+            "; to throw it, " +
+            (endsAtRest ? "give it a key after its release, or interpolate = \"linear\""
+                        : "let it go at that key, or give it one after its release"));
+    }
+    return notes;
+}
 
 std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world)
 {

@@ -13,4 +13,8 @@ namespace scree {
 /// shot's files held that is lost. One sentence each.
 std::vector<std::string> warningsBeforeStart(const Shot& shot, const World& world);
 
+/// What may well be meant, and surprises whoever meant something else: keyed bodies that are let go
+/// at rest where their keys have only just ended. One sentence each, located.
+std::vector<std::string> notesBeforeStart(const Shot& shot);
+
 }  // namespace scree

@@ -6,22 +6,19 @@
 #include "core/base/error.h"
 #include "core/dynamics/gaps/start_separation.h"
 #include "io/text_forms.h"
+#include "tools/pressing_body.h"
 #include "tools/stop_signals.h"
 
 namespace scree {
 namespace {
 
-constexpr std::size_t kNamed = 10;
+/// In a shot that was scattered carelessly hundreds overlap in the same way.
+constexpr std::size_t kNamed = 5;
 
 std::string listOf(const std::vector<StartOverlap>& overlaps, const World& world)
 {
     std::string text;
-    for (std::size_t i = 0; i < std::min(overlaps.size(), kNamed); ++i) {
-        text += "\n  " + describe(overlaps[i], world);
-    }
-    if (overlaps.size() > kNamed) {
-        text += "\n  and " + std::to_string(overlaps.size() - kNamed) + " more";
-    }
+    for (const std::string& line : describeWorst(overlaps, world)) text += "\n  " + line;
     return text;
 }
 
@@ -69,7 +66,23 @@ std::string describe(const StartOverlap& overlap, const World& world)
 {
     return world.info[overlap.a].name + " and " + world.info[overlap.b].name +
            formatted(": %.3g m, ", overlap.depth) + percent(overlap.ratio) +
-           " of the smaller one's length" + (overlap.isThroughWall ? ", through a wall" : "");
+           " of the smaller one's length" + (overlap.isThroughWall ? ", through a wall" : "") +
+           describePresser(world, overlap.a, overlap.b);
+}
+
+std::vector<std::string> describeWorst(const std::vector<StartOverlap>& overlaps,
+                                       const World& world)
+{
+    std::vector<std::string> lines;
+    for (const StartOverlap& overlap : overlaps) {
+        if (lines.size() == kNamed) break;
+        lines.push_back(describe(overlap, world));
+    }
+    const std::size_t others = overlaps.size() - lines.size();
+    if (others == 0) return lines;
+    lines.push_back("and " + std::to_string(others) + " more, by " +
+                    percent(overlaps[kNamed].ratio) + " and less");
+    return lines;
 }
 
 void applyStartRule(const Shot& shot, World& world, Console& console)

@@ -10,8 +10,12 @@
 
 namespace scree {
 
-/// "cup and saucer: 3.1 mm, 4.2 % of the smaller one".
+/// "cup and saucer: 3.1 mm, 4.2 % of the smaller one"; where one of them has keys, its name too.
 std::string describe(const StartOverlap& overlap, const World& world);
+
+/// The first few, a line each, and in one more how many there are besides. The worst come first.
+std::vector<std::string> describeWorst(const std::vector<StartOverlap>& overlaps,
+                                       const World& world);
 
 /// Applies shot.startOverlap to the world at time zero. Throws Error{badInput} that names the pairs
 /// when they are an error or will not come apart.

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
+#include <thread>
+#include <vector>
+
+#include "tools/parts_progress.h"
 
 namespace scree {
 namespace {
@@ -106,6 +111,56 @@ TEST(Progress, ALogOfJsonHoldsNothingElse)
         LogFormat::json);
     EXPECT_EQ(lastJson(text)["progress"], 25) << text;
     EXPECT_EQ(text.find("ALF"), std::string::npos) << text;
+}
+
+/// The lines that are told on stderr of parts that `tell` does, one a moment silence being too
+/// long.
+template <class Tell>
+std::vector<std::string> partsTold(ProgressMode mode, Tell tell)
+{
+    testing::internal::CaptureStderr();
+    {
+        Console console;
+        PartsProgress progress(console, mode, 4, std::chrono::milliseconds(60));
+        tell(progress);
+    }
+    std::istringstream text(testing::internal::GetCapturedStderr());
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+}
+
+void wait(int milliseconds)
+{
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+// A farm took the silence of an experiment, or of ffmpeg, for a hang.
+TEST(PartsProgress, SaysTheSameAgainWhileAPartLasts)
+{
+    const std::vector<std::string> lines = partsTold(ProgressMode::alf, [](auto& progress) {
+        progress.partDone();
+        wait(400);
+        progress.partDone();
+    });
+    ASSERT_GE(lines.size(), 4u);
+    EXPECT_EQ(lines.front(), "ALF_PROGRESS 25%");
+    EXPECT_EQ(lines[lines.size() - 2], "ALF_PROGRESS 25%");
+    EXPECT_EQ(lines.back(), "ALF_PROGRESS 50%");
+}
+
+TEST(PartsProgress, UnaskedSaysNothingOfWhatIsSoonDone)
+{
+    const auto quick = [](auto& progress) { progress.partDone(); };
+    EXPECT_TRUE(partsTold(ProgressMode::automatic, quick).empty());
+    EXPECT_TRUE(partsTold(ProgressMode::none, quick).empty());
+    const auto slow = [](auto& progress) {
+        wait(200);
+        progress.partDone();
+    };
+    EXPECT_EQ(partsTold(ProgressMode::automatic, slow).front(), "ALF_PROGRESS 0%");
+    EXPECT_EQ(partsTold(ProgressMode::automatic, slow).back(), "ALF_PROGRESS 25%");
+    EXPECT_EQ(partsTold(ProgressMode::json, slow).back(), "{\"progress\":25}");
 }
 
 }  // namespace

@@ -92,6 +92,112 @@ TEST_F(ShotTools, OverlapsAtTheStartAreAnErrorAWarningOrPushedApart)
     EXPECT_TRUE(contains(apart.err, "pushed apart")) << apart.err;
 }
 
+// Dozens of lines told of as many crates that stand in each other in the same way.
+TEST_F(ShotTools, OfManyOverlapsTheWorstAreToldAndTheOthersCounted)
+{
+    writeFileBytes(
+        folder / "row.toml",
+        test::shotTextOf({.name = "row"}, test::bodyText("crate",
+                                                         "position = [0, 0.5, 0]\ngrid = { "
+                                                         "count = [40, 1, 1], spacing = [0.9, "
+                                                         "1, 1] }")));
+    for (const char* command : {"sim row.toml -o t", "check row.toml --estimate 0"}) {
+        const Outcome refused = run(command);
+        EXPECT_EQ(refused.code, 65);
+        const std::string text = refused.out + refused.err;
+        EXPECT_TRUE(contains(text, "39 pairs overlap")) << text;
+        EXPECT_TRUE(contains(text, "and 34 more, by 10 % and less")) << text;
+        EXPECT_FALSE(contains(refused.err, "crate_0007")) << text;
+        EXPECT_FALSE(contains(refused.out, "crate_0007")) << text;
+    }
+}
+
+// Who is pressed was named, who presses was not.
+TEST_F(ShotTools, AnOverlapNamesTheKeyedBodyThatPresses)
+{
+    const std::string lid =
+        "motion = \"keyed\"\nkeys = [{ frame = 1001, position = [0, 1.3, 0] }, { frame = 1012, "
+        "position = [0, 0.4, 0] }]\ninterpolate = \"linear\"\n";
+    writeFileBytes(
+        folder / "press.toml",
+        test::shotTextOf({.name = "press", .frames = "1001-1012", .box = "[0.4, 0.4, 0.4]"},
+                         test::bodyText("low", "position = [0, 0.2, 0]") +
+                             test::bodyText("high", "position = [0, 0.6, 0]") +
+                             test::bodyText("lid", lid)));
+    const Outcome pressed = run("sim press.toml -o t");
+    EXPECT_EQ(pressed.code, 79) << pressed.err;
+    EXPECT_TRUE(
+        contains(pressed.err, "; 'lid' has keys and gives way to nothing") ||
+        contains(pressed.err, "; 'lid', the only one with keys that moves there, presses on them"))
+        << pressed.err;
+    writeFileBytes(
+        folder / "inside.toml",
+        test::shotTextOf({.name = "inside"}, test::bodyText("low", "position = [0, 0.5, 0]") +
+                                                 test::bodyText("lid", lid)));
+    const Outcome inside = run("check inside.toml --estimate 0");
+    EXPECT_TRUE(contains(inside.err, "; 'lid' has keys and gives way to nothing")) << inside.err;
+}
+
+// A ball whose keys end where it is let go dropped to the ground, and nobody knew why.
+TEST_F(ShotTools, WhatIsLetGoAtRestWhereItsKeysEndIsNoted)
+{
+    const auto check = [&](const std::string& more) {
+        writeFileBytes(
+            folder / "throw.toml",
+            test::shotTextOf({.name = "throw"},
+                             test::bodyText("ball",
+                                            "motion = \"keyed\"\nkeys = [{ frame = 1001, position "
+                                            "= [0, 2, 0] }, { frame = 1004, position = [1, 2, 0] "
+                                            "}]\n" +
+                                                more)));
+        return run("check throw.toml --estimate 0").out;
+    };
+    EXPECT_TRUE(contains(check("release = 1004\n"),
+                         "throw.toml:16:1: 'ball' is let go at frame 1004 at rest: smooth motion "
+                         "ends at rest at its last key, at frame 1004; to throw it, give it a key "
+                         "after its release, or interpolate = \"linear\""))
+        << check("release = 1004\n");
+    EXPECT_TRUE(contains(check("release = 1005\ninterpolate = \"linear\"\n"),
+                         "at rest: its motion ends at its last key"));
+    for (const char* meant :
+         {"release = 1003\n", "release = 1004\ninterpolate = \"linear\"\n", "release = 1006\n", ""})
+        EXPECT_FALSE(contains(check(meant), "let go")) << meant;
+    check("release = 1004\n");
+    EXPECT_TRUE(contains(run("sim throw.toml -o t").err, "'ball' is let go at frame 1004 at rest"));
+}
+
+// That some never came was told at the end of the night.
+TEST_F(ShotTools, EmittersThatCannotEmitAllAreWarnedOfWithNumbers)
+{
+    const auto check = [&](const std::string& more, const std::string& frames = "1001-1025") {
+        writeFileBytes(
+            folder / "pour.toml",
+            test::shotTextOf({.name = "pour", .frames = frames, .box = "[0.4, 0.4, 0.4]"},
+                             "[[emitter]]\nname = \"pour\"\nshape = \"block\"\n"
+                             "material = \"wood\"\n" +
+                                 more));
+        return run("check pour.toml --estimate 0").out;
+    };
+    // A block has left its place of 0.4 m after 0.29 s of falling: after 7 frames.
+    const std::string one =
+        "layout = { position = [0, 9, 0], grid = { count = [1, 1, 1], spacing = "
+        "[1, 1, 1] } }\n";
+    EXPECT_TRUE(contains(check("count = 100\n" + one),
+                         "at least 96 of the 100 bodies of emitter 'pour' still wait at the last "
+                         "frame, 1025"))
+        << check("count = 100\n" + one);
+    EXPECT_TRUE(contains(check("count = 100\nclear = \"skip\"\n" + one),
+                         "at least 99 of the 100 bodies of emitter 'pour' are left out"));
+    EXPECT_FALSE(contains(check("count = 4\n" + one), "emitter"));
+    EXPECT_FALSE(contains(
+        check("count = 100\nvelocity = [0, -10, 0]\nframes = \"1001-1101\"\n" + one, "1001-1120"),
+        "emitter"));
+    // So many that the end of the shot is not tried.
+    const std::string box = "box = { min = [-1, 9, -1], max = [1, 10, 1] }\n";
+    EXPECT_TRUE(contains(check("count = 5000\n" + box, "1001-1100"), ": about "))
+        << check("count = 5000\n" + box, "1001-1100");
+}
+
 TEST_F(ShotTools, WhatBeginsInsideOfAMeshThatLooksInwardIsToldOfRooms)
 {
     writeFileBytes(
@@ -589,6 +695,36 @@ TEST_F(ShotTools, AFilmThatIsALinkIsMadeWhereItLeads)
         EXPECT_TRUE(std::filesystem::is_symlink(folder / "film.mp4"));
         EXPECT_GT(std::filesystem::file_size(folder / "disk/film.mp4"), 100u);
     }
+}
+
+// They took --progress for an unknown option, and a farm their silence for a hang.
+TEST_F(ShotTools, WhatWorksOnNoFramesTellsAFarmHowFarItIs)
+{
+    ASSERT_EQ(run("sim drop.toml -o t -q --set 'shot.frames=\"1001-1004\"'").code, 0);
+    ASSERT_EQ(run("render t --size 32x32 -q").code, 0);
+    for (const char* command :
+         {"check drop.toml --estimate 1", "sheet t -o s.png",
+          "sheet t/images/drop.1001.png -o s.png", "stats t -o s.html --pictures 2",
+          "movie t -o m.mp4", "verify E6 --method scree"}) {
+        const Outcome told = run(std::string(command) + " --progress alf");
+        EXPECT_EQ(told.code, 0) << command << told.err;
+        EXPECT_TRUE(contains(told.err, "ALF_PROGRESS 100%")) << command << told.err;
+        EXPECT_FALSE(contains(run(command).err, "ALF_PROGRESS")) << command;
+        EXPECT_EQ(run(std::string(command) + " --progress often").code, 64) << command;
+    }
+}
+
+// What is written after the last frame came after 100 %.
+TEST_F(ShotTools, AnExportIsDoneWhereItSaysSo)
+{
+    ASSERT_EQ(run("sim drop.toml -o t -q --set 'shot.frames=\"1001-1004\"'").code, 0);
+    for (const char* name : {"x.usda", "x.instances.usda", "x.glb", "x.abc", "x.####.obj"}) {
+        const Outcome told = run(std::string("export t --progress alf -o ") + name);
+        ASSERT_EQ(told.code, 0) << told.err;
+        EXPECT_TRUE(told.err.ends_with("ALF_PROGRESS 100%\n")) << name << told.err;
+    }
+    const std::string told = run("export t --progress alf -o x.usda").err;
+    EXPECT_TRUE(contains(told, "ALF_PROGRESS 25%\n")) << told;  // four frames of sixteen
 }
 
 // They ended with 70: JSON holds UTF-8 alone, folders and names of files need not.
