@@ -1,7 +1,5 @@
 #include "tools/take_frames.h"
 
-#include <set>
-
 #include "tools/command_line.h"
 #include "tools/exit_code.h"
 #include "tools/shell_line.h"
@@ -43,11 +41,19 @@ std::string framesBeyond(const TakeInfo& info, int first, int last)
 
 std::string framesLacking(const TakeInfo& info, const std::vector<int>& frames)
 {
-    const std::set<int> there(frames.begin(), frames.end());
-    std::vector<int> lacking;
-    for (int frame = info.firstFrame; frame <= info.lastFrame; ++frame)
-        if (!there.contains(frame)) lacking.push_back(frame);
-    return lacking.empty() ? "" : describeFrames(lacking);
+    // Run by run: of a shot of a thousand million frames few need be there.
+    std::string lacking;
+    int next = info.firstFrame;
+    const auto lackUpTo = [&](int last) {
+        if (next <= last) lacking += (lacking.empty() ? "" : ",") + rangeOf(next, last);
+    };
+    for (const int frame : frames) {
+        if (frame < next || frame > info.lastFrame) continue;
+        lackUpTo(frame - 1);
+        next = frame + 1;
+    }
+    lackUpTo(info.lastFrame);
+    return lacking;
 }
 
 int finishTakeFrames(const TakeFrames& chosen, const std::string& output, Console& console)

@@ -28,7 +28,8 @@ TakeFrames chooseTakeFrames(const std::string& asked, const TakeReader& take, Co
 /// The frames of the shot before `first` and after `last`: "1016-1040", or "" when there are none.
 std::string framesBeyond(const TakeInfo& info, int first, int last);
 
-/// The frames of the shot that are not among those: "1004,1006-1040", or "" when all are.
+/// The frames of the shot that are not among those, which ascend: "1004,1006-1040", or "" when all
+/// are.
 std::string framesLacking(const TakeInfo& info, const std::vector<int>& frames);
 
 /// The exit code of a command that made `output` of those frames. What is missing there ends with

@@ -11,10 +11,9 @@
 #include <thread>
 
 #include "io/file_bytes.h"
-#include "io/take.h"
-#include "tests/support/program.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
+#include "tests/tools/program_fixture.h"
 
 namespace scree {
 namespace {
@@ -24,22 +23,20 @@ using test::Outcome;
 using test::Program;
 using test::runScree;
 
-class InterruptionTest : public testing::Test {
+class InterruptionTest : public test::ProgramFixture {
 protected:
-    std::string file(const std::string& name) const { return (folder / name).string(); }
-
     /// Two blocks in each other that sleep, of which no contact tells, and one that falls.
     std::string overlappingShot() const
     {
-        const std::string path = file("s.toml");
-        std::ofstream(path) << test::shotTextOf(
-            {.frames = "1001-1020",
-             .shotKeys = "[start]\noverlap = \"warn\"\n[solver]\npenetration = { fail = 0.3 }\n"
-                         "substeps = { min = 60, max = 256 }"},
-            test::bodyText("a", "position = [4, 2, 0]\nstart = \"asleep\"") +
-                test::bodyText("b", "position = [4.5, 2.1, 0]\nstart = \"asleep\"") +
-                test::bodyText("block", "position = [0, 0.6, 0]\nrotation = [20, 0, 10]"));
-        return path;
+        return shotFile(
+            "s.toml",
+            test::shotTextOf(
+                {.frames = "1001-1020",
+                 .shotKeys = "[start]\noverlap = \"warn\"\n[solver]\npenetration = { fail = 0.3 }\n"
+                             "substeps = { min = 60, max = 256 }"},
+                test::bodyText("a", "position = [4, 2, 0]\nstart = \"asleep\"") +
+                    test::bodyText("b", "position = [4.5, 2.1, 0]\nstart = \"asleep\"") +
+                    test::bodyText("block", "position = [0, 0.6, 0]\nrotation = [20, 0, 10]")));
     }
 
     /// stats.jsonl without what an interruption may change: times.
@@ -57,8 +54,6 @@ protected:
         }
         return lines;
     }
-
-    test::TemporaryFolder folder;
 };
 
 // Overlaps that a look at all poses had found were forgotten by the next sitting, and the steps of
@@ -76,37 +71,28 @@ TEST_F(InterruptionTest, FiguresAndExitCodeAreThoseOfAnUnbrokenRun)
     EXPECT_EQ(runScree({"sim", shot, "-o", file("parts"), "-q", "--resume"}).code, 79);
     EXPECT_EQ(figuresOf(file("parts")), figures);
 
-    int stops = 0;
-    for (int tries = 0; tries < 200; ++tries) {
-        Program program({"sim", shot, "-o", file("stopped"), "-q", "--resume"});
-        std::this_thread::sleep_for(std::chrono::milliseconds(60 + 7 * tries));
-        if (tries % 3 == 1) program.signal(SIGUSR1);
-        program.signal(SIGTERM);
-        const Outcome outcome = program.wait();
-        stops += outcome.code == 75;
-        if (outcome.code == 79) break;
-    }
-    EXPECT_GT(stops, 0);
+    const Sittings stopped = runInSittings({"sim", shot, "-o", file("stopped"), "-q", "--resume"});
+    EXPECT_EQ(stopped.last.code, 79) << stopped.last.err;
+    EXPECT_GT(stopped.stops, 0);
     EXPECT_EQ(figuresOf(file("stopped")), figures);
 }
 
 // It was asked between the sub-steps of a frame alone, and many frames have but one.
 TEST_F(InterruptionTest, SettleStopsThoughItsFramesAreOfOneStep)
 {
-    std::ofstream(file("s.toml")) << test::shotTextOf(
-        {.shotKeys = "gravity = [0, 0, 0]"},
-        test::bodyText("block", "position = [0, 9, 0]\nvelocity = [1, 0, 0]"));
+    shotFile("s.toml", test::shotTextOf(
+                           {.shotKeys = "gravity = [0, 0, 0]"},
+                           test::bodyText("block", "position = [0, 9, 0]\nvelocity = [1, 0, 0]")));
     Program program({"settle", file("s.toml"), "-o", file("s.json"), "--seconds", "1000000",
                      "--progress", "alf"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    test::wait(1500);
     program.signal(SIGUSR1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    test::wait(500);
     program.signal(SIGTERM);
     // Unheeded, it would go on for minutes.
     std::atomic<bool> isOver = false;
     std::thread impatience([&] {
-        for (int i = 0; i < 100 && !isOver; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        for (int i = 0; i < 100 && !isOver; ++i) test::wait(100);
         if (!isOver) program.signal(SIGKILL);
     });
     const Outcome stopped = program.wait();
@@ -114,16 +100,69 @@ TEST_F(InterruptionTest, SettleStopsThoughItsFramesAreOfOneStep)
     impatience.join();
     EXPECT_EQ(stopped.code, 75) << stopped.err;
     EXPECT_NE(stopped.err.find("ALF_PROGRESS 0%"), std::string::npos) << stopped.err;
-    EXPECT_NE(stopped.err.find("scree: in frame "), std::string::npos) << stopped.err;
-    EXPECT_NE(stopped.err.find("nothing was written"), std::string::npos) << stopped.err;
+    EXPECT_NE(stopped.err.find("scree: saved in frame "), std::string::npos) << stopped.err;
+    EXPECT_NE(stopped.err.find("--resume"), std::string::npos) << stopped.err;
     EXPECT_FALSE(fs::exists(file("s.json")));
+}
+
+// It ended with 75, which says that a run can be gone on with, and began anew.
+TEST_F(InterruptionTest, SettleGoesOnToThePoseOfARunThatWasNotStopped)
+{
+    shotFile("s.toml",
+             test::shotTextOf(
+                 {.shotKeys = "[solver]\nsubsteps = { min = 60, max = 256 }"},
+                 test::bodyText("low", "position = [0, 0.9, 0]\nrotation = [20, 0, 10]") +
+                     test::bodyText("high", "position = [0.2, 2.6, 0.1]\nrotation = [5, 0, 40]")));
+    const std::vector<std::string> start = {"settle", file("s.toml"), "-q", "-o"};
+    const auto settle = [&](const std::string& output) {
+        std::vector<std::string> words = start;
+        words.insert(words.end(), {file(output), "--resume"});
+        return words;
+    };
+    const Outcome unbroken = runScree(settle("unbroken.json"));
+    ASSERT_EQ(unbroken.code, 0) << unbroken.err;
+    EXPECT_FALSE(fs::exists(file("unbroken.json.checkpoint")));
+
+    const Sittings stopped = runInSittings(settle("stopped.json"));
+    EXPECT_EQ(stopped.last.code, 0) << stopped.last.err;
+    EXPECT_GT(stopped.stops, 1);
+    EXPECT_EQ(readFileBytes(file("stopped.json")), readFileBytes(file("unbroken.json")));
+    EXPECT_FALSE(fs::exists(file("stopped.json.checkpoint")));
+}
+
+TEST_F(InterruptionTest, SettleGoesOnWithNoCheckpointOfAnotherShot)
+{
+    const auto shot = [&](const char* place) {
+        shotFile("s.toml",
+                 test::shotTextOf({.shotKeys = "gravity = [0, 0, 0]"},
+                                  test::bodyText("block", "velocity = [1, 0, 0]\nposition = " +
+                                                              std::string(place))));
+    };
+    shot("[0, 9, 0]");
+    Program program({"settle", file("s.toml"), "-o", file("s.json"), "--seconds", "1000000"});
+    test::wait(800);
+    program.signal(SIGTERM);
+    ASSERT_EQ(program.wait().code, 75);
+    const std::string kept = readFileBytes(file("s.json.checkpoint"));
+    const std::vector<std::string> again = {
+        "settle", file("s.toml"), "-o", file("s.json"), "--seconds", "1", "--resume"};
+    shot("[0, 8, 0]");
+    const Outcome other = runScree(again);
+    EXPECT_EQ(other.code, 65) << other.err;
+    EXPECT_NE(other.err.find("is of another shot"), std::string::npos) << other.err;
+    shot("[0, 9, 0]");
+    for (const std::string& bytes :
+         {kept.substr(0, kept.size() / 2), std::string("\0\0", 2), kept + "x", std::string()}) {
+        writeFileBytes(file("s.json.checkpoint"), bytes);
+        EXPECT_EQ(runScree(again).code, 74) << bytes.size();
+    }
 }
 
 // One that failed left that of an earlier take, which a resume believed.
 TEST_F(InterruptionTest, AnExportOlderThanItsFramesIsWrittenAgain)
 {
-    std::ofstream(file("s.toml")) << test::shotTextOf(
-        {.frames = "1001-1003"}, test::bodyText("block", "position = [0, 0.6, 0]"));
+    shotFile("s.toml", test::shotTextOf({.frames = "1001-1003"},
+                                        test::bodyText("block", "position = [0, 0.6, 0]")));
     const std::vector<std::string> command = {
         "sim", file("s.toml"), "-o", file("t"), "--set", "output.export=[\"abc\"]", "--resume"};
     ASSERT_EQ(runScree(command).code, 0);

@@ -12,13 +12,11 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "io/file_bytes.h"
-#include "io/take.h"
-#include "tests/support/program.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
+#include "tests/tools/program_fixture.h"
 #include "tools/picture_file.h"
 
 namespace scree {
@@ -28,21 +26,18 @@ namespace fs = std::filesystem;
 using test::Outcome;
 using test::Program;
 using test::runScree;
+using test::says;
 using test::TemporaryFolder;
 
-class MishapsTest : public testing::Test {
+class MishapsTest : public test::ProgramFixture {
 protected:
-    std::string file(const std::string& name) const { return folder / name; }
-
     /// A shot of one block above a ground, as a file.
     std::string shot(const std::string& name, const std::string& frames = "1001-1005",
                      const std::string& more = "")
     {
-        const std::string path = file(name + ".toml");
-        std::ofstream(path) << test::shotTextOf(
-            {.name = name, .frames = frames},
-            test::bodyText("block", "position = [0, 0.6, 0]") + more);
-        return path;
+        return shotFile(name + ".toml",
+                        test::shotTextOf({.name = name, .frames = frames},
+                                         test::bodyText("block", "position = [0, 0.6, 0]") + more));
     }
 
     std::string take(const std::string& name, const std::string& frames = "1001-1005",
@@ -57,14 +52,7 @@ protected:
     {
         return nlohmann::json::parse(runScree({"info", path, "--json"}).out);
     }
-
-    TemporaryFolder folder;
 };
-
-bool says(const Outcome& outcome, const std::string& words)
-{
-    return outcome.err.find(words) != std::string::npos;
-}
 
 // They ended with 143 and said nothing.
 TEST_F(MishapsTest, WhatReadsOrJudgesStopsWith75)
@@ -78,7 +66,7 @@ TEST_F(MishapsTest, WhatReadsOrJudgesStopsWith75)
         int wait = 150;
         for (int tries = 0; tries < 8 && stopped.code != 75; ++tries) {
             Program program(words);
-            std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+            test::wait(wait);
             program.signal(SIGTERM);
             stopped = program.wait();
             wait = stopped.code == 0 ? wait / 2 : 2 * wait;
@@ -94,13 +82,11 @@ TEST_F(MishapsTest, AHangUpThatIsIgnoredStaysIgnored)
 {
     Program program({"sim", shot("long", "1001-9000"), "-o", file("long"), "-q"},
                     [] { ::signal(SIGHUP, SIG_IGN); });
-    const fs::path first = TakePaths{file("long")}.frame(1001);
-    for (int i = 0; i < 20000 && !fs::exists(first); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(waitForFrame("long", 1001));
     program.signal(SIGHUP);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    test::wait(300);
     const int framesSoon = static_cast<int>(listFrames({file("long")}).size());
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    test::wait(300);
     EXPECT_GT(static_cast<int>(listFrames({file("long")}).size()), framesSoon);
     program.signal(SIGTERM);
     EXPECT_EQ(program.wait().code, 75);
@@ -459,7 +445,7 @@ TEST_F(MishapsTest, WhatTellsOfATakeThatLacksFramesExitsWith66)
     fs::remove(TakePaths{path}.frame(1004));
     const Outcome told = runScree({"info", path});
     EXPECT_EQ(told.code, 66);
-    EXPECT_TRUE(says(told, "lacks frames 1002-1004x2 of the shot")) << told.err;
+    EXPECT_TRUE(says(told, "lacks frames 1002,1004 of the shot")) << told.err;
     const Outcome plotted = runScree({"stats", path, "--pictures", "0"});
     EXPECT_EQ(plotted.code, 66);
     EXPECT_TRUE(says(plotted, "lacks frames 1004 of the shot")) << plotted.err;

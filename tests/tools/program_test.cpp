@@ -11,13 +11,12 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
-#include <thread>
 
 #include "io/file_bytes.h"
-#include "io/take.h"
-#include "tests/support/program.h"
+#include "io/frame_stats.h"
 #include "tests/support/small_shot.h"
 #include "tests/support/support.h"
+#include "tests/tools/program_fixture.h"
 #include "tools/picture_file.h"
 
 namespace scree {
@@ -38,27 +37,18 @@ const std::string kShotText = test::shotTextOf(
     test::bodyText("low", "position = [0, 0.55, 0]") +
         test::bodyText("high", "position = [0.3, 1.9, 0.1]\nrotation = [15, 0, 35]"));
 
-class ProgramTest : public testing::Test {
+class ProgramTest : public test::ProgramFixture {
 protected:
-    ProgramTest() { std::ofstream(shot()) << kShotText; }
+    ProgramTest() { shotFile("boxes.toml", kShotText); }
 
-    std::string shot() const { return folder / "boxes.toml"; }
-    std::string take(const std::string& name) const { return folder / name; }
+    std::string shot() const { return file("boxes.toml"); }
+    std::string take(const std::string& name) const { return file(name); }
 
     /// The take of a run that nothing disturbed.
     void simulateUnbroken()
     {
         const Outcome outcome = runScree({"sim", shot(), "-o", take("unbroken"), "--threads", "1"});
         ASSERT_EQ(outcome.code, 0) << outcome.err;
-    }
-
-    /// Waits until the running program has written the frame.
-    bool waitForFrame(const std::string& name, int frame) const
-    {
-        const TakePaths paths{take(name)};
-        for (int i = 0; i < 20000 && !fs::exists(paths.frame(frame)); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return fs::exists(paths.frame(frame));
     }
 
     void expectSameFrames(const std::string& nameA, const std::string& nameB) const
@@ -73,8 +63,6 @@ protected:
         for (std::size_t i = 0; i < statsA.size(); ++i)
             EXPECT_EQ(statsA[i].stateHash, statsB[i].stateHash);
     }
-
-    TemporaryFolder folder;
 };
 
 TEST_F(ProgramTest, KilledRunResumesToTheSameBytes)
@@ -432,8 +420,7 @@ TEST_F(ProgramTest, ABranchKilledAtAnyInstantResumesToTheSameBytes)
     // How long programs take to begin is the machine's business: the first is killed before, the
     // others so long after their take has appeared.
     const auto waitForTake = [&](const std::string& name) {
-        for (int n = 0; n < 10000 && !fs::exists(take(name)); ++n)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int n = 0; n < 10000 && !fs::exists(take(name)); ++n) test::wait(1);
     };
     for (const int milliseconds : {-1, 0, 2, 10, 30, 60, 130}) {
         const std::string name = "killed" + std::to_string(milliseconds);
@@ -496,7 +483,7 @@ TEST_F(ProgramTest, SignalsAreHeededWhileTheWorldIsBuilt)
     std::ofstream(take("slow.toml")) << slowShot("[400, 200]", 300);
     for (const int number : {SIGUSR1, SIGTERM}) {
         Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache"});
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        test::wait(300);
         ASSERT_FALSE(fs::exists(take("slow"))) << "the world was built too soon to tell";
         program.signal(number);
         const Outcome outcome = program.wait();
@@ -513,7 +500,7 @@ TEST_F(ProgramTest, AStopIsHeededWithinSecondsInsideOfOneField)
     std::ofstream(take("slow.toml")) << slowShot("[512, 512]", 512);
     const auto begun = std::chrono::steady_clock::now();
     Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache", "--threads", "1"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(4000));
+    test::wait(4000);
     program.signal(SIGTERM);
     const Outcome outcome = program.wait();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
@@ -695,7 +682,7 @@ bool waitForAnything(const fs::path& path)
 {
     for (int i = 0; i < 20000; ++i) {
         if (!namesIn(path).empty()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        test::wait(1);
     }
     return false;
 }
@@ -755,7 +742,7 @@ TEST_F(ProgramTest, WhatLooksOrDrawsStopsWith75Too)
         {"stats", take("t"), "--pictures", "1000", "-o", take("out.html")}};
     for (const std::vector<std::string>& words : commands) {
         Program program(words);
-        std::this_thread::sleep_for(std::chrono::milliseconds(250));
+        test::wait(250);
         program.signal(SIGTERM);
         const Outcome stopped = program.wait();
         EXPECT_EQ(stopped.code, 75) << words[0] << ": " << stopped.err;
@@ -776,7 +763,7 @@ TEST_F(ProgramTest, AStoppedMovieStopsFfmpegAndLeavesNoTemporary)
     Program program({"movie", take("p.####.png"), "-o", take("out/x.mp4")},
                     [&] { ::setenv("PATH", (take("bin") + ":/usr/bin:/bin").c_str(), 1); });
     ASSERT_TRUE(waitForAnything(take("out")));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    test::wait(100);
     program.signal(SIGTERM);
     const Outcome stopped = program.wait();
     EXPECT_EQ(stopped.code, 75) << stopped.err;
