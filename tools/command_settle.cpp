@@ -134,6 +134,7 @@ public:
         if (writesPoses()) requirePosableBodies(shot_, options.output);
         createFolderOf(options.output, console);
         AtomicFile{options.output};  // says now that nothing can be created there
+        refuseForeignCheckpoint(checkpoint_);
         setThreadCount(threadsToUse(options.threads));
         ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
         world_ = buildStoppably(shot_, cache, console);
@@ -188,6 +189,17 @@ private:
         sinceSave_ = {};
     }
 
+    /// A disk that is full now may not be at the end: it must not cost the run.
+    void saveUnasked()
+    {
+        try {
+            save();
+        } catch (const Error& problem) {
+            sinceSave_ = {};
+            console_.warning(std::string(problem.what()) + "; the run goes on without");
+        }
+    }
+
     /// False when it was stopped before all was at rest.
     bool simulate()
     {
@@ -214,8 +226,9 @@ private:
                                {report.bodiesAwake, report.sum.contactPairs});
             // A frame of one step has no place between steps to be asked at.
             const bool isAsked = takeSaveRequest(), isStopped = stopRequested() && frame < most;
-            if (isAsked || isStopped || sinceSave_.seconds() > kBetweenSaves) save();
+            if (isAsked || isStopped) save();
             if (isAsked) tellSaved();
+            if (sinceSave_.seconds() > kBetweenSaves) saveUnasked();
             if (isStopped) return false;
         }
         return true;

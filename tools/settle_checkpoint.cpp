@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <span>
 #include <string>
 
@@ -49,6 +50,20 @@ std::filesystem::path checkpointBeside(const std::filesystem::path& output)
     return output.string() + ".checkpoint";
 }
 
+void refuseForeignCheckpoint(const std::filesystem::path& path)
+{
+    if (!isThere(path)) return;
+    std::string title(kTitle.size(), '\0');
+    std::ifstream(path, std::ios::binary)
+        .read(title.data(), static_cast<std::streamsize>(title.size()));
+    if (title == kTitle) return;
+    throw Error(
+        ErrorKind::cannotCreate,
+        "\"" + path.string() +
+            "\" is no checkpoint of scree settle, which would keep its state there: move it "
+            "away, or choose another name with -o");
+}
+
 void writeCheckpoint(const std::filesystem::path& path, std::uint64_t startHash,
                      const SettleCheckpoint& checkpoint)
 {
@@ -72,8 +87,7 @@ std::optional<SettleCheckpoint> readCheckpoint(const std::filesystem::path& path
     const std::string bytes = readFileBytes(path);
     const auto refuse = [&] {
         throw Error(ErrorKind::inputOutput, {path.string(), 0, 0},
-                    "is damaged, or no checkpoint of scree settle; without --resume the run begins "
-                    "anew");
+                    "is damaged; without --resume the run begins anew");
     };
     const std::size_t hashBytes = sizeof(std::uint64_t);
     if (bytes.size() < kTitle.size() + hashBytes || !bytes.starts_with(kTitle) ||

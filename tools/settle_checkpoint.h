@@ -23,6 +23,10 @@ struct SettleCheckpoint {
 /// "rings.poses.checkpoint".
 std::filesystem::path checkpointBeside(const std::filesystem::path& output);
 
+/// Throws Error{cannotCreate} when a file of somebody else stands there: a checkpoint is replaced,
+/// and removed in the end.
+void refuseForeignCheckpoint(const std::filesystem::path& path);
+
 /// `startHash` is of the state in which the run began: it tells which shot the checkpoint is of.
 /// Throws Error{cannotCreate} or Error{inputOutput}.
 void writeCheckpoint(const std::filesystem::path& path, std::uint64_t startHash,

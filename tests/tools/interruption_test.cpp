@@ -151,10 +151,16 @@ TEST_F(InterruptionTest, SettleGoesOnWithNoCheckpointOfAnotherShot)
     EXPECT_EQ(other.code, 65) << other.err;
     EXPECT_NE(other.err.find("is of another shot"), std::string::npos) << other.err;
     shot("[0, 9, 0]");
-    for (const std::string& bytes :
-         {kept.substr(0, kept.size() / 2), std::string("\0\0", 2), kept + "x", std::string()}) {
+    for (const std::string& bytes : {kept.substr(0, kept.size() / 2), kept + "x"}) {
         writeFileBytes(file("s.json.checkpoint"), bytes);
         EXPECT_EQ(runScree(again).code, 74) << bytes.size();
+    }
+    // What is somebody else's is neither replaced nor removed.
+    for (const std::string mine : {"mine", ""}) {
+        writeFileBytes(file("s.json.checkpoint"), mine);
+        EXPECT_EQ(runScree(again).code, 73);
+        EXPECT_EQ(runScree({"settle", file("s.toml"), "-o", file("s.json")}).code, 73);
+        EXPECT_EQ(readFileBytes(file("s.json.checkpoint")), mine);
     }
 }
 
