@@ -61,16 +61,7 @@ TEST_F(MishapsTest, WhatReadsOrJudgesStopsWith75)
     const std::vector<std::vector<std::string>> commands = {
         {"diff", a, a}, {"info", a}, {"verify", "E7", "-o", file("out.html")}};
     for (const std::vector<std::string>& words : commands) {
-        // On a quiet machine it may be done before it is asked to stop, on a busy one not begun.
-        Outcome stopped;
-        int wait = 150;
-        for (int tries = 0; tries < 8 && stopped.code != 75; ++tries) {
-            Program program(words);
-            test::wait(wait);
-            program.signal(SIGTERM);
-            stopped = program.wait();
-            wait = stopped.code == 0 ? wait / 2 : 2 * wait;
-        }
+        const Outcome stopped = signalled(words, SIGTERM, 150);
         EXPECT_EQ(stopped.code, 75) << words[0] << ": " << stopped.err;
         EXPECT_TRUE(says(stopped, "stopped")) << stopped.err;
     }

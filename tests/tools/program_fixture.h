@@ -46,6 +46,23 @@ protected:
         return std::filesystem::exists(path);
     }
 
+    /// Sends a signal to the command while it is at work, and answers with how it ended. On a quiet
+    /// machine it may be done before, on a busy one not listening yet: then it is tried again,
+    /// sooner or later in its life [ms].
+    static Outcome signalled(const std::vector<std::string>& words, int number, int soon = 250)
+    {
+        Outcome outcome;
+        for (int tries = 0; tries < 8; ++tries) {
+            Program program(words);
+            wait(soon);
+            program.signal(number);
+            outcome = program.wait();
+            if (outcome.code == 75 || (outcome.code == 0 && says(outcome, "scree: "))) break;
+            soon = outcome.code == 0 ? soon / 2 : 2 * soon;
+        }
+        return outcome;
+    }
+
     /// How a run ended that was stopped again and again.
     struct Sittings {
         int stops = 0;

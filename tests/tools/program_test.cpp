@@ -482,13 +482,11 @@ TEST_F(ProgramTest, SignalsAreHeededWhileTheWorldIsBuilt)
 {
     std::ofstream(take("slow.toml")) << slowShot("[400, 200]", 300);
     for (const int number : {SIGUSR1, SIGTERM}) {
-        Program program({"sim", take("slow.toml"), "-o", take("slow"), "--no-cache"});
-        test::wait(300);
-        ASSERT_FALSE(fs::exists(take("slow"))) << "the world was built too soon to tell";
-        program.signal(number);
-        const Outcome outcome = program.wait();
+        const Outcome outcome = signalled(
+            {"sim", take("slow.toml"), "-o", take("slow"), "--no-cache", "--overwrite"}, number);
         EXPECT_EQ(outcome.code, number == SIGTERM ? 75 : 0) << outcome.err;
-        const char* word = number == SIGTERM ? "stopped before the first frame" : "scree: ";
+        const char* word =
+            number == SIGTERM ? "stopped before the first frame" : "scree: still making the shapes";
         EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
         fs::remove_all(take("slow"));
     }
@@ -741,10 +739,7 @@ TEST_F(ProgramTest, WhatLooksOrDrawsStopsWith75Too)
         {"sheet", take("t"), "--count", "40", "--width", "4096", "-o", take("out.png")},
         {"stats", take("t"), "--pictures", "1000", "-o", take("out.html")}};
     for (const std::vector<std::string>& words : commands) {
-        Program program(words);
-        test::wait(250);
-        program.signal(SIGTERM);
-        const Outcome stopped = program.wait();
+        const Outcome stopped = signalled(words, SIGTERM);
         EXPECT_EQ(stopped.code, 75) << words[0] << ": " << stopped.err;
         EXPECT_NE(stopped.err.find("stopped"), std::string::npos) << stopped.err;
     }
