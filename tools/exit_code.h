@@ -10,8 +10,8 @@ constexpr int kExitDone = 0;
 constexpr int kExitDiffers = 1;  ///< of diff alone, as every diff does it
 constexpr int kExitUsage = 64;
 constexpr int kExitInternal = 70;
-/// Stopped when asked to, and nothing is wrong: a farm runs the same again. sim and settle have saved
-/// their state and go on with --resume, the others begin anew.
+/// Stopped when asked to, and nothing is wrong: a farm runs the same again. sim and settle have
+/// saved their state and go on with --resume, the others begin anew.
 constexpr int kExitStopped = 75;
 constexpr int kExitQuality = 79;
 

@@ -31,8 +31,8 @@ constexpr const char* kFooter =
     "  scree render takes/rings_100 && scree movie takes/rings_100 -o rings.mp4\n"
     "Exit codes: 0 done, 1 takes differ (diff), 64 usage, 65 bad shot or asset, 66 input missing, "
     "70 internal,\n"
-    "  73 cannot create output, 74 I/O error or disk full, 75 stopped when asked to (run again; sim\n"
-    "  and settle go on with --resume), 79 quality limit broken";
+    "  73 cannot create output, 74 I/O error or disk full, 75 stopped when asked to (run again;\n"
+    "  sim and settle go on with --resume), 79 quality limit broken";
 
 /// Options that every command understands, before or after its name.
 void addConsoleOptions(CLI::App& program, Console& console)
