@@ -29,7 +29,7 @@ ContactList::ContactList(std::vector<GapContact>& contacts, double smaller, doub
       first_(contacts.size()),
       smaller_(smaller),
       samePlace_(std::clamp(kOfThickness * thickness, kLeastPlace * smaller, kSamePlace * smaller)),
-      sharpness_(kSharpness * smaller),
+      sharpness_(sharpnessOf(smaller, thickness)),
       reach_(reach),
       bulge_(bulge)
 {

@@ -38,10 +38,19 @@ struct FeatureContact {
 /// normal: an edge is no sharper than that.
 inline constexpr double kSharpness = 1e-3;
 
-/// The same as a length [m].
+/// The same as a length [m], where the thinner of the two is thin: the faces on the far side of a
+/// sheet are not beside the edges of this one. Sheets of paper that lay on each other went through
+/// each other.
+inline double sharpnessOf(double smaller, double thickness)
+{
+    constexpr double kOfThickness = 0.2;
+    return std::min(kSharpness * smaller, kOfThickness * thickness);
+}
+
 inline double sharpnessOf(const RelativePair& pair)
 {
-    return kSharpness * smallerRadius(pair.first, pair.second);
+    return sharpnessOf(smallerRadius(pair.first, pair.second),
+                       std::min(pair.first.commonThickness, pair.second.commonThickness));
 }
 
 /// Edges deeper in each other than this are not what touches [m]: in a deep overlap every far edge
