@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/dynamics/stepper.h"
+#include "core/math/rotation.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -50,6 +51,33 @@ TEST(GapPress, TwoBallsInALineUnderAPlateAreNotThrown)
         ASSERT_LT(fastestOf(world, balls), 8.0) << k;
     }
     EXPECT_LT(steps, 64);
+}
+
+// It weighs four tons, and its own mass hid what it did: the cubes had 200 m/s.
+TEST(GapPress, WhatIsNotMovedByTheCubesItFallsOnDoesNotThrowThem)  // [A57]
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.1);
+    addPlane(world, material);
+    const double side = 0.3, half = 0.5 * side;
+    std::vector<BodyId> cubes;
+    for (const double x : {-0.4, 0.4}) {
+        for (const double z : {-0.4, 0.4}) {
+            for (int k = 0; k < 3; ++k)
+                cubes.push_back(addBody(world, boxShape(Vec3::Constant(side), 1), material,
+                                        {Vec3(x, half + side * k, z), Quat::Identity()}, 27.0));
+        }
+    }
+    const BodyId slab = addBody(
+        world, boxShape({3.0, 0.5, 3.0}, 1), material,
+        {Vec3(0.0, 2.15, 0.0), fromEulerXyz({3.0 * kPi / 180.0, 0.0, 2.0 * kPi / 180.0})}, 4500.0);
+    for (const BodyId cube : cubes) world.traits[cube].groups.group = 2;
+    world.traits[slab].groups.unmovedBy = 2;
+    Stepper stepper(screeSettings());
+    for (int k = 0; k < 48; ++k) {
+        stepper.advanceFrame(world, kDt);
+        ASSERT_LT(fastestOf(world, cubes), 10.0) << k;
+    }
 }
 
 /// Where there is a way out it is taken, however far impulses go beyond what the ball weighs.

@@ -17,14 +17,14 @@
 namespace scree {
 namespace {
 
-/// Impulses of keyed bodies beyond this many times the momentum of the island at their speed
+/// Impulses of what presses beyond this many times the momentum of the island at their speed
 /// contradict each other.
 constexpr double kPressed = 4.0;
 
 /// What may be left of U when sweeps end, where they agree.
 constexpr double kStillCloses = 0.01;
 
-/// The share of its speed by which a keyed body runs into what it merely pushes along.
+/// The share of its speed by which what presses runs into what it merely pushes along.
 constexpr double kYield = 0.02;
 constexpr int kMostSweeps = 200;
 constexpr double kEnough = 1e-3;  // of U
@@ -36,37 +36,49 @@ constexpr double kEnough = 1e-3;  // of U
 constexpr double kSqueezed = 1e-3, kHeldWeights = 1e4, kMostWeights = 100.0;
 constexpr double kLeastGravity = 9.81;  // of these weights, also where nothing pulls [m/s²]
 
-/// What keyed bodies do to an island.
+/// What presses an island whatever it meets there: keyed bodies, and those that are not moved by
+/// what they press. A slab of four tons of that kind threw the cubes it fell on at 200 m/s.
 struct Press {
-    double speed = 0.0;    // U, the largest [m/s]
-    double impulse = 0.0;  // the sum of theirs along the normals [N s]
-    int rows = 0;          // that have one
+    double speed = 0.0;       // U, the largest [m/s]
+    double impulse = 0.0;     // the sum of theirs along the normals [N s]
+    int rows = 0;             // that have one
+    double massOfRest = 0.0;  // of what they press [kg]
 };
+
+/// Whether a body of a pair moves, and not by the impulses of that.
+bool presses(const GapBody& body, bool isUnmoved)
+{
+    return isDriven(body) || (isUnmoved && body.isMovable());
+}
 
 Press pressOn(const GapScratch& scratch, const GapIsland& island)
 {
     Press press;
+    thread_local std::vector<BodyId> movable;  // that press
+    movable.clear();
     for (const std::size_t i : island.pairs) {
         const GapPair& pair = scratch.pairs[i];
+        const auto rows = scratch.rowsOf(pair);
+        if (rows.empty()) continue;
         const GapBody &a = scratch.bodies[pair.bodies.a], &b = scratch.bodies[pair.bodies.b];
-        if (!isDriven(a) && !isDriven(b)) continue;
-        for (const GapRow& row : scratch.rowsOf(pair)) {
+        const bool isByA = presses(a, rows.front().isUnmovedA);
+        if (!isByA && !presses(b, rows.front().isUnmovedB)) continue;
+        if ((isByA ? a : b).isMovable()) movable.push_back(isByA ? pair.bodies.a : pair.bodies.b);
+        for (const GapRow& row : rows) {
             if (row.impulse.x() == 0.0) continue;
-            const Vec3 u = isDriven(a) ? Vec3(a.velocity + a.spin.cross(row.rA))
-                                       : Vec3(b.velocity + b.spin.cross(row.rB));
+            const Vec3 u = isByA ? Vec3(a.velocity + a.spin.cross(row.rA))
+                                 : Vec3(b.velocity + b.spin.cross(row.rB));
             press.speed = std::max(press.speed, std::abs(u.dot(row.normal)));
             press.impulse += row.impulse.x();
             ++press.rows;
         }
     }
+    sortUnique(movable);
+    for (const BodyId body : island.movers) {
+        if (!std::ranges::binary_search(movable, body))
+            press.massOfRest += 1.0 / scratch.bodies[body].inverseMass;
+    }
     return press;
-}
-
-double massOf(const GapScratch& scratch, const std::vector<BodyId>& bodies)
-{
-    double mass = 0.0;
-    for (const BodyId body : bodies) mass += 1.0 / scratch.bodies[body].inverseMass;
-    return mass;
 }
 
 /// visitRow() of a contact that closes by `yield` for each unit of its impulse [1/kg].
@@ -119,9 +131,8 @@ void gripSqueezed(const World& world, const StepSettings& settings, double dt,
 bool isPressed(double dt, const GapScratch& scratch, const GapIsland& island)
 {
     const Press press = pressOn(scratch, island);
-    if (press.speed == 0.0) return false;
-    const double momentum =
-        massOf(scratch, island.movers) * (press.speed + dt * strongestPull(scratch, island));
+    if (press.speed == 0.0 || press.massOfRest == 0.0) return false;
+    const double momentum = press.massOfRest * (press.speed + dt * strongestPull(scratch, island));
     if (press.impulse <= kPressed * momentum) return false;
     double closing = 0.0;
     forRows(scratch, island.pairs, [&](std::size_t r) {
@@ -135,7 +146,7 @@ bool isPressed(double dt, const GapScratch& scratch, const GapIsland& island)
 void solvePressed(double dt, const GapIsland& island, GapScratch& scratch)
 {
     const Press press = pressOn(scratch, island);
-    const double yield = kYield * press.rows / massOf(scratch, island.movers);
+    const double yield = kYield * press.rows / press.massOfRest;
     for (const BodyId mover : island.movers) {
         GapBody& body = scratch.bodies[mover];
         body.velocity = body.velocityBefore + dt * body.pull;

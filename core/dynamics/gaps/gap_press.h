@@ -13,7 +13,8 @@ void gripSqueezed(const World& world, const StepSettings& settings, double dt,
                   const GapBlock& block, GapScratch& scratch);
 
 /// Whether an island, as its sweeps have left it, carries far more than it would take to bring all
-/// of it to the speed of the keyed bodies it touches, and still closes. `dt` [s].
+/// of it to the speed of the keyed bodies it touches, or of those it does not move, and still
+/// closes. `dt` [s].
 bool isPressed(double dt, const GapScratch& scratch, const GapIsland& island);
 
 /// Solves such an island anew, from how its bodies moved before, with contacts that yield the more
