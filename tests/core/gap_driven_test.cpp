@@ -188,6 +188,25 @@ TEST(GapPairs, WhatLiesOnASleeperThatDoesNotMoveItDoesNotHarmEither)  // [A57]
     EXPECT_TRUE(world.motion[debris].position.allFinite());
 }
 
+// By what it does not feel it never balanced, and kept all on it awake.
+TEST(GapPairs, WhatCarriesWhatDoesNotMoveItSleeps)  // [A57]
+{
+    World world;
+    const MaterialId wood = addMaterial(world, 0.5, 0.1);
+    addPlane(world, wood);
+    const BodyId hero =
+        addBody(world, boxShape({4.0, 1.0, 4.0}, 1), wood, {Vec3(0.0, 0.5, 0.0)}, 16.0);
+    world.traits[hero].groups.unmovedBy = 2;
+    for (const double x : {-1.1, 0.0, 1.1}) {
+        const BodyId debris =
+            addBody(world, boxShape(Vec3::Ones(), 1), wood, {Vec3(x, 1.6, 0.0)}, 1.0);
+        world.traits[debris].groups.group = 2;
+    }
+    runFrames(world, screeSettings(), 3.0);
+    for (BodyId body = hero; body < static_cast<BodyId>(world.bodyCount()); ++body)
+        EXPECT_TRUE(world.contactMemory.isAsleep(body)) << body;
+}
+
 TEST(GapPairs, WhatStandsOnOneThatDoesNotMoveItDoesNotHarmIt)  // [A57]
 {
     // On a pillar that holds it up and on the top of a stack that does not: of the two that touch

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/dynamics/body_pairs.h"
 #include "core/dynamics/forces.h"
 
 namespace scree {
@@ -26,7 +27,7 @@ struct ContactLoad {
     }
 };
 
-/// Per body, of the remembered contacts that counts(a, b) accepts.
+/// Per body, of the remembered contacts that counts(a, b) accepts, and that it feels.
 template <class Counts>
 std::vector<ContactLoad> rememberedLoads(const World& world, const Counts& counts)
 {
@@ -35,8 +36,10 @@ std::vector<ContactLoad> rememberedLoads(const World& world, const Counts& count
         if (!counts(contact.a, contact.b)) continue;
         const BodyMotion &a = world.motion[contact.a], &b = world.motion[contact.b];
         const Vec3 r = a.orientation * contact.place;
-        loads[contact.a].add(r, contact.force, contact.couple);
-        loads[contact.b].add(a.position + r - b.position, -contact.force, -contact.couple);
+        if (!isUnmovedBy(world, contact.a, contact.b))
+            loads[contact.a].add(r, contact.force, contact.couple);
+        if (!isUnmovedBy(world, contact.b, contact.a))
+            loads[contact.b].add(a.position + r - b.position, -contact.force, -contact.couple);
     }
     return loads;
 }

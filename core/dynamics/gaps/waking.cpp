@@ -112,8 +112,8 @@ std::vector<ContactLoad> loadsInStep(const std::vector<BodyId>& sleepers, const 
         return (isOne[a] || isOne[b]) && !world.isStepped(a) && !world.isStepped(b);
     });
     const auto add = [&](const GapRow& row, const Vec3& impulse, const Vec3& couple) {
-        loads[row.a].add(row.rA, impulse / dt, couple / dt);
-        loads[row.b].add(row.rB, -impulse / dt, -couple / dt);
+        if (!row.isUnmovedA) loads[row.a].add(row.rA, impulse / dt, couple / dt);
+        if (!row.isUnmovedB) loads[row.b].add(row.rB, -impulse / dt, -couple / dt);
     };
     for (const std::size_t i : scratch.order) {
         const GapPair& pair = scratch.pairs[i];
