@@ -274,7 +274,7 @@ std::vector<std::uint64_t> hashes(World& world, int frames)
 
 TEST(GapMethod, AHeapComesToSleepToTheSameBitsOnAnyThreadsAndAcrossACut)
 {
-    constexpr int kFrames = 168;
+    constexpr int kFrames = 240;
     World once = makeHeap();
     const std::vector<std::uint64_t> expected = hashes(once, kFrames);
 
