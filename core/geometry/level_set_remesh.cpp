@@ -217,14 +217,19 @@ void requireAffordable(const TriMesh& mesh, const RemeshSettings& settings, cons
     const bool isThick = isShell && settings.thickness > longest;
     const double voxels = (isThick ? longest + settings.thickness : longest) / settings.voxel;
     if (voxels <= kMostVoxels + 0.5) return;
-    char text[256];
+    char thicker[128];
+    // Voxels are a share of the thickness.
+    std::snprintf(thicker, sizeof thicker,
+                  "make the shell at least %.3g m thick, where it is %.3g m, or split the shape",
+                  settings.thickness * voxels / kMostVoxels, settings.thickness);
+    char text[320];
     std::snprintf(text, sizeof text,
                   "its repair needs a lattice of %.0f voxels along the longest edge, more than the "
                   "%.0f allowed; %s",
                   std::ceil(voxels), kMostVoxels,
                   isThick
                       ? "the shell is thicker than the shape is long: is its thickness meant so?"
-                  : isShell ? "make the shell thicker or split the shape"
+                  : isShell ? thicker
                             : "write a smaller sdf resolution");
     throw Error(ErrorKind::badInput, "shape '" + name + "': " + text);
 }
