@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
+#include "core/dynamics/gaps/sleep.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
 
@@ -24,6 +26,37 @@ World makeStack(int count)
                 {Vec3(0.0, 0.5 + i, 0.0), Quat::Identity()});
     }
     return world;
+}
+
+// In their first step nothing has borne anything yet: all but the lowest layer were to fall freely,
+// and had half of what a frame of gravity gives where contacts held them.
+TEST(Waking, WhatSleptFromTheStartHasNoSpeedThatItDoesNotMoveBy)
+{
+    World world;
+    const MaterialId wood = addMaterial(world, 0.5, 0.0);
+    addPlane(world, wood);
+    const double side = 0.2;
+    std::vector<BodyId> boxes;
+    for (int x = 0; x < 6; ++x) {
+        for (int y = 0; y < 4; ++y) {
+            for (int z = 0; z < 6; ++z)
+                boxes.push_back(addBody(world, boxShape(Vec3::Constant(side), 1), wood,
+                                        {side * Vec3(x, y + 0.5, z)}));
+        }
+    }
+    const Vec3 ahead(-0.5 * side - 0.05 - 1e-3, 0.5, 2.5 * side), speed(0.02, 0.0, 0.0);
+    addKeyedBody(world, boxShape({0.1, 1.0, 3.0}, 1), wood,
+                 {{0.0, {ahead, Quat::Identity()}}, {1.0, {ahead + speed, Quat::Identity()}}},
+                 KeyInterpolation::linear);
+    const StepSettings settings = screeSettings();
+    sleepFromTheStart(world, settings, boxes);
+    Stepper stepper(settings);
+    for (int f = 0; f < 6; ++f) {
+        stepper.advanceFrame(world, kFrame);
+        for (const BodyId box : boxes)
+            ASSERT_GT(world.motion[box].velocity.y(), -0.02) << f << ", " << box;
+    }
+    EXPECT_FALSE(world.contactMemory.isAsleep(boxes.front()));
 }
 
 TEST(Waking, SleepersWakeAndMoveWhenStruckAndOnlyThen)

@@ -211,7 +211,9 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
     for (const std::size_t i : block.pairs) {
         const GapPair& pair = scratch.pairs[i];
         GapIsland& island = scratch.islands[pair.island];
-        island.isRemembered = island.isRemembered || pair.isCarried;
+        // What was put to sleep touching has not borne anything yet.
+        island.isRemembered =
+            island.isRemembered || std::ranges::any_of(scratch.rowsOf(pair), &GapRow::carries);
     }
 }
 
