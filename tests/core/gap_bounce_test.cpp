@@ -467,6 +467,35 @@ TEST(GapBounce, ABeamThatLandsOnTwoPostsAtOnceDoesNotTurn)
     EXPECT_LE(angularVelocityOf(world, 2).norm(), 1e-3);
 }
 
+// What was left wrong of the first landing made a spin, three times as fast after each bounce, and
+// it tumbled after the fourth.
+TEST(GapBounce, ACrateThatFallsFlatBouncesFlat)
+{
+    World world;
+    const double restitution = 0.8, half = 0.25, height = 1.0, mass = 50.0;
+    const MaterialId wood = addMaterial(world, 0.5, restitution);
+    addPlane(world, wood);
+    const BodyId crate = addBody(world, boxShape(Vec3(0.7, 2.0 * half, 0.5), 2), wood,
+                                 {Vec3(0.1, half + height, 0.2)}, mass);
+    Stepper stepper(screeSettings());
+    int bounces = 0;
+    double before = 0.0, rises = height;
+    for (int f = 0; f < 96 && bounces < 5; ++f) {
+        stepper.advanceFrame(world, 1.0 / 24.0);
+        const double speed = world.motion[crate].velocity.y();
+        if (before < 0.0 && speed > 0.0) {
+            ++bounces;
+            const double above = world.motion[crate].position.y() - half;
+            const double top = above + 0.5 * speed * speed / 9.81;
+            EXPECT_NEAR(top, restitution * restitution * rises, 0.02 * rises) << bounces;
+            rises = top;
+        }
+        before = speed;
+        EXPECT_LT(angularVelocityOf(world, crate).norm(), 1e-5) << f;
+    }
+    EXPECT_EQ(bounces, 5);
+}
+
 TEST(GapBounce, WhatLiesOnThreePostsDoesNotFallOnAFourthThatIsAHairLower)
 {
     World world;
