@@ -78,30 +78,6 @@ TEST(SharpHeap, WhatLiesInABinDoesNotOverlapUntold)
         expectNoOverlapUntold(seed);
 }
 
-// Of sheets two thousand times as long as they are thick three went through others: faces of the
-// far side counted as beside an edge of the near one.
-TEST(SharpHeap, SheetsThatFallOnEachOtherKeepTheirOrder)
-{
-    World world;
-    const MaterialId steel = addMaterial(world, 0.5, 0.2);
-    addPlane(world, steel);
-    const double thick = 1e-3;
-    const auto sheet = exactBox({2.0, thick, 1.0}, 1);
-    constexpr int kSheets = 6, kFrames = 18;
-    const Quat tilted = fromEulerXyz({2.0 * kPi / 180.0, 0.0, 1.2 * kPi / 180.0});
-    for (int k = 0; k < kSheets; ++k)
-        addBody(world, sheet, steel, {Vec3(0.0, 0.1 + 0.03 * k, 0.0), tilted}, 16.0);
-    Stepper stepper(screeSettings());
-    double deepest = 0.0;
-    for (int frame = 0; frame < kFrames; ++frame) {
-        const FrameReport report = stepper.advanceFrame(world, 1.0 / 24.0);
-        deepest = std::max(deepest, report.sum.deepestAfterPushOut);
-    }
-    EXPECT_LT(deepest, 0.2 * thick);
-    for (BodyId body = 2; body <= kSheets; ++body)
-        EXPECT_GT(world.motion[body].position.y(), world.motion[body - 1].position.y()) << body;
-}
-
 /// The hull of ten random points, half a metre across and a twentieth thick.
 std::shared_ptr<const Shape> shardShape(std::uint64_t seed)
 {
