@@ -89,7 +89,7 @@ void readStays(const FrameDecoder& decoder, const std::string& name, std::uint64
 void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
 {
     if (memory.dt == 0.0 && memory.contacts.empty() && memory.rest.empty()) return;
-    std::vector<std::int32_t> bodies, still;
+    std::vector<std::int32_t> bodies, still, unbalanced;
     std::vector<std::int64_t> features;
     std::vector<double> place, force, couple, position, orientation, pull;
     bool anyCouple = false;
@@ -103,6 +103,7 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
     }
     for (const BodyRest& rest : memory.rest) {
         still.insert(still.end(), {rest.still.frames, rest.isAsleep});
+        unbalanced.push_back(rest.unbalancedFrames);
         append(position, rest.still.position);
         append(orientation, rest.still.orientation);
         append(pull, rest.pull);
@@ -117,6 +118,8 @@ void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
     encoder.add("rest.position", 3, position);
     encoder.add("rest.orientation", 4, orientation);
     encoder.add("rest.pull", 3, pull);
+    if (std::ranges::any_of(unbalanced, [](std::int32_t frames) { return frames > 0; }))
+        encoder.add("rest.unbalanced", 1, unbalanced);
     addStays(encoder, "rest.nearby", memory.rest, &BodyRest::nearby);
     addStays(encoder, "rest.around", memory.rest, &BodyRest::around);
 }
@@ -337,6 +340,10 @@ void readMemory(const FrameDecoder& decoder, std::uint64_t bodyCount, ContactMem
         rest.still = {vectorAt(position, i), quaternionAt(orientation, i), still[2 * i]};
         rest.pull = vectorAt(pull, i);
         rest.isAsleep = still[2 * i + 1] != 0;
+    }
+    if (decoder.rowsOf("rest.unbalanced") > 0) {
+        const auto unbalanced = decoder.read<std::int32_t>("rest.unbalanced", bodyCount, 1);
+        for (std::size_t i = 0; i < bodyCount; ++i) memory.rest[i].unbalancedFrames = unbalanced[i];
     }
     readStays(decoder, "rest.nearby", bodyCount, memory.rest, &BodyRest::nearby);
     readStays(decoder, "rest.around", bodyCount, memory.rest, &BodyRest::around);

@@ -74,7 +74,8 @@ bool isSame(const Stay& a, const Stay& b)
 bool isSame(const BodyRest& a, const BodyRest& b)
 {
     return isSame(a.still, b.still) && isSame(a.nearby, b.nearby) && isSame(a.around, b.around) &&
-           isSame(a.pull, b.pull) && a.isAsleep == b.isAsleep;
+           isSame(a.pull, b.pull) && a.isAsleep == b.isAsleep &&
+           a.unbalancedFrames == b.unbalancedFrames;
 }
 
 bool isSame(const RememberedContact& a, const RememberedContact& b)

@@ -84,7 +84,8 @@ std::uint64_t hashOf(const BodyRest& rest, std::uint64_t seed)
         .add(rest.around.orientation)
         .add(rest.pull)
         .add(rest.still.frames, rest.nearby.frames)
-        .add(rest.around.frames, std::int32_t{rest.isAsleep})
+        .add(rest.around.frames, rest.unbalancedFrames)
+        .add(std::uint64_t{rest.isAsleep})
         .hash(seed);
 }
 

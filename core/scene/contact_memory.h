@@ -38,6 +38,7 @@ struct BodyRest {
     Stay around;               ///< the same, as wide as a bowl rocks on its round bottom
     Vec3 pull = Vec3::Zero();  ///< what acted on it when it fell asleep [m/s²]
     bool isAsleep = false;
+    std::int32_t unbalancedFrames = 0;  ///< for so many it has slept under what did not balance
 };
 
 struct ContactMemory {

@@ -175,6 +175,7 @@ TEST(StateHash, TellsApartWhateverAStepReadsOfItsMemory)  // [A21]
     expectNew("frames", [](auto&, auto&, auto& rest) { rest.nearby.frames = 1; });
     expectNew("pull", [](auto&, auto&, auto& rest) { rest.pull.z() = 1.0; });
     expectNew("asleep", [](auto&, auto&, auto& rest) { rest.isAsleep = true; });
+    expectNew("unbalanced", [](auto&, auto&, auto& rest) { rest.unbalancedFrames = 1; });
 }
 
 }  // namespace

@@ -157,6 +157,26 @@ TEST(Waking, ASleeperPassesOnTheWeightOfWhatIsLaidOnIt)
     EXPECT_TRUE(world.contactMemory.isAsleep(2));
 }
 
+// A tenth of what a hundred kilograms of plank bear in their contacts, on the lever of half their
+// length, is what seven kilograms have at its end.
+TEST(Waking, ABalancedSleeperGivesWayToWhatPressesOnItSteadily)
+{
+    World world;
+    const MaterialId wood = addMaterial(world, 0.8, 0.0);
+    addFixed(world, wood, boxShape({0.1, 0.5, 0.6}, 1), {Vec3(0.0, 0.25, 0.0)});
+    addFixed(world, wood, boxShape({2.0, 0.1, 0.5}, 1), {Vec3(-3.02, 0.55, 0.0)});
+    const BodyId plank =
+        addBody(world, boxShape({4.0, 0.1, 0.5}, 1), wood, {Vec3(0.0, 0.55, 0.0)}, 100.0);
+    addBody(world, exactSphere(0.1), wood, {Vec3(-2.8, 0.7, 0.0)}, 5.0, Vec3(0.5, 0.0, 0.0),
+            Vec3(0.0, 0.0, -5.0));
+    Stepper stepper(screeSettings());
+    for (int f = 0; f < 36; ++f) stepper.advanceFrame(world, kFrame);
+    ASSERT_TRUE(world.contactMemory.isAsleep(plank));  // the ball is still on its shelf
+    for (int f = 36; f < 96; ++f) stepper.advanceFrame(world, kFrame);
+    const Vec3 along = world.motion[plank].orientation * Vec3::UnitX();
+    EXPECT_GT(std::abs(along.y()), std::sin(5.0 * kPi / 180.0));
+}
+
 TEST(Waking, SleepersThatLoseWhatHoldsThemFall)
 {
     World world = makeStack(3);

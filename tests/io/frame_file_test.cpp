@@ -25,6 +25,8 @@ TEST_F(FrameFile, RestoringAStateGivesBackEveryBit)
     moved.contactMemory.dt = 0.01;
     moved.contactMemory.contacts = {
         {0, 1, 7, Vec3(0.1, 0.2, 0.3), Vec3(1.0, 9.0, 2.0), Vec3(0.0, 0.5, 0.0)}};
+    moved.contactMemory.rest.resize(moved.bodyCount());
+    moved.contactMemory.rest[1].unbalancedFrames = 3;
     const std::string bytes = encodeFrame(captureState(shot, moved));
 
     World restored = buildWorld(shot);

@@ -52,6 +52,7 @@ void wake(World& world, BodyId body)
     const double frames =
         pull > 0.0 ? std::min(framesToSleep(world, body, pull), kMost) : double{kStillFrames};
     rest.isAsleep = false;
+    rest.unbalancedFrames = 0;
     rest.still.frames = static_cast<std::int32_t>(frames - std::floor(frames / kCheckShare));
 }
 
@@ -150,6 +151,32 @@ bool isBlow(const World& world, double dt, BodyId body, const ContactLoad& load,
     return speed > kGentle * std::sqrt(radius * other.acceleration.norm());
 }
 
+/// Wakes those who for long enough to fall asleep have lain under what would not have let them.
+/// What is awake beside them presses on steadily, too little to wake them at once: either they give
+/// way, as a balanced plank does to what rolls along it, or their contacts carry that too and they
+/// sleep again, balanced.
+void wakeWhoIsUneasy(World& world, const std::vector<AppliedForce>& forces)
+{
+    ContactMemory& memory = world.contactMemory;
+    const std::vector<ContactLoad> loads = rememberedLoads(
+        world, [&](BodyId a, BodyId b) { return memory.isAsleep(a) || memory.isAsleep(b); });
+    std::vector<char> isTouched(world.bodyCount(), 0);  // by somebody awake
+    for (const RememberedContact& contact : memory.contacts) {
+        if (world.isStepped(contact.a)) isTouched[contact.b] = 1;
+        if (world.isStepped(contact.b)) isTouched[contact.a] = 1;
+    }
+    for (std::size_t i = 0; i < memory.rest.size(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        BodyRest& rest = memory.rest[i];
+        if (!rest.isAsleep) continue;
+        const bool isEasy = !isTouched[i] || awaitsTouch(world, body, loads[i]) ||
+                            isBalanced(world, body, loads[i], forces[i], kBalanced);
+        rest.unbalancedFrames = isEasy ? 0 : rest.unbalancedFrames + 1;
+        if (rest.unbalancedFrames >= framesToSleep(world, body, rest.pull.norm()))
+            wake(world, body);
+    }
+}
+
 /// Adds the sleepers that something leaves which a script moves, or that it lets go: it comes no
 /// closer to them, so that no contact would tell.
 void addWhoIsLeft(const World& world, const GapScratch& scratch, const std::vector<char>& sleeps,
@@ -215,6 +242,7 @@ void wakeByForces(World& world, const std::vector<AppliedForce>& forces)
             roots.push_back(body);
     }
     wakeAround(world, roots);
+    if (anyAsleep(world)) wakeWhoIsUneasy(world, forces);
 }
 
 bool wakeByTouch(World& world, double dt, const GapScratch& scratch)

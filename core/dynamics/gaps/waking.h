@@ -11,7 +11,7 @@ namespace scree {
 
 /// Before the first step of a frame, whose length depends on who is awake: wakes those on whom
 /// `forces`, of the whole frame, are no longer as they were when they fell asleep, and those that a
-/// script has taken over.
+/// script has taken over, and those that have lain for long under what does not quite balance.
 void wakeByForces(World& world, const std::vector<AppliedForce>& forces);
 
 /// Wakes sleepers that a keyed body is about to touch or moves away from, or one that they do not
