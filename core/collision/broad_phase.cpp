@@ -1,8 +1,6 @@
 #include "core/collision/broad_phase.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "core/base/parallel.h"
 #include "core/base/sorted.h"
@@ -14,52 +12,14 @@ namespace {
 /// need less by and by: what has fallen fast leaves no large box behind. Only time depends on it.
 constexpr double kRoom = 0.1, kMostRoomy = 1.5;  // of the longest edge
 
-/// Cells are this many of the longest edges of the body in the middle, and are laid out anew when
-/// they are so many times too large or too small.
-constexpr double kEdgesPerCell = 2.0, kMostMisfit = 2.0;
-constexpr double kSmallestCell = 1e-12;  // [m]
+/// The tree is built anew when so many have moved for each that is in it: that takes about as long
+/// as to look for them. Only time depends on it.
+constexpr std::size_t kMostMoved = 1;
 
-constexpr std::size_t kEntriesTogether = 512, kMeetingsTogether = 1024;  // by one thread
-
-constexpr double kMostCells = 64.0;  // a body over more cells goes to the list of large ones
+constexpr std::size_t kMovedTogether = 16, kMeetingsTogether = 1024;  // by one thread
 
 /// One in so many bodies, or fewer, is looked for by itself. Only time depends on it.
 constexpr std::size_t kFewAmong = 32;
-
-struct CellRange {
-    std::array<std::int64_t, 3> first, last;
-    double count() const
-    {
-        double product = 1.0;
-        for (int k = 0; k < 3; ++k) product *= static_cast<double>(last[k] - first[k] + 1);
-        return product;
-    }
-};
-
-std::int64_t cellOf(double coordinate, double cellSize)
-{
-    // Twenty-one bits a coordinate fit into one key; farther bodies share the outermost cells.
-    constexpr double kFarthest = 1 << 20;
-    return static_cast<std::int64_t>(
-        std::clamp(std::floor(coordinate / cellSize), -kFarthest, kFarthest - 1.0));
-}
-
-CellRange cellsOf(const Aabb& box, double cellSize)
-{
-    CellRange range{};
-    for (int k = 0; k < 3; ++k) {
-        range.first[k] = cellOf(box.min[k], cellSize);
-        range.last[k] = cellOf(box.max[k], cellSize);
-    }
-    return range;
-}
-
-std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
-{
-    constexpr std::int64_t kOffset = 1 << 20;
-    return static_cast<std::uint64_t>(x + kOffset) << 42 |
-           static_cast<std::uint64_t>(y + kOffset) << 21 | static_cast<std::uint64_t>(z + kOffset);
-}
 
 /// Puts the sorted tail that begins at `middle` among the sorted rest.
 template <class Item>
@@ -86,7 +46,8 @@ const std::vector<BodyPair>& BroadPhase::findPairs(const std::vector<Aabb>& boxe
         pairFew(boxes, mass, counts);
         return pairs_;
     }
-    if (findMoved(boxes, mass)) {
+    findMoved(boxes, mass);
+    if (!moved_.empty()) {
         forEach(2, 1, [&](std::size_t list) {
             if (list == 0)
                 enterMoved(boxes);
@@ -139,8 +100,7 @@ bool BroadPhase::areFew(const std::vector<Aabb>& boxes, std::span<const char> is
     return kFewAmong * std::max(asked_.size(), outgrown_.size()) <= boxes.size();
 }
 
-/// The pairs of those that are asked: in the cells that their boxes cover, and among those that are
-/// in none. Nobody is entered anew.
+/// The pairs of those that are asked, by the boxes they have now. Nobody is entered anew.
 void BroadPhase::pairFew(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass,
                          const Filter& counts)
 {
@@ -154,74 +114,55 @@ void BroadPhase::pairFew(const std::vector<Aabb>& boxes, const std::vector<BodyM
             const BodyPair pair{std::min(asked, other), std::max(asked, other)};
             if (counts(pair)) found[n].push_back(pair);
         };
-        for (const BodyId other : large_) meetBoxOf(other);
         for (const BodyId other : outgrown_) meetBoxOf(other);
-        forThoseWithin(boxes[asked], meetBoxOf);
+        forThoseNear(boxes[asked], meetBoxOf);
     });
     pairs_.clear();
     appendAll(found, pairs_);
     sortUnique(pairs_);
 }
 
-/// Calls visit(body) for those that have been entered in the cells of a box, or for all where these
-/// are many; for some again and again.
-template <class Visit>
-void BroadPhase::forThoseWithin(const Aabb& box, const Visit& visit) const
+BroadPhase::Place BroadPhase::placeOf(const Aabb& box)
 {
-    if (box.isEmpty()) return;
-    const CellRange range = cellsOf(box, cellSize_);
-    if (range.count() > kMostCells) {
+    if (box.isEmpty()) return Place::nowhere;
+    return box.size().allFinite() ? Place::tree : Place::list;
+}
+
+/// Calls visit(body) for all whose larger boxes overlap this one, and for some others.
+template <class Visit>
+void BroadPhase::forThoseNear(const Aabb& box, const Visit& visit) const
+{
+    if (placeOf(box) == Place::list) {  // which also overlaps those that are nowhere
         for (BodyId body = 0; body < static_cast<BodyId>(roomy_.size()); ++body) visit(body);
         return;
     }
-    for (std::int64_t x = range.first[0]; x <= range.last[0]; ++x) {
-        for (std::int64_t y = range.first[1]; y <= range.last[1]; ++y) {
-            for (std::int64_t z = range.first[2]; z <= range.last[2]; ++z) {
-                const auto inCell =
-                    std::ranges::equal_range(entries_, keyOf(x, y, z), {}, &Entry::cell);
-                for (const Entry& entry : inCell) visit(entry.body);
-            }
-        }
-    }
+    for (const BodyId body : unbounded_) visit(body);
+    tree_.visit(box, visit);
 }
 
-/// Marks the bodies that no longer fit their boxes; where cells no longer fit the bodies, all.
-bool BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass)
+/// Lists the bodies that no longer fit their boxes.
+void BroadPhase::findMoved(const std::vector<Aabb>& boxes, const std::vector<BodyMass>& mass)
 {
     const bool isKnown = roomy_.size() == boxes.size();
     if (!isKnown) {
-        // Of another world: what it has entered may name bodies that this one has not.
-        entries_.clear();
-        large_.clear();
+        // Of another world: what it has met may name bodies that this one has not.
         meetings_.clear();
+        places_.assign(boxes.size(), Place::nowhere);
+        enterAll();
     }
     roomy_.resize(boxes.size());
     isMovable_.resize(boxes.size());
-    isMoved_.assign(boxes.size(), !isKnown);
-    bool isAny = !isKnown;
+    isMoved_.assign(boxes.size(), 0);
+    moved_.clear();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const char isMovable = mass[i].isMovable();
-        const bool fits = roomy_[i].contains(boxes[i]) &&
+        const bool fits = isKnown && roomy_[i].contains(boxes[i]) &&
                           roomy_[i].longestEdge() <= kMostRoomy * boxes[i].longestEdge();
         if (fits && isMovable == isMovable_[i]) continue;
         isMovable_[i] = isMovable;
-        isMoved_[i] = isAny = true;
+        isMoved_[i] = 1;
+        moved_.push_back(static_cast<BodyId>(i));
     }
-    if (!isAny) return false;
-
-    edges_.clear();
-    for (const Aabb& box : boxes) {
-        if (const double edge = box.longestEdge(); std::isfinite(edge)) edges_.push_back(edge);
-    }
-    if (edges_.empty()) return true;
-    const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(edges_.size() / 2);
-    std::nth_element(edges_.begin(), middle, edges_.end());
-    const double fitting = std::max(kEdgesPerCell * *middle, kSmallestCell);
-    if (std::max(fitting, cellSize_) > kMostMisfit * std::min(fitting, cellSize_)) {
-        cellSize_ = fitting;
-        isMoved_.assign(boxes.size(), true);
-    }
-    return true;
 }
 
 void BroadPhase::forgetMeetings()
@@ -230,95 +171,61 @@ void BroadPhase::forgetMeetings()
                   [&](const BodyPair& pair) { return isMoved_[pair.a] || isMoved_[pair.b]; });
 }
 
-/// Into the cells where they are now.
+/// Where they are now.
 void BroadPhase::enterMoved(const std::vector<Aabb>& boxes)
 {
-    std::erase_if(entries_, [&](const Entry& entry) { return isMoved_[entry.body] != 0; });
-    std::erase_if(large_, [&](BodyId body) { return isMoved_[body] != 0; });
-    const std::size_t stay = entries_.size(), stayLarge = large_.size();
-    firstCells_.resize(boxes.size());
-    for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
-        if (!isMoved_[body]) continue;
-        const double edge = boxes[body].longestEdge();
-        roomy_[body] = std::isfinite(edge) ? boxes[body].grown(kRoom * edge) : boxes[body];
-        if (boxes[body].isEmpty()) continue;
-        const CellRange range = cellsOf(roomy_[body], cellSize_);
-        firstCells_[body] = range.first;
-        if (range.count() > kMostCells) {
-            large_.push_back(body);
-            continue;
-        }
-        for (std::int64_t x = range.first[0]; x <= range.last[0]; ++x) {
-            for (std::int64_t y = range.first[1]; y <= range.last[1]; ++y) {
-                for (std::int64_t z = range.first[2]; z <= range.last[2]; ++z)
-                    entries_.push_back({keyOf(x, y, z), body});
-            }
-        }
+    bool areSame = true;
+    for (const BodyId body : moved_) {
+        const Aabb& box = boxes[body];
+        const Place place = placeOf(box);
+        roomy_[body] = place == Place::tree ? box.grown(kRoom * box.longestEdge()) : box;
+        areSame = areSame && place == places_[body];
+        places_[body] = place;
     }
-    mergeTail(entries_, stay);
-    mergeTail(large_, stayLarge);
+    movedSince_ += moved_.size();
+    if (areSame && movedSince_ <= kMostMoved * boxes.size())
+        tree_.refit(roomy_);
+    else
+        enterAll();
+}
+
+void BroadPhase::enterAll()
+{
+    thread_local std::vector<BodyId> bounded;
+    bounded.clear();
+    unbounded_.clear();
+    for (BodyId body = 0; body < static_cast<BodyId>(places_.size()); ++body) {
+        if (places_[body] == Place::tree) bounded.push_back(body);
+        if (places_[body] == Place::list) unbounded_.push_back(body);
+    }
+    tree_.build(bounded, roomy_);
+    movedSince_ = 0;
 }
 
 /// Pairs of which one has moved at least, each once.
 void BroadPhase::pairMoved()
 {
-    // Parts of the entries begin where a cell does.
-    const auto firstOfCell = [&](std::size_t i) {
-        while (i > 0 && i < entries_.size() && entries_[i].cell == entries_[i - 1].cell) ++i;
-        return std::min(i, entries_.size());
-    };
-    const auto found = foundBy((entries_.size() + kEntriesTogether - 1) / kEntriesTogether);
+    const auto found = foundBy((moved_.size() + kMovedTogether - 1) / kMovedTogether);
     forEach(found.size(), 1, [&](std::size_t part) {
         found[part].clear();
-        pairInCells(firstOfCell(part * kEntriesTogether),
-                    firstOfCell((part + 1) * kEntriesTogether), found[part]);
+        const std::size_t end = std::min((part + 1) * kMovedTogether, moved_.size());
+        for (std::size_t i = part * kMovedTogether; i < end; ++i)
+            pairWithOthers(moved_[i], found[part]);
     });
     const std::size_t stay = meetings_.size();
     appendAll(found, meetings_);
-    pairLarge(meetings_);
     mergeTail(meetings_, stay);
 }
 
-/// Pairs of those that share a cell, among the entries from `begin` to `end`.
-void BroadPhase::pairInCells(std::size_t begin, std::size_t end, std::vector<BodyPair>& found) const
+void BroadPhase::pairWithOthers(BodyId moved, std::vector<BodyPair>& found) const
 {
-    thread_local std::vector<BodyId> movedHere;
-    for (std::size_t next = begin; begin < end; begin = next) {
-        movedHere.clear();
-        for (; next < end && entries_[next].cell == entries_[begin].cell; ++next) {
-            if (isMoved_[entries_[next].body]) movedHere.push_back(entries_[next].body);
-        }
-        for (const BodyId moved : movedHere) {
-            for (std::size_t i = begin; i < next; ++i) {
-                const BodyId other = entries_[i].body;
-                if (isMoved_[other] && other <= moved) continue;
-                if (!roomy_[moved].overlaps(roomy_[other])) continue;
-                // Boxes that share several cells meet in the first of them.
-                const auto &p = firstCells_[moved], &q = firstCells_[other];
-                const std::uint64_t first =
-                    keyOf(std::max(p[0], q[0]), std::max(p[1], q[1]), std::max(p[2], q[2]));
-                if (first == entries_[i].cell) meet(moved, other, found);
-            }
-        }
-    }
-}
-
-void BroadPhase::pairLarge(std::vector<BodyPair>& found) const
-{
-    for (const BodyId large : large_) {
-        for (BodyId body = 0; body < static_cast<BodyId>(roomy_.size()); ++body) {
-            if (!isMoved_[large] && !isMoved_[body]) continue;
-            // Two large bodies meet once, when the first of them is walked.
-            if (body <= large && std::binary_search(large_.begin(), large_.end(), body)) continue;
-            if (roomy_[large].overlaps(roomy_[body])) meet(large, body, found);
-        }
-    }
-}
-
-void BroadPhase::meet(BodyId a, BodyId b, std::vector<BodyPair>& found) const
-{
-    if (!isMovable_[a] && !isMovable_[b]) return;
-    found.push_back(a < b ? BodyPair{a, b} : BodyPair{b, a});
+    forThoseNear(roomy_[moved], [&](BodyId other) {
+        // Two that have moved meet once, when the first of them looks around.
+        if (isMoved_[other] && other <= moved) return;
+        if (!isMovable_[moved] && !isMovable_[other]) return;
+        if (!roomy_[moved].overlaps(roomy_[other])) return;
+        found.push_back({std::min(moved, other), std::max(moved, other)});
+    });
 }
 
 }  // namespace scree

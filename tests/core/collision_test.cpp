@@ -1,10 +1,9 @@
-// Fast against obvious: broad phase against all pairs, remembered samples against all samples.
+// Fast against obvious: remembered samples against all samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/base/random.h"
-#include "core/collision/broad_phase.h"
 #include "core/collision/interference.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
@@ -18,94 +17,6 @@ Vec3 drawVector(std::uint64_t i, std::uint64_t what, double size)
         return size * (2.0 * randomUnit(31, i, what, axis) - 1.0);
     };
     return {unit(0), unit(1), unit(2)};
-}
-
-std::vector<BodyPair> pairsOfAllAgainstAll(const std::vector<Aabb>& boxes,
-                                           const std::vector<BodyMass>& mass)
-{
-    std::vector<BodyPair> pairs;
-    for (BodyId a = 0; a < static_cast<BodyId>(boxes.size()); ++a) {
-        for (BodyId b = a + 1; b < static_cast<BodyId>(boxes.size()); ++b) {
-            if (!mass[a].isMovable() && !mass[b].isMovable()) continue;
-            if (boxes[a].overlaps(boxes[b])) pairs.push_back({a, b});
-        }
-    }
-    return pairs;
-}
-
-// It went on with entries of bodies that there no longer were, and read beyond its lists.
-TEST(BroadPhase, ForgetsAWorldOfMoreBodies)
-{
-    std::vector<Aabb> boxes = {{Vec3::Zero(), Vec3::Ones()}};
-    while (boxes.size() < 40) boxes.push_back(boxes.front());
-    std::vector<BodyMass> mass(boxes.size(), {0.0, Vec3::Zero()});
-    for (std::size_t i = 0; i < 3; ++i) mass[i] = {1.0, Vec3::Ones()};
-    const auto counts = [](BodyPair) { return true; };
-    BroadPhase broadPhase;
-    for (int step = 0; step < 2; ++step) {
-        EXPECT_EQ(broadPhase.findPairs(boxes, mass, counts), pairsOfAllAgainstAll(boxes, mass));
-    }
-    boxes.resize(3);
-    mass.resize(3);
-    EXPECT_EQ(broadPhase.findPairs(boxes, mass, counts), pairsOfAllAgainstAll(boxes, mass));
-}
-
-TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFindsWhileBodiesMove)  // [A14]
-{
-    for (std::uint64_t scene = 0; scene < 20; ++scene) {
-        std::vector<Aabb> boxes;
-        std::vector<BodyMass> mass;
-        for (std::uint64_t b = 0; b < 200; ++b) {
-            const Vec3 centre = drawVector(scene * 1000 + b, 0, 8.0);
-            const double scale = b % 17 == 0 ? 20.0 : 1.0;
-            const Vec3 half =
-                scale * (drawVector(scene * 1000 + b, 1, 0.4).cwiseAbs() + Vec3::Constant(0.05));
-            boxes.push_back({centre - half, centre + half});
-            mass.push_back({b % 5 == 0 ? 0.0 : 1.0, Vec3::Ones()});
-        }
-        boxes.push_back(Aabb::everything());
-        mass.push_back({0.0, Vec3::Zero()});
-        boxes.push_back({});  // not born yet
-        mass.push_back({1.0, Vec3::Ones()});
-
-        BroadPhase broadPhase;
-        for (std::uint64_t step = 0; step < 30; ++step) {
-            const auto counts = [step](BodyPair pair) {
-                return (pair.a + pair.b + static_cast<BodyId>(step)) % 7 != 0;
-            };
-            std::vector<BodyPair> expected = pairsOfAllAgainstAll(boxes, mass);
-            std::erase_if(expected, [&](BodyPair pair) { return !counts(pair); });
-            EXPECT_EQ(broadPhase.findPairs(boxes, mass, counts), expected)
-                << "scene " << scene << ", step " << step;
-            // Many that are asked; and few, when they and some others have grown.
-            for (const std::size_t every : {9, 80}) {
-                std::vector<char> isAsked(boxes.size(), 0);
-                for (std::size_t b = step; b < boxes.size(); b += every) {
-                    isAsked[b] = 1;
-                    if (every == 9 || b >= 190) continue;
-                    for (const std::size_t i : {b, b + 7}) boxes[i] = boxes[i].grown(1.0);
-                }
-                expected = pairsOfAllAgainstAll(boxes, mass);
-                std::erase_if(expected, [&](BodyPair pair) {
-                    return !counts(pair) || (!isAsked[pair.a] && !isAsked[pair.b]);
-                });
-                EXPECT_EQ(broadPhase.findPairs(boxes, mass, counts, isAsked), expected)
-                    << "scene " << scene << ", step " << step << ", every " << every;
-            }
-            for (std::uint64_t b = 0; b < 200; ++b) {
-                const Vec3 way = drawVector(scene * 1000 + b, 2, b == 7 ? 1.0 : 0.01);
-                boxes[b].min += way;
-                boxes[b].max += way;
-            }
-            if (step == 10) boxes.back() = {-Vec3::Ones(), Vec3::Ones()};
-            if (step == 15 || step == 25) {  // most of them: cells no longer fit
-                for (std::uint64_t b = 0; b < 200; ++b) {
-                    if (b % 3 != 0) boxes[b] = boxes[b].grown(step == 15 ? 3.0 : -3.0);
-                }
-            }
-            if (step == 20) std::swap(mass[0], mass[1]);
-        }
-    }
 }
 
 void expectSameTouches(std::vector<Touch> fast, std::vector<Touch> plain, const std::string& where)
