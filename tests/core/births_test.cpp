@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "core/base/random.h"
+#include "core/collision/interference.h"
 #include "core/diagnostics/state_hash.h"
 #include "core/dynamics/stepper.h"
 #include "tests/support/scenes.h"
@@ -87,6 +91,72 @@ TEST_F(Births, SkippedBodiesNeverComeAndFailingOnesAreNamed)
     world.motion[first].position.x() = 100.0;
     EXPECT_EQ(giveBirths(world).born, 1) << "the failing one, whose place is free now";
     EXPECT_FALSE(world.isBorn(skipped));
+}
+
+/// The first that stands in the way, or −1, of those who are there in the order they came.
+BodyId firstOccupant(const World& world, const std::vector<BodyId>& there, BodyId newcomer)
+{
+    const auto boxOf = [&](BodyId body) {
+        return boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
+    };
+    const auto occupant = std::ranges::find_if(there, [&](BodyId body) {
+        return boxOf(newcomer).overlaps(boxOf(body)) && standsInTheWay(world, body, newcomer);
+    });
+    return occupant == there.end() ? -1 : *occupant;
+}
+
+/// What giveBirths does, by looking at all.
+BirthReport giveBirthsPlainly(World& world)
+{
+    BirthReport report;
+    std::vector<BodyId> there;
+    for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
+        if (world.isBorn(body)) there.push_back(body);
+    }
+    for (const PlannedBirth& birth : world.births) {
+        if (birth.frame > world.clock.frame || world.bornAt[birth.body] != kUnborn) continue;
+        const BodyId occupant = firstOccupant(world, there, birth.body);
+        if (occupant < 0) {
+            world.beBorn(birth);
+            there.push_back(birth.body);
+            ++report.born;
+        } else if (birth.clearance == BirthClearance::fail) {
+            report.failed = birth.body;
+            report.occupant = occupant;
+            return report;
+        } else {
+            ++report.waiting;
+        }
+    }
+    return report;
+}
+
+TEST_F(Births, AmongHundredsTheSameComeAsWhereEachLooksAtAll)
+{
+    const auto draw = [](std::uint64_t i, std::uint64_t what) {
+        const Vec3 unit(randomUnit(7, i, what, 0), randomUnit(7, i, what, 1),
+                        randomUnit(7, i, what, 2));
+        return Vec3(14.0 * unit);
+    };
+    for (std::uint64_t i = 0; i < 1200; ++i)  // the later ones are there when the others come
+        addCube(draw(i, 0), i < 600 ? 1 : 0, BirthClearance::wait);
+    for (std::uint64_t i = 0; i < 40; ++i) addCube(draw(i, 1), 2, BirthClearance::fail);
+    World other = world;
+    for (std::int64_t call = 0; call < 42; ++call) {
+        world.clock.frame = other.clock.frame = std::min<std::int64_t>(call, 2);
+        const BirthReport report = giveBirths(world), plain = giveBirthsPlainly(other);
+        ASSERT_EQ(world.bornAt, other.bornAt) << "call " << call;
+        EXPECT_EQ(report.born, plain.born);
+        EXPECT_EQ(report.waiting, plain.waiting);
+        ASSERT_EQ(report.failed, plain.failed) << "call " << call;
+        EXPECT_EQ(report.occupant, plain.occupant);
+        if (call == 0) {
+            EXPECT_GT(report.born, 250) << "more than are looked at one by one";
+        }
+        if (report.failed >= 0)  // it makes way for the next that may not wait
+            world.bornAt[report.failed] = other.bornAt[report.failed] = kSkipped;
+    }
+    EXPECT_GT(std::ranges::count(world.bornAt, kSkipped), 20);
 }
 
 TEST_F(Births, WhatPassesThroughItIsNotInItsWay)  // [A57]
