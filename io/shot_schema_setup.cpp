@@ -122,7 +122,8 @@ const std::vector<ShotKey> kSolverKeys = {
      .byDefault = "5",
      .min = 0,
      .max = 1000,
-     .help = "Sweeps over colliding pairs at the predicted positions. Too few and fast heaps "
+     .help = "Sweeps over colliding pairs at the predicted positions; method \"scree\" ends when "
+             "nothing is hit any more, after twenty times as many at most. Too few and fast heaps "
              "overlap; 0 switches bouncing off."},
     {.path = "solver.collision_pair_impulses",
      .type = integer,

@@ -544,8 +544,6 @@ TEST(GapBounce, ElasticBoxesInAClosedRoomKeepTheirEnergy)
     EXPECT_NEAR(mechanicalEnergy(world, settings.gravity), before, 0.01 * before);
 }
 
-// A clump whose balls hit each other as they hit the floor: most of what follows from a blow would
-// be over before the step is.
 /// Heights of a ball that falls in a corner, or beside a wall that is not there, frame by frame
 /// [m].
 std::vector<double> heightsBeside(bool isWallThere, double restitution)
@@ -567,6 +565,71 @@ std::vector<double> heightsBeside(bool isWallThere, double restitution)
 }
 
 // It meets both within one step, but not at the same moment.
+// The second one is thrown at a wall by the first, in the same step: it has been struck twice.
+TEST(GapBounce, WithoutFrictionNothingTurnsBalls)
+{
+    for (const double gap : {0.0, 1e-3, 0.02}) {
+        World world;
+        const MaterialId ivory = addMaterial(world, 0.0, 1.0);
+        addPlane(world, ivory, Vec3::Zero(), -Vec3::UnitX());
+        const double radius = 0.1, angle = 30.0 * kPi / 180.0;
+        const Vec3 second(-radius - gap, 0.0, 0.0);
+        const Vec3 first = second - 2.0 * radius * Vec3(std::cos(angle), std::sin(angle), 0.0);
+        const auto ball = exactSphere(radius);
+        addBody(world, ball, ivory, {Vec3(first - 0.2 * Vec3::UnitX())}, 1.0, Vec3(3.0, 0.0, 0.0));
+        addBody(world, ball, ivory, {second});
+        const StepSettings settings = weightless();
+        Stepper stepper(settings);
+        for (int f = 0; f < 12; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+        for (const BodyId body : {1, 2})
+            EXPECT_LT(world.motion[body].angularMomentum.norm(), 1e-12) << gap << ", " << body;
+        EXPECT_NEAR(mechanicalEnergy(world, settings.gravity), 4.5, 1e-9) << gap;
+        EXPECT_LT(world.motion[1].velocity.x(), 0.0) << gap;
+    }
+}
+
+// The light one goes to and fro between them until the heavy one has turned: π/2 √(mass ratio)
+// times.
+TEST(GapBounce, WhatDrivesALightBodyAgainstAWallComesBackWithAllItsEnergy)
+{
+    for (const double mass : {10.0, 100.0, 1000.0}) {
+        World world;
+        const MaterialId ivory = addMaterial(world, 0.0, 1.0);
+        addPlane(world, ivory, Vec3::Zero(), -Vec3::UnitX());
+        const auto ball = exactSphere(0.1);
+        const BodyId heavy =
+            addBody(world, ball, ivory, {Vec3(-0.5, 0.0, 0.0)}, mass, Vec3(3.0, 0.0, 0.0));
+        addBody(world, ball, ivory, {Vec3(-0.1, 0.0, 0.0)});
+        const StepSettings settings = weightless();
+        Stepper stepper(settings);
+        for (int f = 0; f < 12; ++f) stepper.advanceFrame(world, 1.0 / 24.0);
+        EXPECT_NEAR(mechanicalEnergy(world, settings.gravity), 4.5 * mass, 1e-3 * mass) << mass;
+        EXPECT_LT(world.motion[heavy].velocity.x(), -2.0) << mass;
+    }
+}
+
+// The one below is thrown at the floor and back within the step, and strikes the other again.
+TEST(GapBounce, WhatFallsOnItsLikeTurnsWhereTheyTouch)
+{
+    World world;
+    const MaterialId wood = addMaterial(world, 0.3, 0.8);
+    addPlane(world, wood);
+    const double height = 0.2, fall = 1.1, frame = 1.0 / 24.0;
+    const auto box = exactBox({0.4, height, 0.4}, 1);
+    addBody(world, box, wood, {Vec3(0.0, 0.5 * height, 0.0)});
+    const BodyId upper = addBody(world, box, wood, {Vec3(0.0, 1.5 * height + fall, 0.0)});
+    Stepper stepper(screeSettings());
+    const double gravity = -screeSettings().gravity.y();
+    const double landsAt = std::sqrt(2.0 * fall / gravity);
+    const int frames = static_cast<int>(landsAt / frame) + 2;
+    for (int f = 0; f < frames; ++f) stepper.advanceFrame(world, frame);
+    const double since = frames * frame - landsAt;
+    const BodyMotion& motion = world.motion[upper];
+    const double turnedAt =
+        motion.position.y() - since * motion.velocity.y() - 0.5 * gravity * since * since;
+    EXPECT_NEAR(turnedAt, 1.5 * height, 1e-3);
+}
+
 TEST(GapBounce, ABallThatFallsIntoACornerIsAsHighAsWithoutTheWall)
 {
     // What stays down lies a hair in the floor until push-out has lifted it.
@@ -578,6 +641,8 @@ TEST(GapBounce, ABallThatFallsIntoACornerIsAsHighAsWithoutTheWall)
     }
 }
 
+// A clump whose balls hit each other as they hit the floor: most of what follows from a blow would
+// be over before the step is.
 TEST(GapBounce, AClumpThatLandsIsNotStruckByBouncesThatNoStepCouldShow)
 {
     World world;

@@ -36,7 +36,8 @@ BodyId ballOf(int stack)
     return 1 + kCubes * kStacks + stack;
 }
 
-/// Stacks of cubes side by side that have begun to rest; a ball has just hit each from above.
+/// Stacks of cubes side by side that have begun to rest; a ball has just hit the first from
+/// above, and one hits each of the others in the next step.
 World stacksUnderBlows()
 {
     World world;
@@ -50,9 +51,10 @@ World stacksUnderBlows()
         }
     }
     for (int stack = 0; stack < kStacks; ++stack) {
+        const double speed = 1.0 + stack, apart = stack == 0 ? 0.01 : 1.5 * kStep * speed;
         addBody(world, exactSphere(0.4), material,
-                {Vec3(8.0 * stack, kCubes + 0.41, 0.0), Quat::Identity()}, 1.0,
-                Vec3(0.0, -1.0 - stack, 0.0));
+                {Vec3(8.0 * stack, kCubes + 0.4 + apart, 0.0), Quat::Identity()}, 1.0,
+                Vec3(0.0, -speed, 0.0));
     }
     Stepper stepper(screeSettings());
     stepper.step(world, kStep);

@@ -132,7 +132,7 @@ private:
     GapRow rowAt(Impact& impact) const;
     void applyOne(Impact& impact);
     void applyTogether(std::vector<Impact>& hits);
-    void note(const Impact& impact, const Vec3& impulse, FrictionCase kind);
+    void note(const Impact& impact, const GapRow& row, const Vec3& impulse, FrictionCase kind);
     void applyImpulses(const GapRow& row, const Vec3& impulse, double time);
     void applyTo(GapBody& body, const Vec3& r, const Vec3& impulse, ImpactChange& change,
                  double time);

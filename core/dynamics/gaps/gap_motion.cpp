@@ -67,14 +67,20 @@ void addCouple(World& world, const GapScratch& scratch, const GapRow& row, const
     world.motion[row.b].angularMomentum += easeA * couple;
 }
 
+/// Balls that are struck twice in a step are not where their blows found them, and nothing that
+/// goes through their centres turns them: of a couple for that, 27 elastic balls without friction
+/// gained a third of their energy in fifteen seconds, and those of a break left with a spin.
 void addCouplesOfImpacts(World& world, const GapScratch& scratch)
 {
     for (const GapImpact& impact : scratch.impacts) {
         const GapRow& row = scratch.rows[impact.row];
         const GapBody& a = scratch.bodies[row.a];
         const GapBody& b = scratch.bodies[row.b];
-        addCouple(world, scratch, row, impact.impulse,
-                  a.hitAt * a.velocity - b.hitAt * b.velocity - impact.slid);
+        const Vec3 central = impact.impulse.dot(row.normal) * row.normal;
+        const Vec3 turning = impact.isCentral ? impact.impulse - central : impact.impulse;
+        // With the shifts: as far as they came before any blow of the step.
+        addCouple(world, scratch, row, turning,
+                  a.hitAt * a.velocity + a.shift - b.hitAt * b.velocity - b.shift - impact.slid);
     }
 }
 

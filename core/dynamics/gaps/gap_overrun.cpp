@@ -19,12 +19,6 @@ double overrun(const GapRow& row, const GapBody& a, const GapBody& b, double dt)
     return -(openAt(row, a, b) + dt * u);
 }
 
-void moveFromTheStart(GapBody& body)
-{
-    body.shift = body.turn = Vec3::Zero();
-    body.hitAt = 0.0;
-}
-
 /// True if a body was made to move otherwise.
 bool endOverrunsOf(const GapPair& pair, double visible, double dt, GapScratch& scratch)
 {
@@ -44,6 +38,12 @@ bool endOverrunsOf(const GapPair& pair, double visible, double dt, GapScratch& s
 }
 
 }  // namespace
+
+void moveFromTheStart(GapBody& body)
+{
+    body.shift = body.turn = Vec3::Zero();
+    body.hitAt = 0.0;
+}
 
 void endOverruns(const World& world, double dt, const GapBlock& block, GapScratch& scratch)
 {

@@ -10,6 +10,9 @@
 
 namespace scree {
 
+/// Lets a body that is hit move with the velocities it has afterwards for the whole step.
+void moveFromTheStart(GapBody& body);
+
 /// Lets bodies that would run into others until they are hit, and would not with the velocities
 /// they have afterwards, move with these from the start. After impacts; `dt` [s].  [A28]
 void endOverruns(const World& world, double dt, const GapBlock& block, GapScratch& scratch);

@@ -60,6 +60,7 @@ struct GapImpact {
     Vec3 impulse;  ///< on A, world [N s]
     Vec3 slid;     ///< what its lever arms have allowed for [m]
     FrictionCase kind;
+    bool isCentral;  ///< along the normal it goes through both centres, wherever the bodies meet
 };
 
 /// Rows that share bodies, directly or through others: a problem of its own. Islands share no
