@@ -56,24 +56,45 @@ std::string describeHaste(const FastBody& body)
     return formatted("needs %.0f steps a frame at %.3g m/s", body.stepsNeeded, body.speed);
 }
 
-/// The static body that stands where a body is to be born, or −1. It never makes room.
-BodyId obstacleTo(const World& world, BodyId newcomer)
+Aabb boxOf(const World& world, BodyId body)
 {
-    const Aabb box = boxAt(world.shapeOf(newcomer), world.motion[newcomer].worldFromBody());
+    return boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
+}
+
+/// A static body, which never makes room.
+struct Obstacle {
+    BodyId body;
+    Aabb box;
+};
+
+std::vector<Obstacle> obstaclesIn(const World& world)
+{
+    std::vector<Obstacle> obstacles;
     for (BodyId body = 0; body < static_cast<BodyId>(world.bodyCount()); ++body) {
-        if (world.info[body].kind != BodyKind::fixed) continue;
-        const Aabb there = boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
-        if (box.overlaps(there) && standsInTheWay(world, body, newcomer)) return body;
+        if (world.info[body].kind == BodyKind::fixed)
+            obstacles.push_back({body, boxOf(world, body)});
+    }
+    return obstacles;
+}
+
+/// The one that stands where a body is to be born, or −1.
+BodyId obstacleTo(const World& world, const std::vector<Obstacle>& obstacles, BodyId newcomer)
+{
+    const Aabb box = boxOf(world, newcomer);
+    for (const Obstacle& obstacle : obstacles) {
+        if (box.overlaps(obstacle.box) && standsInTheWay(world, obstacle.body, newcomer))
+            return obstacle.body;
     }
     return -1;
 }
 
 void warnOfBlockedBirths(const World& world, std::vector<std::string>& warnings)
 {
+    const std::vector<Obstacle> obstacles = obstaclesIn(world);
     std::vector<BodyId> blocked;
     BodyId first = -1;
     for (const PlannedBirth& birth : world.births) {
-        const BodyId obstacle = obstacleTo(world, birth.body);
+        const BodyId obstacle = obstacleTo(world, obstacles, birth.body);
         if (obstacle < 0) continue;
         if (blocked.empty()) first = obstacle;
         blocked.push_back(birth.body);
