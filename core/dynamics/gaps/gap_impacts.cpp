@@ -52,16 +52,6 @@ void dropHits(std::vector<Impact>& hits, std::size_t from, const Which& which)
     hits.erase(std::remove_if(begin, hits.end(), which), hits.end());
 }
 
-/// Whether a row between round surfaces goes through both centres, as that of two balls does.
-bool isCentral(const GapRow& row)
-{
-    constexpr double kAlong = 1e-4;  // of the arm
-    const auto isAlong = [&](const Vec3& r) {
-        return r.cross(row.normal).squaredNorm() <= kAlong * kAlong * r.squaredNorm();
-    };
-    return row.isRound && isAlong(row.rA) && isAlong(row.rB);
-}
-
 double strongerPull(const GapBody& a, const GapBody& b)
 {
     return std::max(a.pull.norm(), b.pull.norm());
@@ -267,9 +257,9 @@ Vec3 ImpactVisits::slideUntil(const Impact& impact) const
 }
 
 /// The row of an impact with the lever arms it has then: the place goes along with both.
-/// Angular momentum is kept so, and energy too. Keeps the arms of now where they alone see it
-/// coming, and those of balls: aside of the normal they would turn what nothing rubs. Rows that
-/// have been foreseen have the arms of then.
+/// Angular momentum is kept so, and energy too. Balls get the normal of then as well: aside of it
+/// their arms would turn what nothing rubs. Keeps the row of now where it alone sees it coming.
+/// Rows that have been foreseen have the arms of then.
 GapRow ImpactVisits::rowAt(Impact& impact) const
 {
     GapRow row = *impact.row;
@@ -286,9 +276,17 @@ GapRow ImpactVisits::rowAt(Impact& impact) const
         return row;
     }
     if (row.movesA && row.movesB) {
-        if (slid.isZero(0.0) || isCentral(row)) return row;
-        row.rA -= 0.5 * slid;
-        row.rB += 0.5 * slid;
+        if (slid.isZero(0.0)) return row;
+        if (row.isOfBalls) {
+            const Vec3 aFromB = row.rB - row.rA + slid;
+            const double share = row.rA.norm() / (row.rA.norm() + row.rB.norm());
+            row.normal = aFromB.normalized();
+            row.rA = -share * aFromB;
+            row.rB = (1.0 - share) * aFromB;
+        } else {
+            row.rA -= 0.5 * slid;
+            row.rB += 0.5 * slid;
+        }
     } else {
         // Halfway between the surfaces is not where either is touched: a ball on a plane was given
         // a radius and half of what it fell in the step.
@@ -301,6 +299,7 @@ GapRow ImpactVisits::rowAt(Impact& impact) const
     if (speed >= -state_.slowest) {
         row.rA = impact.row->rA;
         row.rB = impact.row->rB;
+        row.normal = impact.row->normal;
         return row;
     }
     prepareRow(scratch_.bodies, row);
@@ -350,8 +349,9 @@ void ImpactVisits::applyTogether(std::vector<Impact>& hits)
 void ImpactVisits::note(const Impact& impact, const GapRow& row, const Vec3& impulse,
                         FrictionCase kind)
 {
+    const double central = row.isOfBalls ? impulse.dot(row.normal) : 0.0;
     noted_.push_back({static_cast<std::size_t>(impact.row - scratch_.rows.data()), impulse,
-                      impact.slid, kind, isCentral(row)});
+                      impact.slid, kind, central * row.normal});
 }
 
 void ImpactVisits::applyImpulses(const GapRow& row, const Vec3& impulse, double time)

@@ -76,10 +76,8 @@ void addCouplesOfImpacts(World& world, const GapScratch& scratch)
         const GapRow& row = scratch.rows[impact.row];
         const GapBody& a = scratch.bodies[row.a];
         const GapBody& b = scratch.bodies[row.b];
-        const Vec3 central = impact.impulse.dot(row.normal) * row.normal;
-        const Vec3 turning = impact.isCentral ? impact.impulse - central : impact.impulse;
         // With the shifts: as far as they came before any blow of the step.
-        addCouple(world, scratch, row, turning,
+        addCouple(world, scratch, row, impact.impulse - impact.central,
                   a.hitAt * a.velocity + a.shift - b.hitAt * b.velocity - b.shift - impact.slid);
     }
 }

@@ -181,6 +181,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
             const auto [a, b] = pair.bodies;
             const PairSurface surface = surfaceOf(world, settings, pair.bodies);
             const Vec3 bFromA = world.motion[a].position - world.motion[b].position;
+            const bool areBalls = world.shapeOf(a).isBall() && world.shapeOf(b).isBall();
             const bool isUnmovedA = isUnmovedBy(world, a, b), isUnmovedB = isUnmovedBy(world, b, a);
             while (known != memory.end() && isBefore(*known, pair.bodies)) ++known;
             const auto firstKnown = known;
@@ -194,6 +195,7 @@ void buildRows(const World& world, const StepSettings& settings, double dt, cons
                 row.target = 0.0;
                 row.wasHit = false;
                 row.isOfBlow = false;
+                row.isOfBalls = areBalls;
                 row.impulse = Vec3::Zero();
                 row.squeeze = 0.0;
                 row.isUnmovedA = isUnmovedA;

@@ -48,6 +48,7 @@ struct GapRow {
     bool wasHit;                   ///< by an impact of this step
     bool isOfBlow;                 ///< has the arms and the normal of the moment it is hit
     bool isRound;                  ///< its place belongs to no body
+    bool isOfBalls;                ///< goes through both centres, wherever they meet
     bool swings;                   ///< its place leaves the straight way: gap_swings.h
     Vec3 rA, rB;                   ///< contact point from either centre, world [m]
     Vec3 normal;                   ///< from B to A

@@ -60,7 +60,7 @@ struct GapImpact {
     Vec3 impulse;  ///< on A, world [N s]
     Vec3 slid;     ///< what its lever arms have allowed for [m]
     FrictionCase kind;
-    bool isCentral;  ///< along the normal it goes through both centres, wherever the bodies meet
+    Vec3 central;  ///< the part of it that goes through the centres of balls [N s]
 };
 
 /// Rows that share bodies, directly or through others: a problem of its own. Islands share no
