@@ -11,6 +11,7 @@
 #include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/stepper.h"
+#include "tests/support/momenta.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -129,18 +130,6 @@ TEST(E18FreeCluster, ContactAndShockKeepBothMomentaAndCollisionTheLinearOne)
         EXPECT_LE(drifts[kPushOut].angular, 1e-3);
         EXPECT_LE(finer[kPushOut].angular, 1e-3);
     }
-}
-
-/// About the origin.
-Vec3 angularMomentumOf(const World& world)
-{
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t b = 0; b < world.bodyCount(); ++b) {
-        const BodyMotion& motion = world.motion[b];
-        sum += motion.position.cross(motion.velocity / world.mass[b].inverseMass) +
-               motion.angularMomentum;
-    }
-    return sum;
 }
 
 TEST(FreeCluster, MethodScreeKeepsItsMomentaAtAnyStepWhoeverIsHeavy)

@@ -16,6 +16,7 @@
 #include "core/dynamics/stepper.h"
 #include "core/geometry/primitives.h"
 #include "tests/support/draw.h"
+#include "tests/support/momenta.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
@@ -603,20 +604,11 @@ TEST(GapBounce, BlowsThatFollowFromEachOtherKeepEnergyAndAngularMomentum)
     }
     StepSettings settings = weightless();
     settings.pushOut = false;  // moves bodies without asking for their angular momenta
-    const auto angularMomentum = [&] {
-        Vec3 sum = Vec3::Zero();
-        for (std::size_t i = 0; i < world.bodyCount(); ++i) {
-            const BodyMotion& motion = world.motion[i];
-            sum += motion.position.cross(motion.velocity / world.mass[i].inverseMass) +
-                   motion.angularMomentum;
-        }
-        return sum;
-    };
-    const Vec3 turning = angularMomentum();
+    const Vec3 turning = angularMomentumOf(world);
     const double energy = mechanicalEnergy(world, settings.gravity);
     Stepper stepper(settings);
     for (int i = 0; i < 9; ++i) stepper.step(world, 1.0 / 60.0);
-    EXPECT_LT((angularMomentum() - turning).norm(), 1e-12);
+    EXPECT_LT((angularMomentumOf(world) - turning).norm(), 1e-12);
     // Where the middle one was taken to have come as far as with its last velocity: 2 % less.
     EXPECT_NEAR(mechanicalEnergy(world, settings.gravity), energy, 1e-3 * energy);
     EXPECT_GT(world.motion[2].velocity.x(), 0.5);
