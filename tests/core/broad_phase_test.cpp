@@ -6,18 +6,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/random.h"
+#include "tests/support/draws.h"
 
 namespace scree::test {
 namespace {
-
-Vec3 drawVector(std::uint64_t i, std::uint64_t what, double size)
-{
-    const auto unit = [&](std::uint64_t axis) {
-        return size * (2.0 * randomUnit(31, i, what, axis) - 1.0);
-    };
-    return {unit(0), unit(1), unit(2)};
-}
 
 std::vector<BodyPair> pairsOfAllAgainstAll(const std::vector<Aabb>& boxes,
                                            const std::vector<BodyMass>& mass)

@@ -3,21 +3,13 @@
 
 #include <algorithm>
 
-#include "core/base/random.h"
 #include "core/collision/interference.h"
 #include "core/geometry/primitives.h"
+#include "tests/support/draws.h"
 #include "tests/support/scenes.h"
 
 namespace scree::test {
 namespace {
-
-Vec3 drawVector(std::uint64_t i, std::uint64_t what, double size)
-{
-    const auto unit = [&](std::uint64_t axis) {
-        return size * (2.0 * randomUnit(31, i, what, axis) - 1.0);
-    };
-    return {unit(0), unit(1), unit(2)};
-}
 
 void expectSameTouches(std::vector<Touch> fast, std::vector<Touch> plain, const std::string& where)
 {
