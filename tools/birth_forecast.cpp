@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/dynamics/births.h"
+#include "core/dynamics/body_pairs.h"
 #include "core/math/rotation.h"
 
 namespace scree {
@@ -87,11 +88,11 @@ private:
         world_.clock.frame = frame;
         Aabb places;
         for (const PlannedBirth& birth : world_.births)
-            if (world_.bornAt[birth.body] == kUnborn) places.include(boxOf(birth.body));
+            if (world_.bornAt[birth.body] == kUnborn) places.include(boxOf(world_, birth.body));
         boxes_.clear();
         std::erase_if(there_, [&](BodyId body) {
             move(body, frame);
-            const Aabb box = boxOf(body);
+            const Aabb box = boxOf(world_, body);
             const bool isGone = starts_.contains(body) && !box.overlaps(places);
             if (!isGone) boxes_.push_back(box);
             return isGone;
@@ -117,7 +118,7 @@ private:
     void attempt(const PlannedBirth& birth)
     {
         Births& births = births_[shot_.bodies[birth.body].item];
-        const Aabb box = boxOf(birth.body);
+        const Aabb box = boxOf(world_, birth.body);
         for (std::size_t i = 0; i < there_.size(); ++i) {
             ++boxTests_;
             if (!box.overlaps(boxes_[i])) continue;
@@ -133,11 +134,6 @@ private:
         ++births.come;
         there_.push_back(birth.body);
         boxes_.push_back(box);
-    }
-
-    Aabb boxOf(BodyId body) const
-    {
-        return boxAt(world_.shapeOf(body), world_.motion[body].worldFromBody());
     }
 
     const Shot& shot_;

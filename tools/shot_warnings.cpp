@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/dynamics/births.h"
+#include "core/dynamics/body_pairs.h"
 #include "core/dynamics/start_check.h"
 #include "io/build_world.h"
 #include "io/text_forms.h"
@@ -54,11 +55,6 @@ std::string describeHaste(const FastBody& body)
 {
     if (!std::isfinite(body.stepsNeeded)) return "is faster than any number of steps can follow";
     return formatted("needs %.0f steps a frame at %.3g m/s", body.stepsNeeded, body.speed);
-}
-
-Aabb boxOf(const World& world, BodyId body)
-{
-    return boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
 }
 
 /// A static body, which never makes room.

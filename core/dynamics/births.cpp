@@ -11,11 +11,6 @@
 namespace scree {
 namespace {
 
-Aabb boxOf(const World& world, BodyId body)
-{
-    return boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
-}
-
 /// Those who are there, and the boxes they stand in, in the order in which they came. Ten thousand
 /// who wait among ten thousand were a third of a second a frame while each looked at all.
 class Population {

@@ -61,6 +61,11 @@ std::optional<Vec3> normalOfPlane(const World& world, BodyPair bodies)
     return {};
 }
 
+Aabb boxOf(const World& world, BodyId body)
+{
+    return boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
+}
+
 double smallerRadius(const World& world, BodyId a, BodyId b)
 {
     return smallerRadius(world.shapeOf(a), world.shapeOf(b));

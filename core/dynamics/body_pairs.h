@@ -31,6 +31,9 @@ bool mayCollide(const World& world, BodyPair bodies);
 /// Out of the plane, where one of a pair is such; nothing where none is.
 std::optional<Vec3> normalOfPlane(const World& world, BodyPair bodies);
 
+/// Of a body where it is; that of a plane is all of space.
+Aabb boxOf(const World& world, BodyId body);
+
 /// Bounding radius of the smaller body of a pair [m].
 double smallerRadius(const World& world, BodyId a, BodyId b);
 

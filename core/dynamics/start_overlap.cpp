@@ -92,8 +92,7 @@ std::vector<Aabb> startBoxes(const World& world)
 {
     std::vector<Aabb> boxes(world.bodyCount());
     for (BodyId body = 0; body < static_cast<BodyId>(boxes.size()); ++body) {
-        if (!world.isBorn(body)) continue;
-        boxes[body] = boxAt(world.shapeOf(body), world.motion[body].worldFromBody());
+        if (world.isBorn(body)) boxes[body] = boxOf(world, body);
     }
     return boxes;
 }
