@@ -3,8 +3,6 @@
 // the hash of all before it.
 #include "tools/settle_checkpoint.h"
 
-#include <algorithm>
-#include <array>
 #include <fstream>
 #include <span>
 #include <string>
@@ -14,32 +12,18 @@
 #include "io/byte_cursor.h"
 #include "io/byte_order.h"
 #include "io/file_bytes.h"
+#include "io/motion_record.h"
 
 namespace scree {
 namespace {
 
 constexpr std::string_view kTitle = "scree settle 1\n";
 
-/// Position, orientation (x y z w), velocity, angular momentum.
-using Record = std::array<double, 13>;
-
-Record recordOf(const BodyMotion& motion)
-{
-    Record record;
-    double* end = std::copy_n(motion.position.data(), 3, record.data());
-    end = std::copy_n(motion.orientation.coeffs().data(), 4, end);
-    end = std::copy_n(motion.velocity.data(), 3, end);
-    std::copy_n(motion.angularMomentum.data(), 3, end);
-    return record;
-}
-
-BodyMotion motionOf(const Record& record)
+BodyMotion motionOf(const MotionRecord& record)
 {
     BodyMotion motion;
-    motion.position = Eigen::Map<const Vec3>(record.data());
-    motion.orientation.coeffs() = Eigen::Map<const Eigen::Vector4d>(&record[3]);
-    motion.velocity = Eigen::Map<const Vec3>(&record[7]);
-    motion.angularMomentum = Eigen::Map<const Vec3>(&record[10]);
+    readMotion(record, motion.position, motion.orientation, motion.velocity,
+               motion.angularMomentum);
     return motion;
 }
 
@@ -72,7 +56,9 @@ void writeCheckpoint(const std::filesystem::path& path, std::uint64_t startHash,
     appendBytes(bytes, static_cast<std::uint64_t>(checkpoint.past.size()));
     appendBytes(bytes, static_cast<std::uint64_t>(checkpoint.state.motion.size()));
     for (const std::vector<BodyMotion>& moment : checkpoint.past)
-        for (const BodyMotion& motion : moment) bytes += bytesOf(recordOf(motion));
+        for (const BodyMotion& motion : moment)
+            bytes += bytesOf(motionRecord(motion.position, motion.orientation, motion.velocity,
+                                          motion.angularMomentum));
     const std::string state = encodeFrame(checkpoint.state);
     appendBytes(bytes, static_cast<std::uint64_t>(state.size()));
     bytes += state;
@@ -104,11 +90,11 @@ std::optional<SettleCheckpoint> readCheckpoint(const std::filesystem::path& path
     const auto moments = cursor.take<std::uint64_t>(), bodies = cursor.take<std::uint64_t>();
     SettleCheckpoint checkpoint;
     for (std::uint64_t i = 0; i < moments; ++i) {
-        cursor.require(bodies, sizeof(Record));
-        std::vector<Record> records(bodies);
+        cursor.require(bodies, sizeof(MotionRecord));
+        std::vector<MotionRecord> records(bodies);
         cursor.takeInto(std::span(records));
         std::vector<BodyMotion>& moment = checkpoint.past.emplace_back();
-        for (const Record& record : records) moment.push_back(motionOf(record));
+        for (const MotionRecord& record : records) moment.push_back(motionOf(record));
     }
     const auto stateBytes = cursor.take<std::uint64_t>();
     checkpoint.state = decodeFrame(cursor.takeText(stateBytes), path);
