@@ -18,7 +18,6 @@
 #include "io/file_bytes.h"
 #include "io/frame_writer.h"
 #include "io/pose_json.h"
-#include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "io/take_folder.h"
 #include "io/text_forms.h"
@@ -28,15 +27,12 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/progress.h"
-#include "tools/repair_report.h"
 #include "tools/rolling_advice.h"
+#include "tools/run_start.h"
 #include "tools/settle_checkpoint.h"
 #include "tools/settled_poses.h"
 #include "tools/shell_line.h"
-#include "tools/shot_warnings.h"
-#include "tools/start_rule.h"
 #include "tools/stop_signals.h"
-#include "tools/stoppable_build.h"
 #include "tools/take_export.h"
 
 namespace scree {
@@ -136,14 +132,8 @@ public:
         AtomicFile{options.output};  // says now that nothing can be created there
         refuseForeignCheckpoint(checkpoint_);
         setThreadCount(threadsToUse(options.threads));
-        ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-        world_ = buildStoppably(shot_, cache, console);
+        world_ = worldAtStart(shot_, options.noCache, console);
         endOfEvents_ = endOfEvents(world_);
-        for (const std::string& repair : repairsOf(world_)) console.info(repair);
-        for (const std::string& note : notesBeforeStart(shot_)) console.info(note);
-        applyStartRule(shot_, world_, console);
-        for (const std::string& warning : warningsBeforeStart(shot_, world_))
-            console.warning(warning);
         startHash_ = hashText(encodeFrame(captureState(shot_, world_)));
         past_ = {world_.motion};
         takeUpCheckpoint();

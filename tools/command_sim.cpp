@@ -14,7 +14,6 @@
 #include "core/dynamics/stepper.h"
 #include "io/build_world.h"
 #include "io/frame_pattern.h"
-#include "io/shape_cache.h"
 #include "io/shot_parser.h"
 #include "io/subframes.h"
 #include "io/take.h"
@@ -27,11 +26,9 @@
 #include "tools/exit_code.h"
 #include "tools/overlap_watch.h"
 #include "tools/progress.h"
-#include "tools/repair_report.h"
+#include "tools/run_start.h"
 #include "tools/shell_line.h"
-#include "tools/shot_warnings.h"
 #include "tools/simulation.h"
-#include "tools/start_rule.h"
 #include "tools/stop_signals.h"
 #include "tools/stoppable_build.h"
 #include "tools/take_export.h"
@@ -69,14 +66,7 @@ public:
         shot_ = parseShot(options.shot, options.overrides, options.importLimits);
         lastFrame_ = chooseLastFrame();
         const std::string folder = options.take.empty() ? "takes/" + shot_.name : options.take;
-        ShapeCache cache(options.noCache ? std::filesystem::path() : defaultCacheFolder());
-        world_ = buildStoppably(shot_, cache, console);
-        for (const std::string& repair : repairsOf(world_)) console.info(repair);
-        for (const std::string& note : notesBeforeStart(shot_)) console.info(note);
-        applyStartRule(shot_, world_, console);
-        for (const std::string& warning : warningsBeforeStart(shot_, world_)) {
-            console.warning(warning);
-        }
+        world_ = worldAtStart(shot_, options.noCache, console);
         subframes_.emplace(shot_, world_);
         overlaps_.emplace(shot_, world_, console);
         const ExistingTake existing = options.overwrite ? ExistingTake::overwrite
