@@ -17,17 +17,11 @@
 #include "io/frame_pattern.h"
 
 namespace scree {
-
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
-
-fs::path folderOf(const fs::path& file)
-{
-    return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
 
 [[noreturn]] void refuse(const fs::path& target, const std::string& reason)
 {
@@ -55,17 +49,6 @@ fs::path resolveTarget(const fs::path& target)
     return resolved;
 }
 
-/// Makes a finished rename survive a power cut; answers 0, or the number of the error. A file
-/// system that cannot sync a folder has no better promise to give, so its refusal is none.
-int syncFolder(const fs::path& folder)
-{
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return 0;
-    const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
-    ::close(descriptor);
-    return reason == EIO || reason == ENOSPC || reason == EDQUOT ? reason : 0;
-}
-
 struct TemporaryName {
     std::string target;  // without its folder
     int process;
@@ -88,6 +71,20 @@ std::optional<TemporaryName> readTemporaryName(const std::string& name)
 }
 
 }  // namespace
+
+fs::path folderOf(const fs::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+int syncFolder(const fs::path& folder)
+{
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return 0;
+    const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    return reason == EIO || reason == ENOSPC || reason == EDQUOT ? reason : 0;
+}
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(resolveTarget(target))
 {

@@ -56,6 +56,14 @@ private:
     std::string pending_;  // the last bytes of the file, not handed to the system yet
 };
 
+/// Makes the names in a folder, those of renamed files and new folders, survive a power cut;
+/// answers 0, or the number of the error. A file system that cannot sync a folder has no better
+/// promise to give, so its refusal is none.
+int syncFolder(const std::filesystem::path& folder);
+
+/// The folder that a name is in.
+std::filesystem::path folderOf(const std::filesystem::path& file);
+
 /// Removes what killed processes left of earlier writes to `target`, which may be a frame pattern:
 /// a cache half written is as large as a cache, and nobody sees it. Its process must be gone and,
 /// since it may have run on another machine of the farm, an hour must have passed since it wrote.

@@ -82,6 +82,8 @@ void TakeWriter::start(const SceneDescription& scene, const TakeInfo& info)
     writeFileBytes(paths_.info(), encodeTakeInfo(info));
     writeShapes(paths_, scene);
     createFolder(paths_.frames());
+    // A line appended to what is not there yet would be durable under a name that is not.
+    stats_.rewrite();
     completeBranch(paths_, shot_, info, wholeFrames_, stats_);
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "io/atomic_file.h"
 #include "io/file_bytes.h"
 
 namespace scree {
@@ -80,10 +81,18 @@ void refuseTakeFile(const fs::path& output)
 void createFolder(const fs::path& folder)
 {
     std::error_code code;
+    std::vector<fs::path> parents;  // of the folders that are new
+    for (fs::path at = folder; !at.empty() && !fs::exists(at, code); at = at.parent_path())
+        parents.push_back(folderOf(at));
     fs::create_directories(folder, code);
     if (code)
         throw Error(ErrorKind::cannotCreate,
                     "cannot create the folder \"" + folder.string() + "\": " + code.message());
+    for (const fs::path& parent : parents) {
+        if (const int reason = syncFolder(parent); reason != 0)
+            throw Error(ErrorKind::inputOutput, "making durable the folder \"" + folder.string() +
+                                                    "\" failed: " + std::strerror(reason));
+    }
 }
 
 /// Of a file, because NFS tells other machines of no lock on a folder, nor of one without leave to

@@ -41,7 +41,8 @@ bool holdsTake(const TakePaths& paths);
 /// of: what is made from a take must not replace it.
 void refuseTakeFile(const std::filesystem::path& output);
 
-/// With all folders on the way there. Throws Error{cannotCreate}.
+/// With all folders on the way there, and durable when this returns. Throws Error{cannotCreate} or
+/// Error{inputOutput}.
 void createFolder(const std::filesystem::path& folder);
 
 /// Held by whoever writes, so that two writers cannot meet. It goes with the process: a killed
