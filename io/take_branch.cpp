@@ -106,6 +106,7 @@ void wakeWhoSettled(ContactMemory& memory)
         const bool waitsSinceTheStart = rest.still.frames == 0;
         if (!rest.isAsleep || waitsSinceTheStart) continue;
         rest.isAsleep = false;
+        rest.unbalancedFrames = 0;
         rest.still.frames = rest.nearby.frames = rest.around.frames = 0;
     }
 }

@@ -193,6 +193,24 @@ TEST_F(BranchTest, WhoSleptWakesWhereSettingsAreOtherAndOnlyThere)
     EXPECT_NEAR(placeIn(1080).x() - placeIn(1075).x(), 0.5 * acceleration * time * time, 1e-3);
 }
 
+TEST_F(BranchTest, WhoWakesAtItLaysNoCountOfItsSleepToItsNext)
+{
+    const std::vector<std::string> asleepSoon = {"shot.frames=\"1001-1080\""};
+    const TakeReader whole = simulate("whole", asleepSoon);
+    const TakeBranch branch{folder / "whole", 1075};
+    constexpr BodyId kBlock = 1;
+    FrameState state = readFrameFile(whole.paths().frame(1075));
+    ASSERT_TRUE(state.contactMemory.isAsleep(kBlock));
+    state.contactMemory.rest[kBlock].unbalancedFrames = 7;
+    writeFileBytes(whole.paths().frame(1075), encodeFrame(state));
+    const TakeReader slippery =
+        simulate("slippery", {asleepSoon[0], "material.wood.friction=0.1"}, branch);
+    const BodyRest woken =
+        readFrameFile(slippery.paths().frame(1075)).contactMemory.rest.at(kBlock);
+    EXPECT_FALSE(woken.isAsleep);
+    EXPECT_EQ(woken.unbalancedFrames, 0);
+}
+
 // What pulled at them when they fell asleep was held against other gravity: it was refused, as if
 // they began elsewhere.
 TEST_F(BranchTest, SleepersOfTheStartMayFeelOtherGravity)
