@@ -84,11 +84,15 @@ void readStays(const FrameDecoder& decoder, const std::string& name, std::uint64
         all[i].*member = {vectorAt(position, i), quaternionAt(orientation, i), frames[i]};
 }
 
-/// Nothing at all where nothing is remembered: for method `paper`, and at time zero unless bodies
-/// start asleep.
+/// So it is for method `paper`, and at time zero unless bodies start asleep.
+bool isNothing(const ContactMemory& memory)
+{
+    return memory.dt == 0.0 && memory.contacts.empty() && memory.rest.empty();
+}
+
 void addMemory(FrameEncoder& encoder, const ContactMemory& memory)
 {
-    if (memory.dt == 0.0 && memory.contacts.empty() && memory.rest.empty()) return;
+    if (isNothing(memory)) return;
     std::vector<std::int32_t> bodies, still, unbalanced;
     std::vector<std::int64_t> features;
     std::vector<double> place, force, couple, position, orientation, pull;
@@ -258,12 +262,60 @@ std::vector<BodyPair> readUntold(const FrameDecoder& decoder, std::uint64_t body
     return pairs;
 }
 
+/// Whether it turns and does not stretch, so far as a step keeps to that.
+bool isRotation(const Quat& q)
+{
+    return std::abs(q.norm() - 1.0) < 1e-6;  // also false for what is no number
+}
+
+bool isRight(const Stay& stay)
+{
+    return stay.position.allFinite() && isRotation(stay.orientation) && stay.frames >= -1;
+}
+
+bool isRight(const BodyRest& rest)
+{
+    return isRight(rest.still) && isRight(rest.nearby) && isRight(rest.around) &&
+           rest.pull.allFinite() && rest.unbalancedFrames >= 0;
+}
+
+/// Of what is remembered: that a step can begin with it.
+void checkMemory(const FrameDecoder& decoder, const FrameState& state)
+{
+    const auto require = [&](bool isTrue, const std::string& otherwise) {
+        if (!isTrue) decoder.fail(otherwise);
+    };
+    const ContactMemory& memory = state.contactMemory;
+    require(std::isfinite(memory.dt) && memory.dt >= 0.0, "the last step took a time that is none");
+    // The next step of a frame is no longer than the last one.
+    const bool isInside = state.clock.subStep > 0 && !isNothing(memory);
+    require(!isInside || memory.dt > 0.0,
+            "it stands inside a frame, and its last step took no time");
+    const auto bodiesOf = [](const RememberedContact& c) { return std::pair(c.a, c.b); };
+    require(std::ranges::is_sorted(memory.contacts, {}, bodiesOf),
+            "remembered contacts are not in order");
+    for (const RememberedContact& contact : memory.contacts) {
+        for (const BodyId body : {contact.a, contact.b})
+            require(body >= 0 && static_cast<std::size_t>(body) < state.motion.size(),
+                    "a remembered contact is of a body that does not exist");
+        const std::string bodies = std::to_string(contact.a) + " and " + std::to_string(contact.b);
+        require(contact.a < contact.b,
+                "a remembered contact is of bodies " + bodies + ", which are not two in order");
+        require(
+            contact.place.allFinite() && contact.force.allFinite() && contact.couple.allFinite(),
+            "a remembered contact of bodies " + bodies + " carries what is no number");
+    }
+    for (std::size_t i = 0; i < memory.rest.size(); ++i)
+        require(isRight(memory.rest[i]),
+                "body " + std::to_string(i) + " remembers a rest that cannot be");
+}
+
 /// The fields of a state are indices and numbers that a step goes by without asking: a file whose
 /// checksum fits may still come from another program.
 void checkState(const FrameDecoder& decoder, const FrameState& state)
 {
-    const auto require = [&](bool isRight, const std::string& otherwise) {
-        if (!isRight) decoder.fail(otherwise);
+    const auto require = [&](bool isTrue, const std::string& otherwise) {
+        if (!isTrue) decoder.fail(otherwise);
     };
     require(state.clock.frame >= 0 && state.clock.subStep >= 0 &&
                 std::isfinite(state.clock.frameTimeDone) && state.clock.frameTimeDone >= 0.0,
@@ -280,15 +332,10 @@ void checkState(const FrameDecoder& decoder, const FrameState& state)
         require(m.position.allFinite() && m.orientation.coeffs().allFinite() &&
                     m.velocity.allFinite() && m.angularMomentum.allFinite(),
                 "body " + std::to_string(i) + " moves by what is no number");
+        require(isRotation(m.orientation),
+                "body " + std::to_string(i) + " is turned by what is no rotation");
     }
-    const std::vector<RememberedContact>& contacts = state.contactMemory.contacts;
-    for (const RememberedContact& contact : contacts) {
-        for (const BodyId body : {contact.a, contact.b})
-            require(body >= 0 && static_cast<std::size_t>(body) < state.motion.size(),
-                    "a remembered contact is of a body that does not exist");
-    }
-    const auto bodiesOf = [](const RememberedContact& c) { return std::pair(c.a, c.b); };
-    require(std::ranges::is_sorted(contacts, {}, bodiesOf), "remembered contacts are not in order");
+    checkMemory(decoder, state);
 }
 
 void readState(const FrameDecoder& decoder, std::uint64_t bodyCount, FrameState& state)

@@ -98,7 +98,7 @@ void TakeWriter::resume(const World& world, const SceneDescription& scene, const
     // Statistics follow the frames: lines of frames that are gone or damaged go too.
     stats_.readLinesOf(take.wholeFrames);
     completeBranch(paths_, shot_, take.info, take.wholeFrames, stats_);
-    checkpoint_ = findCheckpoint(paths_, world, take);
+    checkpoint_ = findCheckpoint(paths_, shot_, world, take);
     stats_.rewrite();
     wholeFrames_ = std::move(take.wholeFrames);
     notices_ = std::move(take.notices);

@@ -85,13 +85,20 @@ void completeBranch(const TakePaths& paths, const Shot& shot, const TakeInfo& in
     }
 }
 
-std::optional<Clock> findCheckpoint(const TakePaths& paths, const World& world, ProvenTake& take)
+std::optional<Clock> findCheckpoint(const TakePaths& paths, const Shot& shot, const World& world,
+                                    ProvenTake& take)
 {
     if (!isThere(paths.checkpoint())) return {};
     try {
         const FrameState state = readFrameFile(paths.checkpoint());
         const bool fits =
             state.shotHash == take.info.shotHash && state.motion.size() == world.bodyCount();
+        // Alone a frame file cannot tell: those of method `paper` remember nothing.
+        const bool remembers = shot.settings.method == Method::paper || state.clock.subStep == 0 ||
+                               state.contactMemory.dt > 0.0;
+        if (fits && !remembers)
+            throw Error(ErrorKind::inputOutput, {paths.checkpoint().string(), 0, 0},
+                        "does not remember the step that ends there");
         if (fits && !take.wholeFrames.contains(state.scene.frame + 1)) return state.clock;
         fs::remove(paths.checkpoint());
     } catch (const Error& problem) {

@@ -28,6 +28,7 @@ void completeBranch(const TakePaths& paths, const Shot& shot, const TakeInfo& in
 
 /// The moment at which a run was stopped on the way to a frame that is missing; nothing when there
 /// is no such checkpoint, or it is damaged. One that leads nowhere is removed.
-std::optional<Clock> findCheckpoint(const TakePaths& paths, const World& world, ProvenTake& take);
+std::optional<Clock> findCheckpoint(const TakePaths& paths, const Shot& shot, const World& world,
+                                    ProvenTake& take);
 
 }  // namespace scree

@@ -80,6 +80,37 @@ TEST_F(FrameFile, AStateThatNoStepCouldGoOnFromIsRefusedThoughItsChecksumFits)
     expectRefusal("body 1", [](FrameState& s) { s.motion[1].velocity.y() = INFINITY; });
     expectRefusal("does not exist", [&](FrameState& s) { remember(s, {{0, 2}}); });
     expectRefusal("not in order", [&](FrameState& s) { remember(s, {{1, 1}, {0, 1}}); });
+    expectRefusal("not two in order", [&](FrameState& s) { remember(s, {{1, 1}}); });
+    expectRefusal("not two in order", [&](FrameState& s) { remember(s, {{1, 0}}); });
+    expectRefusal("body 1 is turned by what is no rotation",
+                  [](FrameState& s) { s.motion[1].orientation.coeffs() *= 1.00001; });
+    for (const double wrong : {-0.01, double{NAN}, double{INFINITY}})
+        expectRefusal("took a time", [&](FrameState& s) { s.contactMemory.dt = wrong; });
+    for (Vec3 RememberedContact::*member :
+         {&RememberedContact::place, &RememberedContact::force, &RememberedContact::couple}) {
+        expectRefusal("bodies 0 and 1 carries", [&](FrameState& s) {
+            remember(s, {{0, 1}});
+            (s.contactMemory.contacts[0].*member).z() = NAN;
+        });
+    }
+    const auto expectNoRest = [&](const auto& spoil) {
+        expectRefusal("body 1 remembers a rest", [&](FrameState& s) {
+            s.contactMemory.rest.resize(s.motion.size());
+            s.contactMemory.rest[0].unbalancedFrames = 1;
+            spoil(s.contactMemory.rest[1]);
+        });
+    };
+    expectNoRest([](BodyRest& rest) { rest.pull.x() = INFINITY; });
+    expectNoRest([](BodyRest& rest) { rest.unbalancedFrames = -1; });
+    for (Stay BodyRest::*stay : {&BodyRest::still, &BodyRest::nearby, &BodyRest::around}) {
+        expectNoRest([&](BodyRest& rest) { (rest.*stay).position.y() = NAN; });
+        expectNoRest([&](BodyRest& rest) { (rest.*stay).orientation.w() = 0.5; });
+        expectNoRest([&](BodyRest& rest) { (rest.*stay).frames = -2; });
+    }
+    expectRefusal("inside a frame", [](FrameState& s) {
+        s.clock.subStep = 1;
+        s.contactMemory.rest.resize(s.motion.size());
+    });
 }
 
 TEST_F(FrameFile, WhatTheLastStepDidIsKeptAndIsNoPartOfTheState)

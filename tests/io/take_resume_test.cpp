@@ -123,6 +123,7 @@ TEST_F(TakeResume, CheckpointIsWhereAFrameGoesOnAndGoesWithIt)
         TakeWriter take = open(ExistingTake::refuse, shot);
         take.writeFrame(moved, statsOf(moved));
         moved.clock.subStep = 3;
+        moved.contactMemory.dt = 0.01;
         moved.motion[1].position.y() -= 0.25;
         take.writeCheckpoint(moved);
     }
@@ -147,6 +148,24 @@ TEST_F(TakeResume, DamagedCheckpointFallsBackToTheFrame)
     flipByte(folder / "take/checkpoint.scree", 200);
     const TakeWriter take = open(ExistingTake::resume, shot);
     EXPECT_EQ(take.notices().size(), 1u);
+    World resumed = world;
+    take.prepareFor(1002, resumed);
+    EXPECT_EQ(stateHash(resumed), stateHash(world));
+}
+
+// The next step took no longer than the last one, and that was not known: no time at all.
+TEST_F(TakeResume, ACheckpointThatForgotItsLastStepFallsBackToTheFrame)
+{
+    {
+        TakeWriter take = open(ExistingTake::refuse, shot);
+        World moved = world;
+        take.writeFrame(moved, statsOf(moved));
+        moved.clock.subStep = 3;
+        take.writeCheckpoint(moved);
+    }
+    const TakeWriter take = open(ExistingTake::resume, shot);
+    ASSERT_EQ(take.notices().size(), 1u);
+    EXPECT_NE(take.notices()[0].find("does not remember the step"), std::string::npos);
     World resumed = world;
     take.prepareFor(1002, resumed);
     EXPECT_EQ(stateHash(resumed), stateHash(world));
@@ -247,6 +266,7 @@ TEST_F(TakeResume, ACheckpointKeepsFiguresAndOverlapsThatContactsDoNotTellOf)
         TakeWriter take = open(ExistingTake::refuse, shot);
         take.writeFrame(moved, statsOf(moved), {}, {}, {{0, 1}});
         moved.clock.subStep = 3;
+        moved.contactMemory.dt = 0.01;
         take.writeCheckpoint(moved, {}, soFar, {{0, 1}});
     }
     const TakeWriter take = open(ExistingTake::resume, shot);
