@@ -3,22 +3,34 @@
 
 #include <algorithm>
 
+#include "core/dynamics/integrator.h"
 #include "core/math/rotation.h"
 #include "io/build_world.h"
 
 namespace scree {
 namespace {
 
-/// Linear, orientations normalised afterwards: a sub-step turns a body by 17° at most, so this
-/// differs from the even turn by less than a thousandth of the angle.
-BodyMotion mixed(const BodyMotion& a, const BodyMotion& b, double s)
+/// `at` is `s` of a way that should lead to `expected` and leads to `end`: what else turns it does
+/// so evenly.
+Quat corrected(const Quat& at, const Quat& expected, const Quat& end, double s)
 {
-    const double sign = a.orientation.dot(b.orientation) < 0.0 ? -1.0 : 1.0;
+    return rotated(at, s * rotationVector(end * expected.conjugate()));
+}
+
+/// A step of dt from a to b. Orientations go the way of the step, by the angular momentum it had
+/// between: the short way from one to the other is not that of what is round, nor of a blur, which
+/// a step may turn by any angle (core/dynamics/step_limit.cpp). Marbles that rolled at 10 m/s
+/// turned back between one sub-step and the next.
+BodyMotion mixed(const BodyMotion& a, const BodyMotion& b, const BodyMass& mass,
+                 OrientationUpdate update, double dt, double s)
+{
+    const Vec3 angularMomentum = 0.5 * (a.angularMomentum + b.angularMomentum);
+    const auto turnedFor = [&](double time) {
+        return predictPose(a, mass, a.velocity, angularMomentum, update, time).orientation;
+    };
     BodyMotion result;
     result.position = (1.0 - s) * a.position + s * b.position;
-    result.orientation.coeffs() =
-        (1.0 - s) * a.orientation.coeffs() + s * sign * b.orientation.coeffs();
-    result.orientation.normalize();
+    result.orientation = corrected(turnedFor(s * dt), turnedFor(dt), b.orientation, s);
     result.velocity = (1.0 - s) * a.velocity + s * b.velocity;
     result.angularMomentum = (1.0 - s) * a.angularMomentum + s * b.angularMomentum;
     return result;
@@ -88,12 +100,13 @@ void SubframeRecorder::afterStep(const World& world, double frameTime)
 
 SceneFrame SubframeRecorder::sampleAt(const World& world, double frameTime, double time)
 {
-    const double share = (time - timeBefore_) / (frameTime - timeBefore_);
+    const double dt = frameTime - timeBefore_, share = (time - timeBefore_) / dt;
+    const OrientationUpdate update = shot_.settings.orientation;
     inBetween_->clock = world.clock;
     for (std::size_t i = 0; i < world.motion.size(); ++i) {
         const BodyMotion &a = before_[i], &b = world.motion[i];
         BodyMotion& motion = inBetween_->motion[i];
-        motion = isSamePlace(a, b) ? b : mixed(a, b, share);
+        motion = isSamePlace(a, b) ? b : mixed(a, b, world.mass[i], update, dt, share);
         // No step is shortened for what is keyed: a propeller may turn half round in one.
         if (world.info[i].kind != BodyKind::keyed || isSamePlace(a, b)) continue;
         const Pose pose = world.scriptedPose(static_cast<BodyId>(i), world.time(time - frameTime));
@@ -101,6 +114,20 @@ SceneFrame SubframeRecorder::sampleAt(const World& world, double frameTime, doub
         motion.orientation = pose.orientation;
     }
     return captureFrame(shot_, *inBetween_);
+}
+
+SceneFrame inBetween(const SceneFrame& from, const SceneFrame& to, double share, double seconds)
+{
+    SceneFrame result = from;
+    for (std::size_t body = 0; body < from.worldFromAsset.size(); ++body) {
+        const Pose &a = from.worldFromAsset[body], &b = to.worldFromAsset[body];
+        const Vec3 turn = 0.5 * seconds * (from.angularVelocity[body] + to.angularVelocity[body]);
+        result.worldFromAsset[body] = {
+            (1.0 - share) * a.position + share * b.position,
+            corrected(rotated(a.orientation, share * turn), rotated(a.orientation, turn),
+                      b.orientation, share)};
+    }
+    return result;
 }
 
 SceneFrame coasted(const SceneFrame& frame, double seconds)

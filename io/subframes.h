@@ -59,6 +59,10 @@ private:
     double timeBefore_ = 0.0;
 };
 
+/// The poses a share of the way from one moment to another, `seconds` later: round as often as the
+/// velocities of both tell.
+SceneFrame inBetween(const SceneFrame& from, const SceneFrame& to, double share, double seconds);
+
 /// The poses `seconds` later if every body kept the velocity it has: for samples before the first
 /// and after the last frame that was simulated.
 SceneFrame coasted(const SceneFrame& frame, double seconds);

@@ -33,14 +33,8 @@ SceneFrame sampleAt(const std::vector<SceneFrame>& samples, double offset, doubl
     }
     const SceneFrame& a = *(after - 1);
     const SceneFrame& b = *after;
-    const double share = (offset - a.offset) / (b.offset - a.offset);
-    SceneFrame result = a;
-    for (std::size_t i = 0; i < result.worldFromAsset.size(); ++i) {
-        const Pose &from = a.worldFromAsset[i], &to = b.worldFromAsset[i];
-        result.worldFromAsset[i] = {(1.0 - share) * from.position + share * to.position,
-                                    from.orientation.slerp(share, to.orientation)};
-    }
-    return result;
+    const double frames = b.offset - a.offset;
+    return inBetween(a, b, (offset - a.offset) / frames, frames / framesPerSecond);
 }
 
 /// Which bodies have fallen off the set: below all that stands there, and not from the start. What
