@@ -214,7 +214,9 @@ const std::vector<ShotKey> kLookKeys = {
              "is open for half a frame about it. 0 is always among them; all lie within one "
              "frame, at least 0.01 apart. They are taken from the sub-steps and never change the "
              "simulation; each makes the take larger by a third. Without them renderers blur along "
-             "straight lines from frame to frame, which shows where things spin or hit."},
+             "straight lines from frame to frame, which shows where things spin or hit. What turns "
+             "by more than half round between two of them needs more of them in an export, whose "
+             "readers take the shorter way; render knows how often it turned."},
     {.path = "output.contacts",
      .type = boolean,
      .byDefault = "false",

@@ -99,11 +99,11 @@ const std::vector<ShotKey> kSolverKeys = {
      .type = boolean,
      .byDefault = "true",
      .method = "scree",
-     .help = "Bodies that the whole step leaves where they are fall asleep together: no motion at "
-             "all, and no cost. They wake when something is about to touch them or a force "
-             "changes. What rocks in its place for some seconds and goes nowhere is calmed, so "
-             "that it does not keep a heap awake; what rocks wider, as bowls do, later. What "
-             "hangs may swing."},
+     .help = "A body that lies still and balanced, held up by nothing awake, falls asleep: no "
+             "motion at all, and no cost. It wakes when it is struck, when its load no longer "
+             "balances, when a force on it changes or what has keys moves beside it. What rocks "
+             "in its place for some seconds and goes nowhere is calmed, so that it does not keep "
+             "a heap awake; what rocks wider, as bowls do, later. What hangs may swing."},
     {.path = "solver.contact_sweeps",
      .type = integer,
      .unit = "sweeps",
@@ -113,9 +113,10 @@ const std::vector<ShotKey> kSolverKeys = {
      .method = "scree",
      .help =
          "Sweeps over the contacts of a large heap while it moves; small ones are solved to the "
-         "end anyway, and large ones get up to a hundred once they settle, up to 400 where fewer "
-         "leave forces that drive the heap, as in a wall that rocks. Too few and the heap sinks "
-         "into itself before it comes to rest."},
+         "end anyway, at rest in up to 4000, and large ones get up to a hundred once they settle, "
+         "up to 400 where fewer leave forces that drive the heap, as in a wall that rocks, and up "
+         "to 4000 in the first step of a new heap. Too few and the heap sinks into itself before "
+         "it comes to rest."},
     {.path = "solver.collision_iterations",
      .type = integer,
      .unit = "sweeps",
@@ -239,9 +240,9 @@ const std::vector<ShotKey> kSolverKeys = {
      .max = 360,
      .isOpen = true,
      .help = "How far a body may turn in one step, whatever safety is; what is round does not "
-             "count as turning "
-             "about its own axis. Large values let spinning corners "
-             "skip through what they should hit."},
+             "count as turning about its own axis, and method \"scree\" lets what is a blur "
+             "between two frames (substeps) turn eight times as far. Large values let spinning "
+             "corners skip through what they should hit."},
     {.path = "solver.hover",
      .unit = "of the inner thickness",
      .byDefault = "0.0005",
