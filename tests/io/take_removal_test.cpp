@@ -27,7 +27,7 @@ TEST_F(TakeRemoval, OverwritingLeavesNothingOfTheOldTake)
     const TakeWriter take = open(ExistingTake::overwrite, shot);
     EXPECT_FALSE(take.hasFrame(1001));
     EXPECT_FALSE(fs::exists(take.paths().frame(1003)));
-    EXPECT_FALSE(fs::exists(take.paths().stats()));
+    EXPECT_TRUE(take.summaries().empty());
 }
 
 TEST_F(TakeRemoval, OverwritingTakesPicturesAndCachesOfTheOldTakeWithIt)
