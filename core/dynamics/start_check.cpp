@@ -142,9 +142,8 @@ std::vector<FastBody> findTooFast(const World& world, const StepSettings& settin
         const double spin = shownSpin(world, settings, body);
         const double drop = g > 0.0 ? ground.dropOf(body).value_or(0.0) : 0.0;
         const double landing = std::sqrt(v * v + 2.0 * g * drop);
-        const double way = settings.substeps.safety * passedPerStep(settings.method, shape);
         const auto stepsAt = [&](double speed) {
-            return frameDuration * (speed + spin * shape.boundingRadius) / way;
+            return stepsToPass(settings, shape, speed + spin * shape.boundingRadius, frameDuration);
         };
         const bool isAtStart = stepsAt(v) > settings.substeps.max;
         const double speed = isAtStart ? v : landing;

@@ -19,7 +19,7 @@ struct FastBody {
     BodyId body = -1;
     double speed = 0.0;        ///< of its surface [m/s]
     double stepsNeeded = 0.0;  ///< per frame
-    bool whenItLands = false;  ///< after its fall to the static body under it, not at the start
+    bool whenItLands = false;  ///< after its fall to what is under it, not at the start
 };
 
 /// Movable bodies that need more steps a frame than settings.substeps.max, against bodies at rest

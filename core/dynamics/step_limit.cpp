@@ -270,6 +270,17 @@ double passedPerStep(Method method, const Shape& shape)
                       kPassedThicknesses * thickness);
 }
 
+double stepsToPass(const StepSettings& settings, const Shape& shape, double speed,
+                   double frameDuration)
+{
+    const double way = frameDuration * speed / settings.substeps.safety;
+    const double inSight = way / passedPerStep(settings.method, shape);
+    const double seen = kStepsSeen / settings.substeps.safety;
+    if (settings.method == Method::paper || inSight <= seen) return inSight;
+    const double thickness = thicknessForSteps(settings.method, shape);
+    return std::max(seen, way / (kPassedThicknesses * thickness));
+}
+
 double shownSpin(const World& world, const StepSettings& settings, BodyId body)
 {
     const BodyMotion& motion = world.motion[body];

@@ -26,6 +26,11 @@ double thicknessForSteps(Method method, const Shape& shape);
 /// [m].  [A16]
 double passedPerStep(Method method, const Shape& shape);
 
+/// How many steps a frame its limit asks for where a surface of that shape passes others, no
+/// thinner, at `speed` [m/s]; turns may ask for more.  [A16]
+double stepsToPass(const StepSettings& settings, const Shape& shape, double speed,
+                   double frameDuration);
+
 /// How fast a free body turns what shows of that [rad/s]. What is round about an axis turns about
 /// it in itself, as far as steps of method `scree` are concerned.
 double shownSpin(const World& world, const StepSettings& settings, BodyId body);
