@@ -28,7 +28,7 @@ inline BodyPair bodiesOf(const RememberedContact& contact)
 struct Stay {
     Vec3 position = Vec3::Zero();         ///< where it was when it was last seen to leave [m]
     Quat orientation = Quat::Identity();  ///< likewise
-    std::int32_t frames = 0;
+    std::int32_t frames = -1;             ///< −1: it has not been seen anywhere yet
 };
 
 /// Since when a body has not moved, and whether it sleeps.
@@ -36,7 +36,7 @@ struct BodyRest {
     Stay still;                ///< it does not move at all
     Stay nearby;               ///< it may rock, but goes nowhere
     Stay around;               ///< the same, as wide as a bowl rocks on its round bottom
-    Vec3 pull = Vec3::Zero();  ///< what acted on it when it fell asleep [m/s²]
+    Vec3 pull = Vec3::Zero();  ///< what acted on it when it fell asleep, or last [m/s²]
     bool isAsleep = false;
     std::int32_t unbalancedFrames = 0;  ///< for so many it has slept under what did not balance
 };

@@ -63,6 +63,36 @@ TEST(Sleep, SlowMotionPutsNothingToSleepThatIsAboutToMove)
     EXPECT_NEAR((world.motion[1].position - start).norm(), 0.5 * pull, 0.02 * pull);
 }
 
+/// How far a box has come under a push that grows until friction gives way, an eighth of a second
+/// after that.
+double slidUnderGrowingPush(bool mayRest)
+{
+    World world;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    addPlane(world, material);
+    const BodyId box =
+        addBody(world, boxShape(Vec3::Ones(), 1), material, {{0.0, 0.5, 0.0}, Quat::Identity()});
+    ForceField push;
+    push.kind = ForceField::Kind::uniform;
+    push.direction = Vec3::UnitX();
+    push.keys = {{0.0, 0.0}, {10.0, 6.0}};
+    world.fields = {push};
+    StepSettings settings = screeSettings();
+    settings.sleep = mayRest;
+    Stepper stepper(settings);
+    for (int f = 0; f < 199; ++f) stepper.advanceFrame(world, kFrame);
+    return world.motion[box].position.x();
+}
+
+// It fell asleep for a frame between any two in which the force woke it, began a tenth of a second
+// late, and had come a quarter as far.
+TEST(Sleep, AForceThatGrowsMovesABodyWhenItShould)
+{
+    const double slid = slidUnderGrowingPush(false);
+    EXPECT_GT(slid, 1e-4);
+    EXPECT_GT(slidUnderGrowingPush(true), 0.85 * slid);
+}
+
 TEST(Sleep, WhatFliesNeverSleepsHoweverSlowlyOrSteadily)
 {
     StepSettings settings = screeSettings();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "core/geometry/primitives.h"
 #include "tests/support/scenes.h"
@@ -63,6 +64,33 @@ bool isStill(double edge, double speed)
         noteStays(world, {{Vec3(0.0, -9.8, 0.0)}});
     }
     return world.contactMemory.rest[0].still.frames >= kStillFrames;
+}
+
+// At the origin it was still a frame sooner than elsewhere; and what a script let go of was calmed
+// at once for having been about before.
+TEST(Stillness, CountsFromWhenABodyIsFirstSeenAndAnewAfterAScript)
+{
+    World world;
+    world.frameDuration = 1.0 / 24.0;
+    const MaterialId material = addMaterial(world, 0.5, 0.0);
+    const auto cube = boxShape(Vec3::Ones(), 1);
+    const BodyId here = addBody(world, cube, material, {});
+    const BodyId there = addBody(world, cube, material, {Vec3(9.0, 0.0, 0.0)});
+    const std::vector<AppliedForce> forces(2, {Vec3(0.0, -9.8, 0.0)});
+    world.contactMemory.rest.resize(2);
+    const std::vector<BodyRest>& rest = world.contactMemory.rest;
+    for (int f = 0; f < 5; ++f) noteStays(world, forces);
+    for (const BodyId body : {here, there}) {
+        EXPECT_EQ(rest[body].still.frames, 4);
+        EXPECT_EQ(rest[body].nearby.frames, 4);
+        EXPECT_EQ(rest[body].around.frames, 4);
+    }
+    const BodyMass free = std::exchange(world.mass[there], {});
+    noteStays(world, forces);
+    world.mass[there] = free;
+    noteStays(world, forces);
+    EXPECT_EQ(rest[there].around.frames, 0);
+    EXPECT_EQ(rest[here].around.frames, 6);
 }
 
 // A cone of 8 cm whose centre of mass lay a third of a micrometre beside its axis rolled on at

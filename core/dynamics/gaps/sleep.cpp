@@ -14,6 +14,9 @@ namespace {
 /// them press on each other yet, so the eye decides.
 constexpr double kTouching = 0.01;
 
+/// What pushes less against the pull than this share of its force leans, and holds nothing up.
+constexpr double kHoldsUp = 0.02;
+
 /// Contacts without force of sleeping bodies with each other, which waking follows, and with
 /// those that a script may take away.
 std::vector<RememberedContact> contactsOfSleepers(const World& world)
@@ -60,7 +63,7 @@ bool liesStill(const World& world, BodyId body, double frames, const ContactLoad
 /// pull everything that touches does.
 bool isHeldUpBy(const GapRow& row, const Vec3& impulse, const Vec3& pull)
 {
-    return impulse.dot(-pull) > kBalanced * row.impulse.norm() * pull.norm() || pull.isZero(0.0);
+    return impulse.dot(-pull) > kHoldsUp * row.impulse.norm() * pull.norm() || pull.isZero(0.0);
 }
 
 /// Of those that may sleep takes out whom anything holds up that is awake or moved by a script.
@@ -101,6 +104,9 @@ std::vector<char> whoMaySleep(const World& world, const GapScratch& scratch)
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (!world.isStepped(body)) continue;
+        // What is about to be woken again need not fall asleep: under a force that grew a box began
+        // to slide a tenth of a second late.
+        if (!isPulledAsBefore(rest[i], scratch.forces[i])) continue;
         maySleep[i] = liesStill(world, body, rest[i].still.frames, loads[i], scratch.forces[i]) &&
                       isBalanced(world, body, loads[i], scratch.forces[i], kBalanced);
     }
@@ -131,6 +137,10 @@ void fallAsleep(World& world, const StepSettings& settings, const GapScratch& sc
     rest.resize(world.bodyCount());
     noteStays(world, scratch.forces);
     const std::vector<char> maySleep = whoMaySleep(world, scratch);
+    for (std::size_t i = 0; i < world.bodyCount(); ++i) {
+        const auto body = static_cast<BodyId>(i);
+        if (world.isStepped(body)) rest[i].pull = scratch.forces[i].acceleration;
+    }
     if (std::ranges::find(maySleep, 1) == maySleep.end()) return;
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         if (!maySleep[i]) continue;

@@ -32,6 +32,11 @@ constexpr double kSettlingTime = 3.0, kSettlingShare = 0.9;
 /// end of each: it may have turned once around.
 constexpr double kFarInAFrame = 0.5;
 
+/// A force has changed when it has by this share. What wind takes from the last creep of a body is
+/// none: a house of cards in still air slept for a frame and was woken in the next, again and
+/// again.
+constexpr double kUnnoticed = 1e-3;
+
 /// Upper bound of how far a point of the body has come from where it was [m].
 double travelled(const World& world, BodyId body, const Stay& since)
 {
@@ -68,7 +73,8 @@ double stillShare(const World& world, BodyId body, const AppliedForce& force)
 void noteStay(const World& world, BodyId body, double share, double way, Stay& stay)
 {
     const double allowed = share * world.shapeOf(body).boundingRadius;
-    if (way <= allowed && !goesFarInAFrame(world, body)) {
+    const bool isSeen = stay.frames >= 0;
+    if (isSeen && way <= allowed && !goesFarInAFrame(world, body)) {
         ++stay.frames;
     } else {
         stay = {world.motion[body].position, world.motion[body].orientation, 0};
@@ -120,12 +126,22 @@ bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& 
            kSettlingShare * static_cast<double>(island.movers.size());
 }
 
+bool isPulledAsBefore(const BodyRest& rest, const AppliedForce& now)
+{
+    return (rest.pull - now.acceleration).norm() <= kUnnoticed * rest.pull.norm();
+}
+
 void noteStays(World& world, const std::vector<AppliedForce>& forces)
 {
     for (std::size_t i = 0; i < world.bodyCount(); ++i) {
         const auto body = static_cast<BodyId>(i);
-        if (!world.isStepped(body)) continue;
         BodyRest& rest = world.contactMemory.rest[i];
+        if (rest.isAsleep) continue;
+        if (!world.isStepped(body)) {
+            // What a script let go of was calmed for having been about before it was taken.
+            rest.still = rest.nearby = rest.around = Stay{};
+            continue;
+        }
         noteStay(world, body, stillShare(world, body, forces[i]),
                  travelled(world, body, rest.still), rest.still);
         noteStay(world, body, kNearby, travelled(world, body, rest.nearby), rest.nearby);

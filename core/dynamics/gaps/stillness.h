@@ -32,6 +32,10 @@ inline constexpr double kLongAround = 16.0;
 /// about to come to rest, or should have.
 bool isSettling(const World& world, const GapScratch& scratch, const GapIsland& island);
 
+/// Whether what acts on a body is what did when it fell asleep, or in the frame before if it is
+/// awake.
+bool isPulledAsBefore(const BodyRest& rest, const AppliedForce& now);
+
 /// At the end of a frame: notes of every body whether it has stayed where it was, or where it is
 /// now. `forces`: on all bodies, in the frame; `rest` of the memory must have room for all.
 void noteStays(World& world, const std::vector<AppliedForce>& forces);

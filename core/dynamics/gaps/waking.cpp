@@ -14,17 +14,12 @@
 namespace scree {
 namespace {
 
-/// Of the time to fall asleep this share is what one needs that has been woken and did not move.
-constexpr std::int32_t kCheckShare = 3;
+/// So many checks, of those who have been woken and did not move, take as long as to fall asleep.
+constexpr double kChecksPerSleep = 3.0;
 
 /// What gives a sleeper less than this share of √(size · acceleration) in a step, 4 cm/s for a ring
 /// of 2.5 m, is no blow: it learns of it by its load, after the step.
 constexpr double kGentle = 0.01;
-
-/// A force has changed when it has by this share of what pulled the body when it fell asleep. What
-/// wind takes from the last creep of a body is none: a house of cards in still air slept for a
-/// frame and was woken in the next, again and again.
-constexpr double kUnnoticed = 1e-3;
 
 /// From a body that is struck, sleepers wake this many contacts far; those beyond feel it by their
 /// loads.
@@ -53,7 +48,7 @@ void wake(World& world, BodyId body)
         pull > 0.0 ? std::min(framesToSleep(world, body, pull), kMost) : double{kStillFrames};
     rest.isAsleep = false;
     rest.unbalancedFrames = 0;
-    rest.still.frames = static_cast<std::int32_t>(frames - std::floor(frames / kCheckShare));
+    rest.still.frames = static_cast<std::int32_t>(frames - std::floor(frames / kChecksPerSleep));
 }
 
 /// Wakes `roots` and the sleepers around them; true when there are any. What was put to sleep
@@ -151,6 +146,14 @@ bool isBlow(const World& world, double dt, BodyId body, const ContactLoad& load,
     return speed > kGentle * std::sqrt(radius * other.acceleration.norm());
 }
 
+/// The loads of those who sleep, right for these alone.
+std::vector<ContactLoad> loadsOfSleepers(const World& world)
+{
+    const ContactMemory& memory = world.contactMemory;
+    return rememberedLoads(
+        world, [&](BodyId a, BodyId b) { return memory.isAsleep(a) || memory.isAsleep(b); });
+}
+
 /// Wakes those who for long enough to fall asleep have lain under what would not have let them.
 /// What is awake beside them presses on steadily, too little to wake them at once: either they give
 /// way, as a balanced plank does to what rolls along it, or their contacts carry that too and they
@@ -158,8 +161,7 @@ bool isBlow(const World& world, double dt, BodyId body, const ContactLoad& load,
 void wakeWhoIsUneasy(World& world, const std::vector<AppliedForce>& forces)
 {
     ContactMemory& memory = world.contactMemory;
-    const std::vector<ContactLoad> loads = rememberedLoads(
-        world, [&](BodyId a, BodyId b) { return memory.isAsleep(a) || memory.isAsleep(b); });
+    const std::vector<ContactLoad> loads = loadsOfSleepers(world);
     std::vector<char> isTouched(world.bodyCount(), 0);  // by somebody awake
     for (const RememberedContact& contact : memory.contacts) {
         if (world.isStepped(contact.a)) isTouched[contact.b] = 1;
@@ -234,12 +236,10 @@ void wakeByForces(World& world, const std::vector<AppliedForce>& forces)
     std::vector<BodyId> roots;
     for (std::size_t i = 0; i < world.contactMemory.rest.size(); ++i) {
         const BodyRest& rest = world.contactMemory.rest[i];
-        const double change = (rest.pull - forces[i].acceleration).norm();
         const auto body = static_cast<BodyId>(i);
         // A script takes bodies over at the beginning of a frame.
         const bool isTaken = world.info[body].kind == BodyKind::keyed;
-        if (rest.isAsleep && (isTaken || change > kUnnoticed * rest.pull.norm()))
-            roots.push_back(body);
+        if (rest.isAsleep && (isTaken || !isPulledAsBefore(rest, forces[i]))) roots.push_back(body);
     }
     wakeAround(world, roots);
     if (anyAsleep(world)) wakeWhoIsUneasy(world, forces);
@@ -275,8 +275,7 @@ void wakeUnbalanced(World& world, const std::vector<AppliedForce>& forces)
 {
     if (!anyAsleep(world)) return;
     const ContactMemory& memory = world.contactMemory;
-    const std::vector<ContactLoad> loads = rememberedLoads(
-        world, [&](BodyId a, BodyId b) { return memory.isAsleep(a) || memory.isAsleep(b); });
+    const std::vector<ContactLoad> loads = loadsOfSleepers(world);
     for (std::size_t i = 0; i < memory.rest.size(); ++i) {
         const auto body = static_cast<BodyId>(i);
         if (memory.isAsleep(body) && isDisturbed(world, body, loads[i], forces[i]))
