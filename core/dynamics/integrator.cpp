@@ -13,14 +13,6 @@ namespace scree {
 
 namespace {
 
-/// L = I ω.
-Vec3 momentumOfSpin(const BodyMotion& motion, const BodyMass& mass, const Vec3& w)
-{
-    const Quat& q = motion.orientation;
-    const Vec3 inBody = q.conjugate() * w;
-    return q * Vec3(inBody.cwiseQuotient(mass.inverseInertia));
-}
-
 /// Turns about a body axis for dt with what its component of L turns it by.
 Quat turnedAbout(int axis, double inverseMoment, const Quat& q, const Vec3& L, double dt)
 {
@@ -149,6 +141,13 @@ void advancePositions(World& world, const StepSettings& settings, double dt)
         // What a script keeps while it turns a body is the spin, not the angular momentum.
         if (isKeyed) motion.angularMomentum = momentumOfSpin(motion, mass, w);
     });
+}
+
+Vec3 momentumOfSpin(const BodyMotion& motion, const BodyMass& mass, const Vec3& w)
+{
+    const Quat& q = motion.orientation;
+    const Vec3 inBody = q.conjugate() * w;
+    return q * Vec3(inBody.cwiseQuotient(mass.inverseInertia));
 }
 
 Vec3 angularVelocity(const BodyMotion& motion, const BodyMass& mass)

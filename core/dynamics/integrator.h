@@ -41,6 +41,9 @@ Pose poseAfter(const World& world, const StepSettings& settings, BodyId body, do
 /// x and q of every body by poseAfter.  [A17 step 5]
 void advancePositions(World& world, const StepSettings& settings, double dt);
 
+/// L = I ω of a body that can be turned, for ω [rad/s].
+Vec3 momentumOfSpin(const BodyMotion& motion, const BodyMass& mass, const Vec3& w);
+
 /// ω = I⁻¹ L [rad/s].
 Vec3 angularVelocity(const BodyMotion& motion, const BodyMass& mass);
 

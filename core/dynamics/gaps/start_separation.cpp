@@ -14,6 +14,7 @@
 #include "core/dynamics/gaps/gap_push_out.h"
 #include "core/dynamics/gaps/gap_rows.h"
 #include "core/dynamics/gaps/sleep.h"
+#include "core/dynamics/integrator.h"
 #include "core/dynamics/push_out.h"
 #include "core/dynamics/scratch.h"
 #include "core/dynamics/start_overlap.h"
@@ -239,9 +240,15 @@ bool separateAtStart(World& world, const StepSettings& settings, double leastRat
         least = total;
         sinceGain = 0;
     }
-    for (std::size_t body = 0; body < asPlaced.size(); ++body) {
-        world.motion[body].velocity = asPlaced[body].velocity;
-        world.motion[body].angularMomentum = asPlaced[body].angularMomentum;
+    for (std::size_t i = 0; i < asPlaced.size(); ++i) {
+        const BodyMotion& placed = asPlaced[i];
+        BodyMotion& now = world.motion[i];
+        now.velocity = placed.velocity;
+        now.angularMomentum = placed.angularMomentum;
+        if (now.orientation.coeffs() == placed.orientation.coeffs()) continue;
+        // Turned, it spins as the shot says only with another angular momentum.
+        now.angularMomentum =
+            momentumOfSpin(now, world.mass[i], angularVelocity(placed, world.mass[i]));
     }
     sleepFromTheStart(world, settings, sleepers);
     return overlaps.empty();
