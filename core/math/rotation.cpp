@@ -1,6 +1,7 @@
 #include "core/math/rotation.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace scree {
@@ -39,6 +40,11 @@ double cosineKernel(double y)
 
 void sinCos(double x, double& sine, double& cosine)
 {
+    // No number of quadrants: what is no number any more is found at the end of the step.
+    if (!(std::abs(x) < 1e15)) {
+        sine = cosine = std::numeric_limits<double>::quiet_NaN();
+        return;
+    }
     // π/2 in three pieces, the first two of 33 bits: their products with the quadrant number are
     // exact for |x| ≤ 1e6.
     constexpr double kHalfPi1 = 1.57079632673412561417;

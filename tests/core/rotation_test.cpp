@@ -27,6 +27,16 @@ TEST(Rotation, SineAndCosineAreThoseOfTheLibraryToTheLastBitOrTwo)
     }
 }
 
+TEST(Rotation, WhatIsNoNumberOfQuadrantsHasNeitherSineNorCosine)
+{
+    for (const double x : {double{NAN}, double{INFINITY}, double{-INFINITY}, 1e30}) {
+        double sine = 0.0, cosine = 0.0;
+        sinCos(x, sine, cosine);
+        EXPECT_TRUE(std::isnan(sine)) << x;
+        EXPECT_TRUE(std::isnan(cosine)) << x;
+    }
+}
+
 TEST(Rotation, TheArcTangentIsThatOfTheLibraryToAFewBits)
 {
     for (double x = 1e-9; x < 1e12; x *= 1.01) {
