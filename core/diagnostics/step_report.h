@@ -54,8 +54,8 @@ struct StepReport {
     ImpulseCounts shockImpulses;  ///< `paper`: of the sweep; `scree` keeps none of them
     std::int64_t pushes = 0;
     std::int64_t loopsAtTheirCap =
-        0;                       ///< pair visits that ended because the impulse cap was reached
-    std::int64_t pushesCut = 0;  ///< pushes longer than the limit allows
+        0;  ///< `paper`: visits of pairs that did; `scree`: steps whose blows, or looks, did
+    std::int64_t pushesCut = 0;         ///< pushes longer than the limit allows
     double deepestBeforePushOut = 0.0;  ///< by the solver's own samples [m]
     double deepestAfterPushOut = 0.0;   ///< [m]
     double worstOverlapRatio = 0.0;     ///< largest depth / longest box edge of the smaller body

@@ -15,8 +15,6 @@
 namespace scree {
 namespace {
 
-constexpr std::size_t kPairGrain = 16;
-
 /// Which prediction places the two bodies while their pair is processed.
 enum class Placing { bothFall, aFalls, bFalls };
 

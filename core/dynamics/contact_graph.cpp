@@ -86,7 +86,7 @@ bool leaves(PairRecord& pair, const PlacedPair& fallen, const PlacedPair& drifte
 
 void findFalls(const World& world, double dt, StepScratch& scratch)
 {
-    parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
+    parallelFor(scratch.pairCount, kPairGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             PairRecord& pair = scratch.pairs[i];
             const auto [a, b] = pair.bodies;

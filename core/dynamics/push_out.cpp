@@ -96,7 +96,7 @@ PushOutTally separateOverlaps(World& world, const ContactGraph& graph, const Ste
 
 WorstOverlap findWorstOverlap(const World& world, StepScratch& scratch)
 {
-    parallelFor(scratch.pairCount, 16, [&](std::size_t begin, std::size_t end) {
+    parallelFor(scratch.pairCount, kPairGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             PairRecord& pair = scratch.pairs[i];
             pair.depth = 0.0;

@@ -53,6 +53,9 @@ struct PairRecord {
     std::vector<NotedImpulse> impulses;
 };
 
+/// Pairs that one thread looks at together.
+inline constexpr std::size_t kPairGrain = 16;
+
 struct StepScratch {
     bool isWatched = false;  // an observer wants to see the impulses
     Candidates candidates;

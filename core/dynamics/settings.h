@@ -1,5 +1,5 @@
 // Every tunable of the method, with unit, default and what goes wrong at the extremes. Shot files
-// use the same words in snake_case.  [A16, section 12]
+// use nearly the same words (io/shot_solver.cpp).  [A16, section 12]
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ struct StepSettings {
 
     SubstepLimits substeps;
     double maximumSpinPerStep =
-        0.3;  ///< rotation in one step, whatever safety is [rad]  [A16 beta]
+        0.3;  ///< rotation in one step, whatever safety is; blurs may more [rad]  [A16 beta]
 
     // Of method `scree` alone.
     bool sleep = true;   ///< what no step moves is not stepped

@@ -89,7 +89,7 @@ TEST(BroadPhase, FindsExactlyThePairsThatAllAgainstAllFindsWhileBodiesMove)  // 
                 boxes[b].max += way;
             }
             if (step == 10) boxes.back() = {-Vec3::Ones(), Vec3::Ones()};
-            if (step == 15 || step == 25) {  // most of them: cells no longer fit
+            if (step == 15 || step == 25) {  // most of them: the tree is built anew
                 for (std::uint64_t b = 0; b < 200; ++b) {
                     if (b % 3 != 0) boxes[b] = boxes[b].grown(step == 15 ? 3.0 : -3.0);
                 }

@@ -80,7 +80,7 @@ void attempt(World& world, bool isAgain, const SolvedIslands& solved, GapScratch
         findLevels(kStep, block, scratch);
         addForcesToGaps(kStep, block, scratch);
         resolveGaps(world, settings, kStep, block, scratch);
-        propagateShockUp(world, settings, kStep, block, scratch);
+        propagateShockUp(world, kStep, block, scratch);
         scratch.impacts.insert(scratch.impacts.end(), block.impacts.begin(), block.impacts.end());
     }
 }

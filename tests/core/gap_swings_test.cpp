@@ -175,6 +175,25 @@ TEST(GapSwings, HalfACylinderThatRocksGainsNothing)
     EXPECT_GT(world.motion[half].angularMomentum.norm(), 0.0) << "it rocks on";
 }
 
+// With 400 sweeps it was taken for a heap, whose swings nobody holds.
+TEST(GapSwings, WhatRocksIsNoHeapHoweverManySweepsThatMayHave)
+{
+    const auto angleAfter = [](int sweepsOfAHeap) {
+        World world;
+        const MaterialId rough = addMaterial(world, 1.0, 0.0);
+        addPlane(world, rough);
+        const BodyId half =
+            addBody(world, buildMeshShape("half", halfCylinder(0.5, 0.4, 64)), rough,
+                    {Vec3(0.0, 0.5, 0.0), exponentialMap({0.0, 0.0, 0.3})}, 100.0);
+        StepSettings settings = screeSettings();
+        settings.gapSweeps = sweepsOfAHeap;
+        Stepper stepper(settings);
+        for (int f = 0; f < 120; ++f) stepper.advanceFrame(world, kFrame);
+        return angleAboutZ(world.motion[half]);
+    };
+    EXPECT_NEAR(angleAfter(400), angleAfter(12), 1e-6);
+}
+
 TEST(GapSwings, APlankThatRocksOnABarrelGainsNothing)
 {
     World world;

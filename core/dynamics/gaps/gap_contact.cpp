@@ -197,9 +197,8 @@ SweepLimits sweepLimits(const World& world, const StepSettings& settings, const 
         levels = std::max(levels, levelOf(scratch.levels, scratch.pairs[i].bodies) + 1);
     int most = std::max(settings.gapSweeps, spareSweeps(island));
     if (most < kSweepsToRest && isSettling(world, scratch, island)) most = kSweepsToRest;
-    const int mostAtRest = isHeap(settings, island)
-                               ? kSweepsToRest
-                               : spareSweeps(island, kTimesAtRest, kMostSweepsAtRest);
+    const int mostAtRest =
+        isHeap(island) ? kSweepsToRest : spareSweeps(island, kTimesAtRest, kMostSweepsAtRest);
     if (levels >= kLevelsOfAChain && std::ssize(island.pairs) <= kPairsPerLevel * levels)
         return {std::max(most, kSweepsPerLevel * levels), mostAtRest, kLeftInAChain, kShareOfSpeed};
     const double left = island.rowCount > kRowsOfAHeap ? kLeftInAHeap
@@ -233,20 +232,19 @@ void solve(const World& world, const StepSettings& settings, double dt, const Ga
     auto [most, mostAtRest, left, ofSpeed] = sweepLimits(world, settings, scratch, island);
     // What is new begins with the weight handed down, which its bodies feel already.
     if (island.isRemembered) rows.begin();
-    const auto shareOfWay = isHeap(settings, island) ? shareInAHeap : shareOfLastWay;
+    const auto shareOfWay = isHeap(island) ? shareInAHeap : shareOfLastWay;
     Progress progress(speedOfFall, !island.isRemembered);
     double energy = 0.0, mayBeWrong = kMuchIsWrong;
     for (int done = 1;; ++done) {
         const GapSweep swept = rows.sweep();
         if (done == 1) {
             enough = std::max({enough, left * swept.residual, ofSpeed * swept.fastest});
-            const bool isNewHeap =
-                !island.isRemembered && isHeap(settings, island) && speedOfFall > 0.0;
+            const bool isNewHeap = !island.isRemembered && isHeap(island) && speedOfFall > 0.0;
             if (isNewHeap) {
                 enough = std::max(least, std::min(enough, kLeftInANewHeap * speedOfFall));
                 most = std::max(most, static_cast<int>(kMostSweepsAtRest));
             }
-            const bool isNew = !island.isRemembered && !isHeap(settings, island);
+            const bool isNew = !island.isRemembered && !isHeap(island);
             const bool isAtRest = swept.fastest < kAtRest * speedOfFall;
             if (isNew || isAtRest) most = std::max(most, mostAtRest);
             const bool mayTumble = ofSpeed > 0.0 && island.rowCount > kFewRows;
@@ -278,9 +276,11 @@ void solveIsland(const World& world, const StepSettings& settings, double dt, Ga
 
 }  // namespace
 
-bool isHeap(const StepSettings& settings, const GapIsland& island)
+bool isHeap(const GapIsland& island)
 {
-    return spareSweeps(island) <= settings.gapSweeps;
+    // Not as many as the settings say: who asks for more would lose what small problems have.
+    constexpr int kSweepsOfAHeap = 12;
+    return spareSweeps(island) <= kSweepsOfAHeap;
 }
 
 double roundingOfSpeeds(const World& world, const GapIsland& island, double dt)

@@ -6,8 +6,8 @@
 
 namespace scree {
 
-/// Too many rows for more sweeps than the settings say.
-bool isHeap(const StepSettings& settings, const GapIsland& island);
+/// Too many rows to be solved to the end.
+bool isHeap(const GapIsland& island);
 
 /// What rounding leaves of the speeds at which the gaps of an island close in a step [m/s]: the
 /// only limit where nothing pulls. 216 cubes that touched in a lattice took all the sweeps there

@@ -37,11 +37,7 @@ namespace {
 bool anyResistsSpin(const GapScratch& scratch, const GapIsland& island)
 {
     return std::any_of(island.pairs.begin(), island.pairs.end(), [&](std::size_t i) {
-        const auto rows = scratch.rows.begin();
-        const GapPair& pair = scratch.pairs[i];
-        return std::any_of(rows + static_cast<std::ptrdiff_t>(pair.begin),
-                           rows + static_cast<std::ptrdiff_t>(pair.end),
-                           [](const GapRow& row) { return row.resistsSpin(); });
+        return std::ranges::any_of(scratch.rowsOf(scratch.pairs[i]), &GapRow::resistsSpin);
     });
 }
 
@@ -52,6 +48,18 @@ void extrapolate(Number share, const Vector& before, Vector& way, Vector& now)
     const Vector step = share * way;
     way = step + (now - before);
     now += step;
+}
+
+/// How many rows from `first` on may share a batch: of a pair that rolls or is squeezed they may
+/// have different turns and forces besides.
+std::size_t rowsAlike(const GapScratch& scratch, std::size_t first, std::size_t end)
+{
+    const GapRow& row = scratch.rows[first];
+    std::size_t last = first + 1;
+    while (last < end && scratch.rows[last].squeeze == row.squeeze &&
+           scratch.rows[last].turning == row.turning)
+        ++last;
+    return last - first;
 }
 
 /// Where friction holds the places of rows: as of one row, gap_rows.h.
@@ -146,18 +154,6 @@ std::int32_t GapLanes::batchFor(std::size_t rows, std::int32_t earliest, Section
     }
     open.push_back(place);
     return place;
-}
-
-/// How many rows from `first` on may share a batch: of a pair that rolls or is squeezed they may
-/// have different turns and forces besides.
-std::size_t rowsAlike(const GapScratch& scratch, std::size_t first, std::size_t end)
-{
-    const GapRow& row = scratch.rows[first];
-    std::size_t last = first + 1;
-    while (last < end && scratch.rows[last].squeeze == row.squeeze &&
-           scratch.rows[last].turning == row.turning)
-        ++last;
-    return last - first;
 }
 
 /// The rows of every pair go into batches after those of the pairs before it that share a body with

@@ -172,7 +172,7 @@ void endInTheMiddle(GapBody& body, BodyMotion& motion)
 /// which moved by the mean where it rocked to and fro slowly, rocked two and a half times as high
 /// after two minutes, a ring on a peg 1.6 times as wide after five. What begins to swing goes over
 /// to velocities of the middle, and so begins when it should.
-void moveByTheMean(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
+void moveByTheMean(World& world, double dt, GapScratch& scratch)
 {
     const auto late = [dt](const GapBody& body) {
         return body.isStopped ? Vec3(0.5 * dt * body.velocity) : Vec3(Vec3::Zero());
@@ -182,7 +182,7 @@ void moveByTheMean(World& world, const StepSettings& settings, double dt, GapScr
         if (!lasts(world, dt, scratch, island)) return;
         if (carriesAny(scratch, island, [](const GapRow& row) { return row.swings; })) return;
         const bool mayBegin =
-            !isHeap(settings, island) && std::ranges::all_of(island.movers, [&](BodyId mover) {
+            !isHeap(island) && std::ranges::all_of(island.movers, [&](BodyId mover) {
                 return scratch.bodies[mover].isStopped;
             });
         if (mayBegin && carriesAny(scratch, island, [&](const GapRow& row) {
@@ -317,7 +317,7 @@ void writeVelocities(World& world, double dt, GapScratch& scratch)
 void moveBodies(World& world, const StepSettings& settings, double dt, GapScratch& scratch)
 {
     addCouplesOfImpacts(world, scratch);
-    moveByTheMean(world, settings, dt, scratch);
+    moveByTheMean(world, dt, scratch);
     forEach(scratch.islands.size(), 1,
             [&](std::size_t i) { goRoundWithKeyed(world, dt, scratch.islands[i], scratch); });
     forEach(world.bodyCount(), kShortWork, [&](std::size_t i) {

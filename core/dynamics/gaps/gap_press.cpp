@@ -18,23 +18,18 @@ namespace scree {
 namespace {
 
 /// Impulses of what presses beyond this many times the momentum of the island at their speed
-/// contradict each other.
+/// contradict each other. They are counted along their normals: what a wedge drives before it takes
+/// four times its momentum where the flank is 75° off the way.
 constexpr double kPressed = 4.0;
 
 /// What may be left of U when sweeps end, where they agree.
 constexpr double kStillCloses = 0.01;
 
-/// The share of its speed by which what presses runs into what it merely pushes along.
+/// The share of U by which what presses runs into what it merely pushes along: each of its n
+/// contacts with a mass m carries m U / n then. More than may be left of U without a contradiction.
 constexpr double kYield = 0.02;
 constexpr int kMostSweeps = 200;
 constexpr double kEnough = 1e-3;  // of U
-
-/// Overlap beyond this share of the smaller body is more than steps leave: push-out would have
-/// taken it away if there were room. Then friction may hold so many times the weight of what is
-/// squeezed for each further unit of that share, and at most so many times in all. As an impulse of
-/// the contact itself it would throw what only one side overlaps.
-constexpr double kSqueezed = 1e-3, kHeldWeights = 1e4, kMostWeights = 100.0;
-constexpr double kLeastGravity = 9.81;  // of these weights, also where nothing pulls [m/s²]
 
 /// What presses an island whatever it meets there: keyed bodies, and those that are not moved by
 /// what they press. A slab of four tons of that kind threw the cubes it fell on at 200 m/s.
@@ -94,39 +89,6 @@ double visitYielding(double yield, GapRow& row, GapScratch& scratch)
 }
 
 }  // namespace
-
-void gripSqueezed(const World& world, const StepSettings& settings, double dt,
-                  const GapBlock& block, GapScratch& scratch)
-{
-    const double gravity = std::max(kLeastGravity, settings.gravity.norm());
-    const auto excessOf = [&](const GapPair& pair) {
-        const double smaller = smallerRadius(world, pair.bodies.a, pair.bodies.b);
-        return scratch.nearPairs[pair.nearPair].depth / smaller - kSqueezed;
-    };
-    const auto isKeyed = [&](BodyId body) { return world.info[body].kind == BodyKind::keyed; };
-    thread_local std::vector<std::size_t> squeezed;  // islands
-    squeezed.clear();
-    for (const std::size_t i : block.pairs) {
-        const GapPair& pair = scratch.pairs[i];
-        if ((isKeyed(pair.bodies.a) || isKeyed(pair.bodies.b)) && excessOf(pair) > 0.0)
-            squeezed.push_back(pair.island);
-    }
-    sortUnique(squeezed);
-    for (const std::size_t island : squeezed) {
-        for (const std::size_t i : scratch.islands[island].pairs) {
-            const GapPair& pair = scratch.pairs[i];
-            const double weights = std::min(kHeldWeights * excessOf(pair), kMostWeights);
-            if (weights <= 0.0) continue;
-            const double mass = 1.0 / std::max(scratch.bodies[pair.bodies.a].inverseMass,
-                                               scratch.bodies[pair.bodies.b].inverseMass);
-            const double ofEach =
-                dt * weights * mass * gravity / static_cast<double>(pair.rowCount());
-            for (GapRow& row : scratch.rowsOf(pair)) {
-                if (row.gap < 0.0) row.squeeze = ofEach;
-            }
-        }
-    }
-}
 
 bool isPressed(double dt, const GapScratch& scratch, const GapIsland& island)
 {

@@ -6,12 +6,6 @@
 
 namespace scree {
 
-/// Presses the rows of what keyed bodies squeeze, for friction alone: jaws that are closed a little
-/// too far hold what is between them, although nothing closes any more and no impulse is due. The
-/// rows must have been built. `dt` [s].
-void gripSqueezed(const World& world, const StepSettings& settings, double dt,
-                  const GapBlock& block, GapScratch& scratch);
-
 /// Whether an island, as its sweeps have left it, carries far more than it would take to bring all
 /// of it to the speed of the keyed bodies it touches, or of those it does not move, and still
 /// closes. `dt` [s].

@@ -8,7 +8,6 @@
 // in the way of others gives way no farther than until it is not deep: the rest is left to steps.
 // In a row of fallen dominoes each had handed on a little more than it was given, by its lever, and
 // a quarter of a millimetre at one end was metres at the other.
-//
 #include "core/dynamics/gaps/gap_push_deep.h"
 
 #include <algorithm>

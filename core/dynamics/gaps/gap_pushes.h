@@ -32,7 +32,7 @@ struct PushRow {
 };
 
 /// How much deeper a gap of a row is than it may stay [m]; negative: how far it may close.
-double excessOf(const World& world, const GapRow& row, double gap, double left = kSlop);
+double excessOf(const World& world, const GapRow& row, double gap, double left);
 
 /// To be called for the bodies that a row moves before it is made; they are `lighter` times as
 /// easily pushed as moved.

@@ -93,9 +93,8 @@ bool isStillCarried(const GapScratch& scratch, const Rider& rider)
     const BodyPair bodies{std::min(rider.body, rider.carrier), std::max(rider.body, rider.carrier)};
     const auto pair = std::ranges::lower_bound(scratch.pairs, bodies, {}, &GapPair::bodies);
     if (pair == scratch.pairs.end() || !(pair->bodies == bodies)) return false;
-    return std::any_of(scratch.rows.begin() + static_cast<std::ptrdiff_t>(pair->begin),
-                       scratch.rows.begin() + static_cast<std::ptrdiff_t>(pair->end),
-                       [](const GapRow& row) { return row.wasHit || row.carries(); });
+    return std::ranges::any_of(scratch.rowsOf(*pair),
+                               [](const GapRow& row) { return row.wasHit || row.carries(); });
 }
 
 /// What a body has more of the velocity of its carrier than it should, as contacts have seen that;

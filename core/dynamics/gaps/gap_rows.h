@@ -56,7 +56,7 @@ struct GapRow {
     Vec3 turning;                  ///< what A's surface gains on B's within half the step as both
                                    ///< go round: gap_swings.h [m/s]
     Vec3 impulse;                  ///< along normal, tangent and second tangent, on A [N s]
-    double squeeze;                ///< what presses it besides, for friction alone: gap_press.h
+    double squeeze;                ///< what presses it besides, for friction alone: gap_grip.h
                                    ///< [N s]
     Vec3 tangent;                  ///< the second tangent is normal × tangent
     double friction, restitution;  ///< [-]

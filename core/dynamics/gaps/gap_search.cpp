@@ -50,7 +50,7 @@ GapBody bodyOf(const World& world, const GapScratch& scratch, BodyId id)
 }
 
 /// What a step that nothing changes moves a body by.
-RigidMotion motionOf(const GapBody& body, double dt)
+RigidMotion motionIfFree(const GapBody& body, double dt)
 {
     return {dt * body.velocity, dt * (body.spin + dt * (body.inverseInertia * body.torque))};
 }
@@ -66,8 +66,8 @@ double approachAnywhere(const GapScratch& scratch, BodyPair bodies, double dt)
 /// The same of those that may meet.
 double approachOf(const World& world, const GapScratch& scratch, BodyPair bodies, double dt)
 {
-    return farthestApproach(world, bodies, motionOf(scratch.bodies[bodies.a], dt),
-                            motionOf(scratch.bodies[bodies.b], dt));
+    return farthestApproach(world, bodies, motionIfFree(scratch.bodies[bodies.a], dt),
+                            motionIfFree(scratch.bodies[bodies.b], dt));
 }
 
 /// What else may close gaps within the step [m]. What both have in common and what pulls both alike

@@ -179,10 +179,9 @@ double solvedEnough(const GapScratch& scratch, const GapIsland& island, double d
 }
 
 /// Speed at which a row closes visibly within a step, beyond its target [m/s].
-double visibleSpeed(const World& world, const StepSettings& settings, double dt,
-                    const GapIsland& island, const GapRow& row)
+double visibleSpeed(const World& world, double dt, const GapIsland& island, const GapRow& row)
 {
-    const double visible = isHeap(settings, island) ? kVisibleInHeaps : kVisibleWhenSolved;
+    const double visible = isHeap(island) ? kVisibleInHeaps : kVisibleWhenSolved;
     return visible * smallerRadius(world, row.a, row.b) / dt;
 }
 
@@ -202,22 +201,22 @@ double closingOf(const GapScratch& scratch, const std::vector<std::size_t>& rows
     return closing;
 }
 
-bool closesVisibly(const World& world, const StepSettings& settings, double dt,
-                   const GapScratch& scratch, const GapIsland& island, const GapRow& row)
+bool closesVisibly(const World& world, double dt, const GapScratch& scratch,
+                   const GapIsland& island, const GapRow& row)
 {
-    return closingOf(scratch, row) > visibleSpeed(world, settings, dt, island, row);
+    return closingOf(scratch, row) > visibleSpeed(world, dt, island, row);
 }
 
 /// The pairs of those islands of a block of which a row still closes visibly.
-std::vector<std::size_t> pairsForShock(const World& world, const StepSettings& settings, double dt,
-                                       const GapBlock& block, const GapScratch& scratch)
+std::vector<std::size_t> pairsForShock(const World& world, double dt, const GapBlock& block,
+                                       const GapScratch& scratch)
 {
     std::vector<char> pairCloses(block.pairs.size());
     forPairs(block, [&](std::size_t i) {
         const GapPair& pair = scratch.pairs[i];
         const auto rows = scratch.rowsOf(pair);
         pairCloses[pair.place] = std::any_of(rows.begin(), rows.end(), [&](const GapRow& row) {
-            return closesVisibly(world, settings, dt, scratch, scratch.islands[pair.island], row);
+            return closesVisibly(world, dt, scratch, scratch.islands[pair.island], row);
         });
     });
     std::vector<std::size_t> pairs;
@@ -259,8 +258,8 @@ void groupByLevel(const GapScratch& scratch, std::span<const std::size_t> pairs,
 /// on three of which each goes its own way, pinned, cannot obey all of them: it turned, and those
 /// above it turned more. In 18 layers with a thousandth of a millimetre of air in each, 0.14 mm/s
 /// at the lowest became 40 at the top.
-bool shockCluster(const World& world, const StepSettings& settings, double dt,
-                  std::span<const std::size_t> pairs, GapScratch& scratch)
+bool shockCluster(const World& world, double dt, std::span<const std::size_t> pairs,
+                  GapScratch& scratch)
 {
     struct Remembered {
         Vec3 impulse, couple;
@@ -270,7 +269,7 @@ bool shockCluster(const World& world, const StepSettings& settings, double dt,
     collectRows(scratch, pairs, rows);
     const GapIsland& island = scratch.islands[scratch.pairs[pairs.front()].island];
     const bool closes = std::any_of(rows.begin(), rows.end(), [&](std::size_t r) {
-        return closesVisibly(world, settings, dt, scratch, island, scratch.rows[r]);
+        return closesVisibly(world, dt, scratch, island, scratch.rows[r]);
     });
     if (!closes) return false;
     remembered.clear();
@@ -280,7 +279,7 @@ bool shockCluster(const World& world, const StepSettings& settings, double dt,
         GapRow& row = scratch.rows[r];
         remembered.push_back({row.impulse, row.couple});
         prepareRow(scratch.bodies, row);
-        enough = std::max(enough, kWellBelow * visibleSpeed(world, settings, dt, island, row));
+        enough = std::max(enough, kWellBelow * visibleSpeed(world, dt, island, row));
     }
     const std::vector<BodyId> movers = moversOf(scratch, rows);
     const FormerMotion before(scratch, movers);
@@ -394,11 +393,10 @@ void handWeightDown(double dt, const GapBlock& block, GapScratch& scratch)
     });
 }
 
-void propagateShockUp(const World& world, const StepSettings& settings, double dt,
-                      const GapBlock& block, GapScratch& scratch)
+void propagateShockUp(const World& world, double dt, const GapBlock& block, GapScratch& scratch)
 {
     Groups byLevel, clusters;
-    groupByLevel(scratch, pairsForShock(world, settings, dt, block, scratch), byLevel);
+    groupByLevel(scratch, pairsForShock(world, dt, block, scratch), byLevel);
     PinnedBodies pinned(scratch);
     std::vector<char> isShocked;
     for (std::size_t level = 0; level < byLevel.size(); ++level) {
@@ -412,7 +410,7 @@ void propagateShockUp(const World& world, const StepSettings& settings, double d
         groupByBodies(scratch, byLevel[level], clusters);
         isShocked.assign(clusters.size(), 0);
         forEach(clusters.size(), 4, [&](std::size_t c) {
-            isShocked[c] = shockCluster(world, settings, dt, clusters[c], scratch);
+            isShocked[c] = shockCluster(world, dt, clusters[c], scratch);
         });
         pinned.release();
         for (std::size_t c = 0; c < clusters.size(); ++c) {

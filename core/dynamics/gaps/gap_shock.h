@@ -16,7 +16,6 @@ void handWeightDown(double dt, const GapBlock& block, GapScratch& scratch);
 /// clusters, connected by bodies that are not pinned, in which one does.
 /// The impulses that rows remember stay those of the symmetric problem: begun from shock's, the
 /// next step of a heap blew up.
-void propagateShockUp(const World& world, const StepSettings& settings, double dt,
-                      const GapBlock& block, GapScratch& scratch);
+void propagateShockUp(const World& world, double dt, const GapBlock& block, GapScratch& scratch);
 
 }  // namespace scree

@@ -13,6 +13,7 @@
 #include "core/dynamics/gaps/gap_contact.h"
 #include "core/dynamics/gaps/gap_forces.h"
 #include "core/dynamics/gaps/gap_foresight.h"
+#include "core/dynamics/gaps/gap_grip.h"
 #include "core/dynamics/gaps/gap_kept.h"
 #include "core/dynamics/gaps/gap_laden.h"
 #include "core/dynamics/gaps/gap_lag.h"
@@ -21,7 +22,6 @@
 #include "core/dynamics/gaps/gap_levels.h"
 #include "core/dynamics/gaps/gap_motion.h"
 #include "core/dynamics/gaps/gap_overrun.h"
-#include "core/dynamics/gaps/gap_press.h"
 #include "core/dynamics/gaps/gap_push_out.h"
 #include "core/dynamics/gaps/gap_report.h"
 #include "core/dynamics/gaps/gap_riders.h"
@@ -36,8 +36,8 @@
 namespace scree {
 namespace {
 
-/// How often a step is solved again because something was struck so that it ran
-/// into what nobody had looked at.
+/// How often a step is solved again because something was struck so that it ran into what nobody
+/// had looked at.
 constexpr int kMostLooks = 64;
 
 }  // namespace
@@ -82,7 +82,7 @@ PhaseSeconds GapStepper::solveBlock(const World& world, double dt, GapBlock& blo
         const PhaseTimer timer(seconds, Phase::contact);
         leads = leadPlaces(world, dt, block, scratch);
         addForcesToGaps(dt, block, scratch);
-        holdSwings(world, settings_, dt, leads, block, scratch);
+        holdSwings(world, dt, leads, block, scratch);
     }
     LadenBodies laden(dt, block, scratch);
     {
@@ -91,7 +91,7 @@ PhaseSeconds GapStepper::solveBlock(const World& world, double dt, GapBlock& blo
     }
     if (settings_.shockPropagation) {
         const PhaseTimer timer(seconds, Phase::shock);
-        propagateShockUp(world, settings_, dt, block, scratch);
+        propagateShockUp(world, dt, block, scratch);
     }
     laden.release();
     takeBack(leads, scratch);
@@ -99,7 +99,8 @@ PhaseSeconds GapStepper::solveBlock(const World& world, double dt, GapBlock& blo
 }
 
 /// New velocities, in the scratch alone: the world is as it was. `solved`: by an earlier attempt.
-void GapStepper::solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report)
+/// Answers whether blows went on for as long as they may.
+bool GapStepper::solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report)
 {
     GapScratch& scratch = scratch_;
     {
@@ -116,7 +117,7 @@ void GapStepper::solveGaps(World& world, double dt, const SolvedIslands& solved,
     for (const GapBlock& block : scratch.blocks) {
         scratch.impacts.insert(scratch.impacts.end(), block.impacts.begin(), block.impacts.end());
     }
-    report.loopsAtTheirCap += std::ranges::any_of(scratch.blocks, &GapBlock::isAtItsCap);
+    return std::ranges::any_of(scratch.blocks, &GapBlock::isAtItsCap);
 }
 
 StepReport GapStepper::step(World& world, double dt, StepObserver* observer)
@@ -125,17 +126,18 @@ StepReport GapStepper::step(World& world, double dt, StepObserver* observer)
     report.dt = dt;
     GapScratch& scratch = scratch_;
     aimKeyedBodies(world, dt);
-    solveGaps(world, dt, SolvedIslands(), report);
+    bool isAtItsCap = solveGaps(world, dt, SolvedIslands(), report);
     for (int looks = 0;;) {
         const bool someoneWoke = wakeStruck(world, dt, scratch);
         if (!someoneWoke && !lookFartherWhereUnseen(world, dt, scratch)) break;
         looks += !someoneWoke;
         if (looks > kMostLooks) {
-            ++report.loopsAtTheirCap;
+            isAtItsCap = true;
             break;
         }
-        solveGaps(world, dt, SolvedIslands(scratch), report);
+        isAtItsCap |= solveGaps(world, dt, SolvedIslands(scratch), report);
     }
+    report.loopsAtTheirCap = isAtItsCap;
     {
         const PhaseTimer timer(report.seconds, Phase::contact);
         report.contactImpulses = countImpulses(scratch);

@@ -34,7 +34,7 @@ public:
 
 private:
     PhaseSeconds solveBlock(const World& world, double dt, GapBlock& block);
-    void solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report);
+    bool solveGaps(World& world, double dt, const SolvedIslands& solved, StepReport& report);
 
     StepSettings settings_;
     std::vector<AppliedForce> forces_;  // per body, over the rest of the frame

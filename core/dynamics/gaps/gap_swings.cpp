@@ -83,7 +83,7 @@ bool isSwing(const GapScratch& scratch, const GapRow& row, double acceleration)
 }
 
 /// As fast as the form of a body turns: what is round about its axis keeps its arms [rad/s].
-double shownOf(const World& world, BodyId id, const Vec3& w)
+double shownSpeed(const World& world, BodyId id, const Vec3& w)
 {
     return world.shapeOf(id).shownOf(w, world.motion[id].orientation).norm();
 }
@@ -92,7 +92,7 @@ double shownOf(const World& world, BodyId id, const Vec3& w)
 bool showsSpin(const World& world, const GapScratch& scratch, const GapRow& row, BodyId id,
                const Vec3& w)
 {
-    const double shown = shownOf(world, id, w);
+    const double shown = shownSpeed(world, id, w);
     return shown > 0.0 && isSwing(scratch, row, shown * shown * world.shapeOf(id).boundingRadius);
 }
 
@@ -239,7 +239,8 @@ private:
                                         shapeB().isPlane ? 0.0 : shapeB().boundingRadius);
         const double most = slid.norm() + kRunsOn * (wA_ - wB_).norm() * largest;
         return ran.overA.norm() > world_.contactMemory.dt * most ||
-               dt_ * std::max(shownOf(world_, row.a, wA_), shownOf(world_, row.b, wB_)) > kMostTurn;
+               dt_ * std::max(shownSpeed(world_, row.a, wA_), shownSpeed(world_, row.b, wB_)) >
+                   kMostTurn;
     }
 
     /// Whether a place runs on faster than anything that pulls could hold it to.
@@ -263,17 +264,19 @@ private:
 
 }  // namespace
 
-void holdSwings(const World& world, const StepSettings& settings, double dt,
-                std::span<const VelocityLead> leads, const GapBlock& block, GapScratch& scratch)
+void holdSwings(const World& world, double dt, std::span<const VelocityLead> leads,
+                const GapBlock& block, GapScratch& scratch)
 {
+    // By place in the block: ten thousand coins that roll on their rims are led, each by a row.
+    std::vector<char> leadsTo(block.bodies.size() + 1, 0);
+    for (const VelocityLead& lead : leads) leadsTo[scratch.placeInBlock[lead.body]] = 1;
     const auto isLed = [&](const GapPair& pair) {
-        return std::ranges::any_of(leads, [&](const VelocityLead& lead) {
-            return lead.body == pair.bodies.a || lead.body == pair.bodies.b;
-        });
+        return leadsTo[scratch.placeInBlock[pair.bodies.a]] ||
+               leadsTo[scratch.placeInBlock[pair.bodies.b]];
     };
     forIslands(scratch, block, [&](std::size_t i) {
         const GapIsland& island = scratch.islands[i];
-        if (isHeap(settings, island)) return;
+        if (isHeap(island)) return;
         for (const std::size_t p : island.pairs) {
             const GapPair& pair = scratch.pairs[p];
             if (!pair.isCarried) continue;

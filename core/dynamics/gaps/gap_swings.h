@@ -12,8 +12,8 @@ namespace scree {
 /// Lets the rows of all that is no heap know where their places will be, going round or running
 /// over what is round: by their targets, which must be those of straight ways, by GapRow::turning
 /// and GapRow::swings. Bodies with `leads` know it already.
-void holdSwings(const World& world, const StepSettings& settings, double dt,
-                std::span<const VelocityLead> leads, const GapBlock& block, GapScratch& scratch);
+void holdSwings(const World& world, double dt, std::span<const VelocityLead> leads,
+                const GapBlock& block, GapScratch& scratch);
 
 /// Whether a row that does not swing will in the next step, by what this one, once solved, has
 /// turned its bodies.

@@ -50,7 +50,7 @@ double changeOf(const World& world, const GapScratch& scratch, BodyId body, doub
 }
 
 /// How a body moves in the step, as solved.
-RigidMotion motionOf(const GapBody& body, double dt)
+RigidMotion motionAsSolved(const GapBody& body, double dt)
 {
     return {dt * body.velocity + body.shift, dt * body.spin + body.turn};
 }
@@ -64,7 +64,8 @@ bool runsIntoUnseen(const World& world, const GapScratch& scratch, BodyPair bodi
     const double visible = visibleTo(world, bodies);
     const GapBody &bodyA = scratch.bodies[a], &bodyB = scratch.bodies[b];
     const double within =
-        farthestApproach(world, bodies, motionOf(bodyA, dt), motionOf(bodyB, dt)) - visible;
+        farthestApproach(world, bodies, motionAsSolved(bodyA, dt), motionAsSolved(bodyB, dt)) -
+        visible;
     if (within <= std::max(seen, least)) return false;
     thread_local std::vector<GapContact> contacts;
     contacts.clear();
@@ -153,7 +154,7 @@ void findUnseenAmongNear(const World& world, double dt, GapScratch& scratch)
 Pose poseAfter(const World& world, const GapScratch& scratch, BodyId body, double dt)
 {
     const BodyMotion& motion = world.motion[body];
-    const RigidMotion solved = motionOf(scratch.bodies[body], dt);
+    const RigidMotion solved = motionAsSolved(scratch.bodies[body], dt);
     return {motion.position + solved.shift, rotated(motion.orientation, solved.turn)};
 }
 

@@ -13,8 +13,8 @@
 namespace scree {
 
 /// Whether the step, as solved, takes a body visibly into something that lay farther away than
-/// findGaps has looked for, or that it was let pass. If so the next findGaps looks farther, and the
-/// next foreseeBlows lets none of these pass.
+/// findGaps has looked for, or that it was let pass. If so the next findGapsAgain looks farther,
+/// and the next foreseeBlows lets none of these pass.
 bool lookFartherWhereUnseen(const World& world, double dt, GapScratch& scratch);
 
 }  // namespace scree
