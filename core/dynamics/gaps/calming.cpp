@@ -16,7 +16,7 @@ namespace {
 /// What has stayed nearby for so long loses its motion by and by, 1/e of it in kCalmTime; both in
 /// units of time, a third of a second for a ring of 2.5 m, so that a tower takes as long to fall as
 /// it should.
-constexpr double kCalmWait = 6.0, kCalmTime = 1.5;
+constexpr double kCalmWait = 6.0, kCalmTime = 1.0;
 
 /// But not what goes on and on, however slowly: what has come at least this share of what it would
 /// have in kCalmWait with the velocity it has. What speeds up evenly from rest has come half of
@@ -61,6 +61,20 @@ bool goesOn(const World& world, BodyId body, double time, const Stay& since)
            course.along >= kGoesOn * time * course.square;
 }
 
+/// Whether a body moves away from where it was, and is faster than at the beginning of the step.
+/// What rocks about that place gets slower on its way from it; what begins to slide or to fall does
+/// not. Calmed like the others, a box that a growing push set in motion after seconds of rest went
+/// half as fast as it should for the first tenth of its length.
+bool setsOut(const World& world, const GapScratch& scratch, BodyId body, const Stay& since)
+{
+    const Course course = courseOf(world, body, since);
+    const GapBody& before = scratch.bodies[body];
+    const double radius = world.shapeOf(body).boundingRadius;
+    return course.along > 0.0 &&
+           course.square > before.velocityBefore.squaredNorm() +
+                               radius * radius * before.spinBefore.squaredNorm();
+}
+
 /// Whether a body, as one sees it, moves back to where it was.
 bool comesBack(const World& world, BodyId body, const Stay& since)
 {
@@ -101,7 +115,8 @@ void calm(World& world, const GapScratch& scratch, BodyId body, bool hangs, doub
         motion.angularMomentum -= lost * angularMomentum;
     };
     if (hasStayed(world, rest.nearby, kCalmWait, unit) &&
-        !goesOn(world, body, kCalmWait * unit, rest.nearby))
+        !goesOn(world, body, kCalmWait * unit, rest.nearby) &&
+        !setsOut(world, scratch, body, rest.nearby))
         take(kCalmTime * unit, motion.angularMomentum);
     else if (!hangs && hasStayed(world, rest.around, kLongWait, unit) &&
              comesBack(world, body, rest.around))
