@@ -22,7 +22,19 @@ namespace fs = std::filesystem;
 using test::flipByte;
 using test::shotText;
 
-class TakeResume : public test::TakeFixture {};
+class TakeResume : public test::TakeFixture {
+protected:
+    /// Leaves a checkpoint after a step of so many seconds, inside the frame after the first.
+    void stopInsideAFrame(double dt)
+    {
+        TakeWriter take = open(ExistingTake::refuse, shot);
+        World moved = world;
+        take.writeFrame(moved, statsOf(moved));
+        moved.clock.subStep = 3;
+        moved.contactMemory.dt = dt;
+        take.writeCheckpoint(moved);
+    }
+};
 
 TEST_F(TakeResume, ShapesThatAreNotThereAreWrittenOnResume)
 {
@@ -138,16 +150,11 @@ TEST_F(TakeResume, CheckpointIsWhereAFrameGoesOnAndGoesWithIt)
 
 TEST_F(TakeResume, DamagedCheckpointFallsBackToTheFrame)
 {
-    {
-        TakeWriter take = open(ExistingTake::refuse, shot);
-        World moved = world;
-        take.writeFrame(moved, statsOf(moved));
-        moved.clock.subStep = 3;
-        take.writeCheckpoint(moved);
-    }
+    stopInsideAFrame(0.01);
     flipByte(folder / "take/checkpoint.scree", 200);
     const TakeWriter take = open(ExistingTake::resume, shot);
-    EXPECT_EQ(take.notices().size(), 1u);
+    ASSERT_EQ(take.notices().size(), 1u);
+    EXPECT_EQ(take.notices()[0].find("does not remember the step"), std::string::npos);
     World resumed = world;
     take.prepareFor(1002, resumed);
     EXPECT_EQ(stateHash(resumed), stateHash(world));
@@ -156,13 +163,7 @@ TEST_F(TakeResume, DamagedCheckpointFallsBackToTheFrame)
 // The next step took no longer than the last one, and that was not known: no time at all.
 TEST_F(TakeResume, ACheckpointThatForgotItsLastStepFallsBackToTheFrame)
 {
-    {
-        TakeWriter take = open(ExistingTake::refuse, shot);
-        World moved = world;
-        take.writeFrame(moved, statsOf(moved));
-        moved.clock.subStep = 3;
-        take.writeCheckpoint(moved);
-    }
+    stopInsideAFrame(0.0);
     const TakeWriter take = open(ExistingTake::resume, shot);
     ASSERT_EQ(take.notices().size(), 1u);
     EXPECT_NE(take.notices()[0].find("does not remember the step"), std::string::npos);
