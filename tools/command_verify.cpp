@@ -12,6 +12,7 @@
 #include "tools/simulation.h"
 #include "tools/stop_signals.h"
 #include "tools/take_export.h"
+#include "tools/verify/heap_record.h"
 #include "tools/verify/report.h"
 
 namespace scree {
@@ -83,7 +84,7 @@ int runVerify(const VerifyOptions& options, Console& console)
             verify::Result result{experiment, method, {}, 0.0};
             const double before = cpuSeconds();
             verify::runExperiment(*experiment, context, result.findings);
-            heedStop("the takes of large shots are kept");
+            heedStop(verify::kTakesAreKept);
             result.cpuSeconds = cpuSeconds() - before;
             if (!options.json) std::printf("%s\n", verify::toText(result).c_str());
             std::fflush(stdout);

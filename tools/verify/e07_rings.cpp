@@ -4,6 +4,7 @@
 
 #include "core/math/rotation.h"
 #include "io/take_reader.h"
+#include "tools/stop_signals.h"
 #include "tools/verify/experiments.h"
 #include "tools/verify/heap_record.h"
 #include "tools/verify/pose_judge.h"
@@ -83,6 +84,7 @@ Depths judgeFrames(const HeapRecord& record)
     const std::vector<std::size_t> poles = bodiesNamed(record, "pole");
     Depths depths;
     for (std::size_t f = 0; f < record.frames.size(); ++f) {
+        heedStop(kTakesAreKept);
         const SceneFrame& frame = record.frames[f];
         double deepest = 0.0;
         for (const Overlap& pair : judge.overlaps(frame)) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "tools/stop_signals.h"
 #include "tools/verify/experiments.h"
 #include "tools/verify/heap_record.h"
 #include "tools/verify/pose_judge.h"
@@ -31,6 +32,7 @@ Judgement judgeFrames(const HeapRecord& record)
     const PoseJudge judge(record.scene);
     Judgement result;
     for (const SceneFrame& frame : record.frames) {
+        heedStop(kTakesAreKept);
         for (const Overlap& pair : judge.overlaps(frame)) {
             double edge = 1e300;
             for (std::size_t body : {pair.a, pair.b}) {

@@ -45,6 +45,9 @@ std::optional<HeapRecord> largeTake(const Context& context, const std::string& n
                                     Findings& findings);
 std::filesystem::path folderOfTake(const Context& context, const std::string& name);
 
+/// What to heed a stop with while such a take is judged, which can take as long as to make it.
+inline constexpr const char* kTakesAreKept = "the takes of large shots are kept";
+
 /// Speed of the body's origin in the frame, from the pose before [m/s].
 double speedOf(const HeapRecord& record, std::size_t frame, std::size_t body);
 /// The same of every movable body, ascending.
