@@ -33,7 +33,7 @@ protected:
             test::shotTextOf(
                 {.frames = "1001-1020",
                  .shotKeys = "[start]\noverlap = \"warn\"\n[solver]\npenetration = { fail = 0.3 }\n"
-                             "substeps = { min = 60, max = 256 }"},
+                             "substeps = { min = 250, max = 256 }"},
                 test::bodyText("a", "position = [4, 2, 0]\nstart = \"asleep\"") +
                     test::bodyText("b", "position = [4.5, 2.1, 0]\nstart = \"asleep\"") +
                     test::bodyText("block", "position = [0, 0.6, 0]\nrotation = [20, 0, 10]")));
@@ -110,7 +110,7 @@ TEST_F(InterruptionTest, SettleGoesOnToThePoseOfARunThatWasNotStopped)
 {
     shotFile("s.toml",
              test::shotTextOf(
-                 {.shotKeys = "[solver]\nsubsteps = { min = 60, max = 256 }"},
+                 {.shotKeys = "[solver]\nsubsteps = { min = 500, max = 1000 }"},
                  test::bodyText("low", "position = [0, 0.9, 0]\nrotation = [20, 0, 10]") +
                      test::bodyText("high", "position = [0.2, 2.6, 0.1]\nrotation = [5, 0, 40]")));
     const std::vector<std::string> start = {"settle", file("s.toml"), "-q", "-o"};
